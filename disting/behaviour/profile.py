@@ -5,18 +5,24 @@ A profile is small, hashable data. Pairs are compared through profiles, so a fam
 profile a model, and models with equal profiles form buckets.
 """
 
+import json
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, fields, replace
+from functools import lru_cache
+from itertools import chain
 from math import ceil, log2
+from typing import Any
 
-from disting.algebra.matroid import Matroid, SearchTooLargeError, matroid
-from disting.algebra.quotient import rational
+from disting.algebra.matroid import Component, Matroid, SearchTooLargeError, matroid
+from disting.algebra.quotient import Quotient, rational, series_rows
 from disting.algebra.sampling import SEARCH_BITS, Size, enough, safety
-from disting.behaviour.powers import degrees, powers, zeros
-from disting.behaviour.sample import Representation, Sample, drawn, seen_at
+from disting.behaviour.chain_model import ChainModel
+from disting.behaviour.sample import Drawn, Representation, Sample, drawn, samples, seen_at
+from disting.model.protocol import Model
 from disting.model.settings import Settings
 from disting.model.structure import Structure
 
+REMEMBERED = 64
 SEARCHES = 3  # points modulo 31 bits: with thousands of models one is special now and then
 
 
@@ -70,22 +76,66 @@ class Profile:
         )
 
 
+@lru_cache(maxsize=REMEMBERED)
 def profile(
-    structure: Structure, representation: Representation, count: int, settings: Settings
+    model: Model, representation: Representation, count: int, settings: Settings
 ) -> Profile:
     """Profile from `settings.points` random points, or as many as it takes, with large primes,
     and one with a small prime.
     """
-    size = minor_size(structure, representation, count)
-    seen = list(
-        samples(structure, representation, count, enough(size, settings.points), settings.seed)
+    markov = count if representation is Representation.MARKOV else None
+    size, known = model.minor_size(markov), model.constants(markov)
+    points = enough(size, settings.points)
+    seen = list(samples(model, representation, count, points, settings.seed))
+    searches = (
+        seen_at(drawn(model, label, SEARCH_BITS), representation, count)
+        for label in search_labels(settings.seed)
     )
-    drawings = (drawn(structure, label, SEARCH_BITS) for label in search_labels(settings.seed))
-    searches = (seen_at(one, representation, count) for one in drawings)
-    known = _proven_zeros(structure, representation, count)
-    return from_samples(
-        seen, searches, known, degrees(structure), count, structure.n_states, size, settings
+    settings = replace(settings, subset_limit=min(settings.subset_limit, model.most_subsets))
+    degrees = tuple(chain.from_iterable(model.degrees))
+    found = from_samples(
+        seen, searches, frozenset(known), degrees, count, model.n_states, size, settings
     )
+    values = zip(found.labels, found.constants, strict=True)
+    return replace(
+        found,
+        representation=representation,
+        constants=tuple(known.get(name, value) for name, value in values),
+        safety=found.safety - model.lost_bits * points,
+    )
+
+
+def inverse_profile(structure: Structure, count: int, settings: Settings) -> Profile:
+    """Profile of the Markov parameters H_0..H_count of 1/G: another summary of the same behaviour,
+    whose dependences separate models that those of G do not; a dead time is left out.
+
+    s^-k/G = H_0 + H_1/s + H_2/s^2 + .., k = deg den - deg num (25). The H_i are fixed rational
+    functions of the transfer function's coefficients, so models with equal closures of their images
+    have equal closures in these coordinates too: equal ranks of all sets of rows, as condition 5
+    has it for G. H_i is a polynomial over power i + 1 of the numerator's leading coefficient, as
+    G_i is over that of the denominator's, so the bounds of the minors are those of G.
+    """
+    model = ChainModel(structure)
+    size = model.minor_size(count)
+    seed = f"{settings.seed}:inverse"
+    points = range(enough(size, settings.points))
+    seen = [_inverse_at(drawn(model, f"{seed}:{k}"), count) for k in points]
+    searches = (
+        _inverse_at(drawn(model, label, SEARCH_BITS), count) for label in search_labels(seed)
+    )
+    return from_samples(seen, searches, frozenset(), (0, 0), count, model.n_states, size, settings)
+
+
+def _inverse_at(where: Drawn, count: int) -> Sample:
+    """The Markov parameters of den / (s^k num)."""
+    (q,) = where.quotients
+    assert q is not None  # of a chain
+    k = q.den.degree() - q.num.degree()
+    lifted = tuple(p.left_shift(k) for p in q.num_derivatives)
+    turned = Quotient(q.den, q.num.left_shift(k), q.den_derivatives, lifted)
+    values, rows = series_rows(turned, count)
+    labels = tuple(f"H{i}" for i in range(count + 1))
+    return Sample(labels, tuple(values), tuple(map(tuple, rows)), len(where.point), where.modulus)
 
 
 def search_labels(label: str) -> Iterator[str]:
@@ -147,28 +197,6 @@ def _constants_known(labels: Sequence[str], free: Sequence[bool], proven: frozen
     return all(known or label in proven for label, known in zip(labels, free, strict=True))
 
 
-def samples(
-    structure: Structure, representation: Representation, count: int, points: int, seed: str
-) -> Iterator[Sample]:
-    """Yield samples at independent points, each with its own large prime."""
-    return (seen_at(drawn(structure, f"{seed}:{k}"), representation, count) for k in range(points))
-
-
-def minor_size(structure: Structure, representation: Representation, count: int) -> Size:
-    """Bounds for the cleared minors of the Jacobian.
-
-    Numerator and denominator before normalisation have degree N + 1 at most in the parameters and,
-    being sums of spanning forests with coefficient 1 (matrix-tree theorem), coefficients that sum
-    to 6^N at most for each of the four port pairs. Entry i of the summary is such a polynomial
-    over power w of the leading coefficient: w = 1 for (25), i + 1 for (30).
-    """
-    degree, bits = structure.n_masses + 1, 3 * structure.n_masses + 4
-    power = 2 if representation is Representation.TF else count + 2
-    entry = Size(power * degree, power * (bits + 1) + ceil(log2(power * degree)) + 1)
-    rank = len(structure.parameters)
-    return Size(rank * entry.degree, rank * (entry.bits + ceil(log2(rank + 1))))
-
-
 def _matroid(
     seen: Sequence[Sample], searches: Iterable[Sample], rank: int, limit: int
 ) -> tuple[Matroid | Unsearched, int]:
@@ -194,20 +222,51 @@ def _matroid(
     return Unsearched("every search point was special; choose another seed"), 0
 
 
-def _proven_zeros(
-    structure: Structure, representation: Representation, count: int
-) -> frozenset[str]:
-    """Labels of invariants that vanish identically, by an argument without chance.
-
-    Of the coefficients those that `powers` tells. A Markov parameter is zero below the relative
-    degree and, in undamped chains, where its parity differs from it.
+def profile_to_json(profile: Profile) -> str:
+    """Compact JSON text of a profile: what a cache keeps. Never pickled, so that a foreign file can
+    do no harm.
     """
-    tf_zeros = zeros(structure)
-    if representation is Representation.TF:
-        return tf_zeros
-    num, den = powers(structure)
-    relative = max(den) - max(num)
-    even = all((max(side) - i) % 2 == 0 for side in (num, den) for i in side)
-    return frozenset(
-        f"G{i}" for i in range(count + 1) if i < relative or (even and (i - relative) % 2)
+    data = {f.name: getattr(profile, f.name) for f in fields(profile)} | {
+        "proven_zeros": sorted(profile.proven_zeros)
+    }
+    data["matroid"] = (
+        asdict(profile.matroid)
+        if isinstance(profile.matroid, Unsearched)
+        else _plain(profile.matroid)
     )
+    return json.dumps(data, separators=(",", ":"))
+
+
+def profile_from_json(text: str) -> Profile:
+    """Inverse of `profile_to_json`; raises ValueError, KeyError or TypeError for what is none."""
+    data = json.loads(text)
+    return Profile(
+        **data
+        | {
+            "representation": Representation(data["representation"]),
+            "labels": tuple(data["labels"]),
+            "free": tuple(data["free"]),
+            "constants": tuple(data["constants"]),
+            "degrees": tuple(data["degrees"]),
+            "matroid": _read_matroid(data["matroid"]),
+            "proven_zeros": frozenset(data["proven_zeros"]),
+        }
+    )
+
+
+def _plain(m: Matroid) -> dict[str, Any]:
+    components = [
+        {"rows": c.rows, "rank": c.rank, "dual": c.dual, "flats": c.flats} for c in m.components
+    ]
+    return {"size": m.size, "rank": m.rank, "components": components}
+
+
+def _read_matroid(data: dict[str, Any]) -> Matroid | Unsearched:
+    if "reason" in data:
+        return Unsearched(data["reason"])
+    return Matroid(data["size"], data["rank"], tuple(_component(c) for c in data["components"]))
+
+
+def _component(data: dict[str, Any]) -> Component:
+    flats = tuple((tuple(rows), rank) for rows, rank in data["flats"])
+    return Component(tuple(data["rows"]), data["rank"], data["dual"], flats)

@@ -1,37 +1,39 @@
-"""An exhaustive summary seen at one random point modulo a prime: the moment invariants and their
-Jacobian, as numbers.
+"""The exhaustive summary of a model seen at one random point modulo a prime: the moment invariants
+and their Jacobian, as numbers.
 
-Degrees. Those of numerator and denominator before anything but powers of s is cancelled are known
-exactly (`powers`). A point is taken only if the transfer function in lowest terms has these
-degrees there too. So leading coefficients and resultant are not zero at the point, hence not
-generically: the degrees of every sample are those of the model, without any chance. A point at
-which they are smaller is special and drawn again; with 31 bits that happens with a probability of
-about 2^-20.
+Degrees. Those of numerators and denominators in lowest terms are known exactly. A point is taken
+only if the transfer functions have these degrees there too. So leading coefficients and resultants
+are not zero at the point, hence not generically: the degrees of every sample are those of the
+model, without any chance. A point at which they are smaller is special and drawn again; with 31
+bits that happens with a probability of about 2^-20.
+
+Several transfer functions with one parameter vector are summarised one after the other. Labels:
+b0[1], .., a0[1], .., b0[2], .. with the number of the transfer function. Those of one machine share
+poles, as a rule. So where two have denominators of one degree, the later one is given by what its
+coefficients are more than the first one's, a0[2-1], ..: that is as exhaustive, and where both
+denominators are one and the same these invariants are the constant 0, so that what is free is
+counted once. Those that are zero have no coefficients: their degrees say so. So the degrees alone
+say which invariants there are: summaries of equal degrees are compared entry by entry. Condition 7
+needs no more: whatever the summary is, of as many free entries as its rank generic values of all
+of them are reached.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from types import MappingProxyType
+from functools import lru_cache
 
 from flint import nmod_mat
 
-from disting.algebra.quotient import (
-    Quotient,
-    coefficient_rows,
-    constant,
-    lowest_terms,
-    matrix,
-    series_rows,
-    variable,
-)
+from disting.algebra.quotient import Quotient, coefficient_rows, matrix, series_rows
 from disting.algebra.sampling import PROOF_BITS, about, prime, residues
-from disting.behaviour.powers import degrees
-from disting.behaviour.transfer import Arrangement, receptance, values_at
 from disting.errors import InputError
-from disting.model.structure import Structure
+from disting.model.protocol import ZERO, Columns, Degrees, Model
 
 DRAWS = 20  # of a point
+REMEMBERED = 64  # points: of a few verdicts, for a sketch and the profile that may follow it
+Row = tuple[int, list[int]]
+"""Value and derivatives of an invariant."""
 
 
 class Representation(StrEnum):
@@ -65,92 +67,132 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A random point of a structure modulo a random prime, and the transfer function there in
-    lowest terms.
+    """A point of a model modulo a prime, and its transfer functions there in lowest terms, None for
+    those that are zero.
     """
 
-    structure: Structure
+    model: Model
     point: tuple[int, ...]
     modulus: int
-    quotient: Quotient
+    quotients: tuple[Quotient | None, ...]
 
 
-def drawn(structure: Structure, label: str, bits: int = PROOF_BITS) -> Drawn:
-    """The point and the prime that the label stands for with this structure; special points are
-    drawn again.
+@lru_cache(maxsize=REMEMBERED)
+def drawn(model: Model, label: str, bits: int = PROOF_BITS) -> Drawn:
+    """The random point and the random prime that the label stands for with this model; special
+    points are drawn again.
     """
-    whole, wanted = about(label, structure), degrees(structure)
+    whole = about(label, *model.content)
     for again in (f"{whole}:{attempt}" for attempt in range(DRAWS)):
         modulus = prime(again, bits)
-        point = residues(f"point:{again}", len(structure.parameters), modulus)
-        q = quotient(structure, point, modulus)
-        if (q.num.degree(), q.den.degree()) == wanted:
-            return Drawn(structure, tuple(point), modulus, q)
-    raise InputError("numerator and denominator have a common factor for all parameters")
+        point = residues(f"point:{again}", len(model.parameters), modulus)
+        where = at_point(model, point, modulus)
+        if tuple(map(_degrees, where.quotients)) == model.degrees:
+            return where
+    raise InputError(f"leading coefficients vanish at {DRAWS} random points")
 
 
-def quotient(
-    structure: Arrangement,
-    point: Sequence[int],
-    modulus: int,
-    known: Mapping[str, int] = MappingProxyType({}),
-) -> Quotient:
-    """The transfer function (24), without dead time, in lowest terms at a point given in the
-    order of the parameters; `known` are residues of what has a known size, by name.
-    """
-    values = values_at(structure, point, lambda number: constant(number, modulus))
-    values |= {name: constant(number, modulus) for name, number in known.items()}
-    rational = receptance(structure, values, variable(modulus), constant(1, modulus))
-    order, names = structure.sensor_order, [p for p in structure.parameters if p != "Td"]
-    return lowest_terms(
-        rational.num.left_shift(order),
-        rational.den,
-        [rational.num_gradient[p].left_shift(order) for p in names],
-        [rational.den_gradient[p] for p in names],
-    )
+def at_point(model: Model, point: Sequence[int], modulus: int) -> Drawn:
+    """The same at any point, in the order of the parameters."""
+    return Drawn(model, tuple(point), modulus, tuple(model.quotients(point, modulus)))
 
 
-def sample(
-    structure: Structure,
-    representation: Representation,
-    count: int,
-    point: Sequence[int],
-    modulus: int,
-) -> Sample:
-    """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the
-    parameters, at any point.
-    """
-    return seen_at(
-        Drawn(structure, tuple(point), modulus, quotient(structure, point, modulus)),
-        representation,
-        count,
-    )
+def samples(
+    model: Model, representation: Representation, count: int, points: int, seed: str
+) -> Iterator[Sample]:
+    """Yield samples at independent points, each with its own large prime."""
+    return (seen_at(drawn(model, f"{seed}:{k}"), representation, count) for k in range(points))
 
 
 def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
-    """The same at a point that was drawn.
+    """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the
+    parameters.
 
     A dead time adds itself as one more invariant: exp(-Td s) is no rational function, so both
     factors are determined.
     """
-    if representation is Representation.TF:
-        labels, values, rows = coefficients(where.quotient)
-    else:
-        labels = [f"G{i}" for i in range(count + 1)]
-        values, rows = series_rows(where.quotient, count)
-    n_parameters = len(where.structure.parameters)
-    if where.structure.dead_time:
-        labels, values = [*labels, "Td"], [*values, where.point[-1]]
-        rows = [[*row, 0] for row in rows] + [[0] * (n_parameters - 1) + [1]]
+    found, model = _rows(where, representation, count), where.model
+    n = len(where.point)
+    if model.dead_time and found:
+        found = {name: (value, [*row, 0]) for name, (value, row) in found.items()}
+        found["Td"] = (where.point[-1], [0] * (n - 1) + [1])
+    values = tuple(value for value, _ in found.values())
     return Sample(
-        tuple(labels), tuple(values), tuple(map(tuple, rows)), n_parameters, where.modulus
+        tuple(found), values, tuple(tuple(r) for _, r in found.values()), n, where.modulus
     )
 
 
-def coefficients(q: Quotient) -> tuple[list[str], list[int], list[list[int]]]:
-    """Labels, values and rows of derivatives of the coefficients b_i and a_i of (25)."""
+def coefficient_columns(where: Drawn) -> Columns:
+    """Values and Jacobian columns of all coefficients at a point, each denominator monic."""
+    known = [row for q in where.quotients if q is not None for row in _terms(q).values()]
+    columns = [tuple(row[j] for _, row in known) for j in range(len(known[0][1]) if known else 0)]
+    still = [(0,) * len(known)] * (len(where.point) - len(columns))
+    return tuple(value for value, _ in known), columns + still
+
+
+def label(name: str, at: int, shared: int | None) -> str:
+    """That of an invariant of transfer function `at` of several, counted from 0.
+
+    >>> label("a0", 1, 0), label("b0", 1, 0)
+    ('a0[2-1]', 'b0[2]')
+    """
+    less = f"-{shared + 1}" if shared is not None and name[0] == "a" else ""
+    return f"{name}[{at + 1}{less}]"
+
+
+def shared_poles(degrees: Sequence[Degrees], at: int) -> int | None:
+    """The first transfer function before this one whose denominator has the same degree."""
+    same = (i for i in range(at) if degrees[i] != ZERO and degrees[i][1] == degrees[at][1])
+    return next(same, None)
+
+
+def _rows(where: Drawn, representation: Representation, count: int) -> dict[str, Row]:
+    """The invariants of all transfer functions but the dead time."""
+    found: dict[str, Row] = {}
+    for i, q in enumerate(where.quotients):
+        if q is None:
+            continue
+        shared = None
+        if representation is Representation.MARKOV:
+            named = _series(q, count)
+        else:
+            shared = shared_poles(where.model.degrees, i) if i else None
+            first = None if shared is None else where.quotients[shared]
+            named = _terms(q) if first is None else _less(_terms(q), _terms(first), where.modulus)
+        if not where.model.is_numbered:
+            return named
+        found |= {label(name, i, shared): row for name, row in named.items()}
+    return found
+
+
+def _degrees(q: Quotient | None) -> Degrees:
+    return ZERO if q is None else (q.num.degree(), q.den.degree())
+
+
+def _terms(q: Quotient) -> dict[str, Row]:
+    """The coefficients b_i and a_i of (25)."""
     n, m = q.num.degree(), q.den.degree()
-    num_values, num_rows = coefficient_rows(q.num, q.num_derivatives, n + 1)
-    den_values, den_rows = coefficient_rows(q.den, q.den_derivatives, m)
-    labels = [f"b{i}" for i in range(n + 1)] + [f"a{i}" for i in range(m)]
-    return labels, num_values + den_values, num_rows + den_rows
+    sides = (q.num, q.num_derivatives, n + 1), (q.den, q.den_derivatives, m)
+    rows = [zip(*coefficient_rows(*side), strict=True) for side in sides]
+    return {
+        f"{letter}{i}": row
+        for letter, side in zip("ba", rows, strict=True)
+        for i, row in enumerate(side)
+    }
+
+
+def _series(q: Quotient, count: int) -> dict[str, Row]:
+    return {f"G{i}": row for i, row in enumerate(zip(*series_rows(q, count), strict=True))}
+
+
+def _less(named: dict[str, Row], first: dict[str, Row], modulus: int) -> dict[str, Row]:
+    """The denominator's coefficients less those of the first one."""
+    return {
+        name: _difference(row, first[name], modulus) if name[0] == "a" else row
+        for name, row in named.items()
+    }
+
+
+def _difference(one: Row, other: Row, modulus: int) -> Row:
+    (value, row), (less, slopes) = one, other
+    return (value - less) % modulus, [(x - y) % modulus for x, y in zip(row, slopes, strict=True)]

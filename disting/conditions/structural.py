@@ -9,6 +9,7 @@ they are equal.
 from dataclasses import replace
 
 from disting.algebra.certainty import Grade, graded
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
@@ -69,7 +70,9 @@ def condition_9(left: Side, right: Side) -> Finding:
             SUPERMODEL, Outcome.INAPPLICABLE, note="one is a submodel of the other (condition 8)"
         )
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
-    profiles.append(profile(third, Representation.TF, 0, replace(left.settings, subset_limit=0)))
+    profiles.append(
+        profile(ChainModel(third), Representation.TF, 0, replace(left.settings, subset_limit=0))
+    )
     ranks = [p.rank for p in profiles]
     if len(set(ranks)) > 1:
         return Finding(

@@ -5,9 +5,12 @@ checked by, without profiles, matroids or searches.
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cache
+from itertools import chain
 from typing import Any
 
-from disting.behaviour.sample import Representation, Sample
+from disting.behaviour.sample import Representation, Sample, samples
+from disting.model.protocol import Model
 
 Labels = tuple[str, ...]
 POINTS = 3
@@ -63,6 +66,17 @@ class SeenPair:
     def sides(self) -> tuple[Seen, Seen]:
         """Left and right."""
         return self.left, self.right
+
+
+def seen(model: Model, seed: str = "verify") -> Seen:
+    """A model at fresh points, the same for all questions."""
+
+    @cache
+    def draw(representation: Representation, count: int) -> tuple[Sample, ...]:
+        """Samples in this representation."""
+        return tuple(samples(model, representation, count, POINTS, seed))
+
+    return Seen(model.parameters, tuple(chain.from_iterable(model.degrees)), draw)
 
 
 def markov_count(labels: Labels) -> int:

@@ -16,12 +16,11 @@ where one of them is not zero.
 
 from dataclasses import replace
 
-from disting.algebra.sampling import PROOF_BITS, enough
-from disting.behaviour.sample import Representation
+from disting.algebra.sampling import enough
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import Listed, lists, without_dead_time
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import stacked_map
-from disting.experiments.stacked_profiles import drawn, minor_size, seen_at
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.result import Confirmation
 from disting.model.question import Question
@@ -71,13 +70,11 @@ def _nothing(names: tuple[str, ...]) -> ParameterIdentifiability:
 
 
 def _local(measured: MeasuredChain, settings: Settings) -> Local:
-    size = minor_size(measured, Representation.TF, 0)
-    labels = [f"{settings.seed}:{k}" for k in range(enough(size, settings.points))]
-    points = (drawn(measured, label, PROOF_BITS) for label in labels)
-    seen = [seen_at(point, Representation.TF, 0) for point in points]
-    found = local(measured.chain.parameters, seen, size)
+    model = MachineModel(measured)
+    found = local(model, settings)
     # several entries may have been special at a point that was drawn again: a bit for each
-    return replace(found, safety=found.safety - len(labels)) if found.safety else found
+    lost = enough(model.minor_size(None), settings.points)
+    return replace(found, safety=found.safety - lost) if found.safety else found
 
 
 def _bounds(listed: Listed) -> bool:

@@ -17,8 +17,8 @@ from disting.algebra.certainty import weakest
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.content import written
 from disting.algebra.sampling import prime
-from disting.behaviour.profile import Profile
-from disting.behaviour.sample import Representation, coefficients
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import ADMISSIBLE, EXACT
@@ -28,9 +28,9 @@ from disting.evidence.positive import PositiveFinding
 from disting.experiments.exact_under import exact_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import positive_finding
-from disting.experiments.stacked_profiles import drawn_at, profile
 from disting.model.chain import Premise
 from disting.model.domain import Domain
 from disting.model.question import Answerer, Question, computed
@@ -50,7 +50,7 @@ POSITIVELY = Question(
     PositiveFinding.to_json,
     PositiveFinding.from_json,
 )
-Profiles = Callable[[MeasuredChain, Representation, int, Settings], Profile]
+Profiles = Callable[[MachineModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedMachine", "ComparedMachine"]
 
 
@@ -75,7 +75,7 @@ class ComparedMachine:
     def profile(self, representation: Representation, count: int) -> Profile:
         """What all experiments together reveal."""
         if (representation, count) not in self._known:
-            found = self.source(self.measured, representation, count, self.settings)
+            found = self.source(self.profiled, representation, count, self.settings)
             self._known[representation, count] = found
         return self._known[representation, count]
 
@@ -85,12 +85,12 @@ class ComparedMachine:
         """
         if (representation, count) in self._known:
             return self._known[representation, count]
-        return self._sketch_of(self.measured, representation, count)
+        return self._sketch_of(self.profiled, representation, count)
 
     def _sketch_of(
-        self, measured: MeasuredChain, representation: Representation, count: int
+        self, model: MachineModel, representation: Representation, count: int
     ) -> Profile:
-        return self.source(measured, representation, count, replace(self.settings, subset_limit=0))
+        return self.source(model, representation, count, replace(self.settings, subset_limit=0))
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -124,9 +124,9 @@ class ComparedMachine:
         return self.name, written(self.measured)
 
     @property
-    def profiled(self) -> MeasuredChain:
-        """The chain and its experiments."""
-        return self.measured
+    def profiled(self) -> MachineModel:
+        """All transfer functions."""
+        return MachineModel(self.measured)
 
     @property
     def rank(self) -> int:
@@ -140,12 +140,7 @@ class ComparedMachine:
 
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
         """Values and Jacobian columns of all coefficients."""
-        n = len(point) - self.measured.chain.dead_time
-        found = drawn_at(self.measured, point, prime("renaming")).quotients
-        known = [coefficients(q) for q in found if q is not None]
-        values = tuple(v for _, numbers, _ in known for v in numbers)
-        rows = [[*row, *[0] * (len(point) - n)] for _, _, each in known for row in each]
-        return values, [tuple(row[j] for row in rows) for j in range(len(point))]
+        return self.profiled.columns(point, prime("renaming"))
 
     def symmetry_with(self, other: "ComparedMachine") -> Renaming | None:
         """None: symmetries of a chain may move a sensor."""
@@ -184,7 +179,7 @@ class ComparedMachine:
 
         def profile_of(measured: MeasuredChain) -> Profile:
             """That of the coefficients, without dependences."""
-            return self._sketch_of(measured, Representation.TF, 0)
+            return self._sketch_of(MachineModel(measured), Representation.TF, 0)
 
         return inclusions_under(self.measured, other.measured, profile_of)
 

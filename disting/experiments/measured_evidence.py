@@ -7,8 +7,8 @@ from dataclasses import replace
 from functools import partial
 
 from disting.algebra.certainty import Certainty, Grade, weakest
-from disting.algebra.sampling import PROOF_BITS
-from disting.behaviour.sample import Representation, Sample
+from disting.behaviour.profile import profile
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
@@ -18,14 +18,14 @@ from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, MissingElements
 from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
 from disting.evidence.real import BothWays
-from disting.evidence.seen import POINTS, Seen, SeenPair
+from disting.evidence.seen import Seen, SeenPair, seen
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import confirms_missing, numberings
 from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import matched
 from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import answer_of, positive_finding
-from disting.experiments.stacked_profiles import degrees, drawn, profile, seen_at
 from disting.fibres.ideals import seen_again
 from disting.fibres.synthesis.result import Answer
 from disting.fibres.synthesis.target import fraction
@@ -120,14 +120,7 @@ def positive_again(
 
 
 def _seen(measured: MeasuredChain) -> Seen:
-    return Seen(measured.chain.parameters, degrees(measured), partial(_samples, measured))
-
-
-def _samples(
-    measured: MeasuredChain, representation: Representation, count: int
-) -> tuple[Sample, ...]:
-    points = (drawn(measured, f"verify:{k}", PROOF_BITS) for k in range(POINTS))
-    return tuple(seen_at(point, representation, count) for point in points)
+    return seen(MachineModel(measured))
 
 
 def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChain) -> bool:
@@ -148,9 +141,9 @@ def _one_experiment(evidence: Counts, left: MeasuredChain, right: MeasuredChain)
     """Whether these are the degrees of one experiment, and those of the chain of smaller rank are
     no limit's of the other.
     """
-    sides = (degrees(left), degrees(right))
-    pairs = ([side[i : i + 2] for i in range(0, len(side), 2)] for side in sides)
-    ranks = [profile(m, Representation.TF, 0, FRESH).rank for m in (left, right)]
+    models = [MachineModel(m) for m in (left, right)]
+    pairs = (model.degrees for model in models)
+    ranks = [profile(model, Representation.TF, 0, FRESH).rank for model in models]
     small, large = ordered(evidence.left, evidence.right, ranks[0] < ranks[1])
     told = (evidence.left, evidence.right) in list(zip(*pairs, strict=True))
     return told and exceed(small, large)

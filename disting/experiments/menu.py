@@ -14,13 +14,13 @@ from typing import Any
 
 from flint import nmod_poly
 
-from disting.algebra.sampling import PROOF_BITS
+from disting.behaviour.sample import drawn
 from disting.behaviour.transfer import touched
 from disting.errors import InputError, shown
 from disting.experiments.changes import GENERIC
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.polynomials import residues_of
-from disting.experiments.stacked_profiles import drawn
 from disting.model.chain import Chain
 from disting.model.kinds import COSTS, FORCE, KINDS, PRICES, SENSOR, Kind
 
@@ -148,7 +148,7 @@ def gain(chain: Chain, item: Item) -> Gain | None:
         return Gain.REPEATS
     if not there.experiment.changes and _seen(here) == _seen(there):
         return Gain.REPEATS
-    where = drawn(both, "gain", PROOF_BITS)
+    where = drawn(MachineModel(both), "gain")
     first, second = where.quotients
     if second is None:
         return Gain.SILENT

@@ -19,9 +19,9 @@ from flint import fmpz_mpoly, fmpz_poly
 
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.algebra.tridiagonal import Ring
-from disting.behaviour.stacked import ZERO
 from disting.behaviour.transfer import plain_receptance, touched
 from disting.experiments.experiment import Entry, MeasuredChain
+from disting.model.protocol import ZERO, Degrees
 
 REMEMBERED = 1024
 
@@ -37,7 +37,7 @@ class Shape:
     denominator: tuple[object, ...]
 
     @property
-    def degrees(self) -> tuple[int, int]:
+    def degrees(self) -> Degrees:
         """Degrees of numerator and denominator."""
         if not self.numerator:
             return ZERO

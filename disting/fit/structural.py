@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import inf
 
-from disting.experiments.stacked_profiles import rank_by
+from disting.experiments.machine_model import rank_by
 from disting.fit.estimate import Task
 from disting.fit.joint import JointCost
 from disting.fit.practical import Practical

@@ -1,30 +1,27 @@
-"""What is asked of general models of either kind: with one input and output, or with several."""
+"""What is asked of pairs of general models: whether a renaming connects them, their polynomial
+maps, and the exact decision where conditions 1 to 7 stay silent: one fibre as a polynomial ideal.
+"""
 
 from dataclasses import replace
 
-from disting.algebra.sampling import Size, enough, prime
-from disting.behaviour.profile import Profile
-from disting.behaviour.sample import Representation, Sample
 from disting.conditions.finding import Finding
-from disting.fibres.ideals import StackedMap, decide_matched
-from disting.general.exact import LIMITS, exact_finding
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.matrix_profiles import (
-    Constants,
-    matrix_constants,
-    matrix_maps,
-    matrix_products,
-    matrix_profile,
-    matrix_samples,
-    stacked_size,
+from disting.fibres.ideals import (
+    CoefficientMap,
+    Limits,
+    PolynomialMap,
+    StackedMap,
+    decide_matched,
+    matched,
+    stacked_maps,
 )
-from disting.general.model import Model
-from disting.general.profiles import profile, proven_constants
-from disting.general.renaming import is_renaming, products
-from disting.general.samples import minor_size, samples
+from disting.fibres.ideals import Fraction as Ratio
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model, Terms
 from disting.model.chain import Chain
 from disting.model.settings import Settings
-from disting.questions.same.exact import decided
+from disting.questions.same.exact import SAFETY, decided
+
+LIMITS = Limits(safety=SAFETY)
 
 
 def as_chain(model: Chain | AnyModel) -> Chain | None:
@@ -39,69 +36,74 @@ def unnamed(model: AnyModel, name: str = "model") -> AnyModel:
     return replace(model, name=name)
 
 
-def profile_of(
-    model: AnyModel, representation: Representation, count: int, settings: Settings
-) -> Profile:
-    """Its profile."""
-    if isinstance(model, MatrixModel):
-        return matrix_profile(model, representation, count, settings)
-    return profile(model, representation, count, settings)
+def same(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    """The exact decision, for equal ranks and degrees."""
+    maps = maps_of(left, right)
+    return decided(decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=LIMITS))
 
 
-def constants_of(model: AnyModel) -> Constants:
-    """Coefficients that are proven constant, by their labels."""
-    if isinstance(model, MatrixModel):
-        return matrix_constants(model, Representation.TF, 0)
-    return proven_constants(model, Representation.TF, 0)
-
-
-def samples_of(model: AnyModel, settings: Settings) -> tuple[list[Sample], Size]:
-    """Coefficients and their Jacobian at so many independent points as a bound needs, and the size
-    of the Jacobian's minors.
+def maps_of(left: AnyModel, right: AnyModel) -> tuple[PolynomialMap, PolynomialMap]:
+    """The polynomial maps of two models of equal degrees, in a form in which equal transfer
+    functions are equal coordinates; their parameters are p1, p2, ..
     """
-    if isinstance(model, MatrixModel):
-        size = stacked_size(model, Representation.TF, 0)
-        points = enough(size, settings.points)
-        return list(matrix_samples(model, Representation.TF, 0, points, settings.seed)), size
-    size = minor_size(model, Representation.TF, 0)
-    points = enough(size, settings.points)
-    return list(samples(model, Representation.TF, 0, points, settings.seed)), size
+    (here, *more), (there, *others) = left.entries, right.entries
+    if not more and not others:
+        return matched(coefficient_map(here), coefficient_map(there))
+    one, other = _stacked(left, right)
+    return one, other
 
 
 def map_of(model: AnyModel) -> StackedMap:
-    """The polynomial map of its coefficients, for its fibre in itself, in p1, p2, .."""
-    if isinstance(model, Model):
-        model = MatrixModel(model.parameters, ((model,),))
-    (found,) = matrix_maps(model)
-    return found
+    """The polynomial map of its coefficients, for its fibre in itself."""
+    return _stacked(model)[0]
 
 
-def columns_of(model: AnyModel, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-    """Functions in which a renaming of the parameters is seen, and their Jacobian columns, modulo
-    one and the same prime.
-    """
-    seen = matrix_products if isinstance(model, MatrixModel) else products
-    return seen(model, point, prime("renaming"))  # type: ignore[arg-type]
+def coefficient_map(model: Model) -> CoefficientMap:
+    """One transfer function as the ideals know it."""
+    names = _names(model)
+    plain = replace(model, parameters=names)
+    return CoefficientMap(names, plain.numerator, plain.denominator)
 
 
 def is_renamed(left: AnyModel, right: AnyModel, renaming: dict[str, str]) -> bool:
-    """Whether renaming the left parameters turns all left transfer functions into the right ones:
-    exact.
+    """Whether renaming the left parameters, one to one, turns all left transfer functions into the
+    right ones: exact.
     """
-    if isinstance(left, MatrixModel) and isinstance(right, MatrixModel):
-        pairs = list(zip(left.cells, right.cells, strict=left.shape == right.shape))
-        return left.shape == right.shape and all(
-            a is b is None or (a and b and is_renaming(a, b, renaming)) for a, b in pairs
-        )
-    if isinstance(left, MatrixModel) or isinstance(right, MatrixModel):
+    if left.shape != right.shape or sorted(renaming) != sorted(left.parameters):
         return False
-    return is_renaming(left, right, renaming)
+    if sorted(renaming.values()) != sorted(right.parameters):
+        return False
+    place = {renaming[name]: i for i, name in enumerate(left.parameters)}
+    sources = [place[name] for name in right.parameters]
+    return all(
+        a is b is None or (a and b and _carried(a, b, sources))
+        for a, b in zip(left.cells, right.cells, strict=True)
+    )
 
 
-def same(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
-    """The exact decision, for equal ranks and degrees."""
-    if isinstance(left, MatrixModel) and isinstance(right, MatrixModel):
-        maps = matrix_maps(left, right)
-        return decided(decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=LIMITS))
-    assert isinstance(left, Model) and isinstance(right, Model)
-    return exact_finding(left, right, settings.seed)
+def _carried(left: Model, right: Model, sources: list[int]) -> bool:
+    """Whether the coefficients become those of the other one, all or none with the sign changed."""
+    sides = [(*m.numerator_terms, *m.denominator_terms) for m in (left, right)]
+    moved = [{tuple(e[i] for i in sources): c for e, c in terms} for terms in sides[0]]
+    there = [dict(terms) for terms in sides[1]]
+    negated = [{e: -c for e, c in terms.items()} for terms in there]
+    return left.degrees == right.degrees and moved in (there, negated)
+
+
+def _stacked(*models: AnyModel) -> tuple[StackedMap, ...]:
+    sides = [[_monic((e.numerator_terms, e.denominator_terms)) for e in m.entries] for m in models]
+    return stacked_maps([_names(m) for m in models], sides)
+
+
+def _names(model: AnyModel) -> tuple[str, ...]:
+    return tuple(f"p{i + 1}" for i in range(len(model.parameters)))
+
+
+def _monic(sides: Ratio) -> Ratio:
+    """Both sides with the sign that makes a leading -1 a leading 1."""
+    lead = sides[1][-1]
+    return (_negated(sides[0]), _negated(sides[1])) if lead[0][1] == -1 else sides
+
+
+def _negated(side: tuple[Terms, ...]) -> tuple[Terms, ...]:
+    return tuple(tuple((e, -c) for e, c in terms) for terms in side)

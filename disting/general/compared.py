@@ -15,7 +15,8 @@ from typing import Any
 
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.content import written
-from disting.behaviour.profile import Profile
+from disting.algebra.sampling import prime
+from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
@@ -25,15 +26,8 @@ from disting.evidence.general import Constants
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general.admissible import admissible_finding
-from disting.general.any_model import (
-    as_chain,
-    columns_of,
-    constants_of,
-    is_renamed,
-    profile_of,
-    same,
-    unnamed,
-)
+from disting.general.any_model import as_chain, is_renamed, same, unnamed
+from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Premise
 from disting.model.domain import Domain
@@ -68,7 +62,7 @@ ADMISSIBLY = {
         _admissible_from_json,
     ),
 }
-Profiles = Callable[[AnyModel, Representation, int, Settings], Profile]
+Profiles = Callable[[GeneralModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedModel", "ComparedModel"]
 
 
@@ -79,7 +73,7 @@ class ComparedModel:
     name: str
     model: AnyModel
     settings: Settings = field(default_factory=Settings)
-    source: Profiles = profile_of
+    source: Profiles = profile
     answerer: Answerer = computed
     _known: dict[tuple[Representation, int], Profile] = field(
         default_factory=dict, init=False, repr=False, compare=False
@@ -136,9 +130,9 @@ class ComparedModel:
         return None if self.chain is None else self.chain.premise
 
     @property
-    def profiled(self) -> AnyModel:
+    def profiled(self) -> GeneralModel:
         """The model without its name."""
-        return unnamed(self.model)
+        return GeneralModel(unnamed(self.model))
 
     @property
     def rank(self) -> int:
@@ -152,7 +146,7 @@ class ComparedModel:
 
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
         """Values and Jacobian columns of functions that a renaming carries over."""
-        return columns_of(self.model, point)
+        return self.profiled.columns(point, prime("renaming"))
 
     def symmetry_with(self, other: "ComparedModel") -> Renaming | None:
         """None: its class has no symmetries that are known beforehand."""
@@ -173,7 +167,7 @@ class ComparedModel:
             )
         if one.rank == 0:
             return _constants(self.model, other.model)
-        found = self.answerer(EXACTLY, (self.profiled, other.profiled), self.settings)
+        found = self.answerer(EXACTLY, _models(self, other), self.settings)
         return resting_on_ranks(found, one, there)
 
     def admissible(
@@ -204,7 +198,7 @@ class ComparedModel:
     @staticmethod
     def prepare_exact(pairs: Sequence[Pair], ask: Callable[..., Any]) -> None:
         """Have the exact decisions on pairs of equal rank and degrees computed."""
-        ask(EXACTLY, [(a.profiled, b.profiled) for a, b in pairs if comparable(a, b)])
+        ask(EXACTLY, [_models(a, b) for a, b in pairs if comparable(a, b)])
 
     @staticmethod
     def prepare_positive(ways: Sequence[Pair], ask: Callable[..., Any]) -> None:
@@ -219,6 +213,10 @@ class ComparedModel:
     def all_inclusions(pairs: Sequence[Pair], ask: Callable[..., Any]) -> list[Inclusions]:
         """Not asked."""
         return [a.inclusions(b) for a, b in pairs]
+
+
+def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
+    return unnamed(left.model), unnamed(right.model)
 
 
 def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
@@ -239,7 +237,7 @@ def _constants(left: AnyModel, right: AnyModel) -> Finding:
     """Transfer functions without parameters: unequal numbers, known exactly, tell the models
     apart.
     """
-    values = [constants_of(model) for model in (left, right)]
+    values = [GeneralModel(model).constants(None) for model in (left, right)]
     differing = tuple(
         label for label, x in values[0].items() if label in values[1] and x != values[1][label]
     )
@@ -249,5 +247,5 @@ def _constants(left: AnyModel, right: AnyModel) -> Finding:
             Outcome.INAPPLICABLE,
             note="equal constant transfer functions are found by condition 7",
         )
-    evidence = Constants(differing, *(tuple(str(v[x]) for x in differing) for v in values))
+    evidence = Constants(differing, *(tuple(v[x] for x in differing) for v in values))
     return Finding(EXACT, Outcome.FAILS, evidence=evidence)

@@ -23,11 +23,11 @@ from flint import fmpz_mpoly, nmod_mat
 from disting.algebra.certainty import Certainty
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
+from disting.general.behaviour import evaluated
 from disting.general.cases import ORDERS, Case, Search, orders, searched
 from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
-from disting.general.samples import evaluated
 from disting.general.spelled import text_of
 from disting.model.domain import Domain
 from disting.model.question import Question

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, graded
 from disting.errors import of_type
-from disting.general.any_model import samples_of
+from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.model.settings import Settings
 from disting.model.shown import summary
@@ -53,8 +53,7 @@ def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> Loc
     ((), 2)
     """
     of_type(model, AnyModel, "of transfer functions it is asked of a Model or a MatrixModel")
-    seen, size = samples_of(model, settings)
-    found = local(model.parameters, seen, size)
+    found = local(GeneralModel(model), settings)
     return LocalIdentifiability(
         model.parameters, found.rank, found.names, *graded(not found.safety, found.safety)
     )

@@ -116,11 +116,6 @@ class MatrixModel(Shown):
         return max(entry.n_states for entry in self.entries)
 
     @property
-    def degrees(self) -> tuple[tuple[int, int], ...]:
-        """Degrees in s of numerators and denominators, (-1, 0) for zero."""
-        return tuple((-1, 0) if entry is None else entry.degrees for entry in self.cells)
-
-    @property
     def content(self) -> tuple[object, ...]:
         """All that tells two models apart: their names do not."""
         return self.parameters, self.shape, *(e and e.content[1:] for e in self.cells)

@@ -152,6 +152,16 @@ class Model(Shown):
         return (self,)
 
     @property
+    def cells(self) -> tuple["Model", ...]:
+        """The same: it is not zero."""
+        return (self,)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of outputs and inputs."""
+        return 1, 1
+
+    @property
     def content(self) -> tuple[object, ...]:
         """All that tells two models apart: their names do not."""
         return self.parameters, self.numerator_terms, self.denominator_terms

@@ -4,24 +4,20 @@ what it shows.
 
 from functools import partial
 
-from disting.behaviour.sample import Representation, Sample
 from disting.conditions.finding import Finding
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
-from disting.evidence.seen import POINTS, Seen, SeenPair
-from disting.fibres.ideals import Limits, PolynomialMap, matched, seen_again
+from disting.evidence.seen import SeenPair, seen
+from disting.fibres.ideals import Limits, seen_again
 from disting.general.admissible import are_one_ports
 from disting.general.admissible import confirms as confirms_points
-from disting.general.any_model import constants_of, is_renamed
-from disting.general.exact import coefficient_map
+from disting.general.any_model import is_renamed, maps_of
+from disting.general.behaviour import GeneralModel
 from disting.general.formulas import is_explicit, is_without
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.matrix_profiles import matrix_maps, matrix_samples
-from disting.general.model import Model
-from disting.general.samples import samples
+from disting.general.matrix_model import AnyModel
 from disting.model.settings import Settings
 from disting.questions.same.decided_again import by_labels
 
@@ -38,8 +34,8 @@ def confirms_models(
     Raises NotSeenError where a contradiction takes too long.
     """
     pair = SeenPair(
-        left=_seen(left),
-        right=_seen(right),
+        left=seen(GeneralModel(left)),
+        right=seen(GeneralModel(right)),
         renames=partial(is_renamed, left, right),
         found_again=partial(_found_again, left=left, right=right),
     )
@@ -53,7 +49,7 @@ def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
             return _differ(evidence, left, right)
         case Solved() | Refuted():
             # normalised coordinates are those of a chain
-            return not evidence.is_normalised and seen_again(evidence, *_maps(left, right), AGAIN)
+            return not evidence.is_normalised and seen_again(evidence, *maps_of(left, right), AGAIN)
         case Theorem():
             return evidence.name == "Foster and Cauer" and are_one_ports(left, right)
         case Explicit():
@@ -73,34 +69,14 @@ def exact_again(
     """
     if not isinstance(evidence, Solved | Refuted):
         return None
-    return by_labels(evidence, *_maps(left, right), settings.seed)
-
-
-def _maps(left: AnyModel, right: AnyModel) -> tuple[PolynomialMap, PolynomialMap]:
-    if isinstance(left, MatrixModel) and isinstance(right, MatrixModel):
-        here, there = matrix_maps(left, right)
-        return here, there
-    assert isinstance(left, Model) and isinstance(right, Model)
-    return matched(coefficient_map(left), coefficient_map(right))
+    return by_labels(evidence, *maps_of(left, right), settings.seed)
 
 
 def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
     """Whether these are constants of both models that differ, by their exact values."""
-    sides = [constants_of(model) for model in (left, right)]
+    sides = [GeneralModel(model).constants(None) for model in (left, right)]
     told = (evidence.left, evidence.right)
-    found = [tuple(str(side.get(label)) for label in evidence.labels) for side in sides]
+    found = [tuple(map(side.get, evidence.labels)) for side in sides]
     differ = all(a != b for a, b in zip(*found, strict=True))
     known = all(label in side for side in sides for label in evidence.labels)
     return bool(evidence.labels) and known and tuple(found) == told and differ
-
-
-def _seen(model: AnyModel) -> Seen:
-    pairs = model.degrees if isinstance(model, MatrixModel) else (model.degrees,)
-    degrees = tuple(d for pair in pairs for d in pair)
-    return Seen(model.parameters, degrees, partial(_samples, model))
-
-
-def _samples(model: AnyModel, representation: Representation, count: int) -> tuple[Sample, ...]:
-    if isinstance(model, MatrixModel):
-        return tuple(matrix_samples(model, representation, count, POINTS, "verify"))
-    return tuple(samples(model, representation, count, POINTS, "verify"))

@@ -4,7 +4,8 @@ all, for any number of inputs and outputs.
 
 from dataclasses import replace
 
-from disting.general.any_model import map_of, samples_of
+from disting.general.any_model import map_of
+from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.model.question import Question
 from disting.model.settings import Settings
@@ -25,9 +26,10 @@ def parameter_identifiability(model: AnyModel, settings: Settings) -> ParameterI
     >>> parameter_identifiability(model, Settings()).sentence
     '3 parameters, all globally identifiable.'
     """
-    seen, size = samples_of(model, settings)
     own = tuple(f"p{i + 1}" for i in range(len(model.parameters)))
-    found = by_parameter(own, local(own, seen, size), map_of(model), settings)
+    known = local(GeneralModel(model), settings)
+    names = tuple(own[model.parameters.index(name)] for name in known.names)
+    found = by_parameter(own, replace(known, names=names), map_of(model), settings)
     return replace(found, levels=dict(zip(model.parameters, found.levels.values(), strict=True)))
 
 

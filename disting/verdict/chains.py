@@ -9,9 +9,10 @@ from functools import cached_property
 from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.content import written
 from disting.algebra.sampling import prime
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import Profile, profile
-from disting.behaviour.sample import Representation, sample
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
@@ -53,7 +54,7 @@ from disting.questions.same.real_and_positive import (
 from disting.verdict.compared import Ask
 
 EXACTLY = Question("exact decisions", exact_finding, finding_to_json, finding_from_json)
-Profiles = Callable[[Structure, Representation, int, Settings], Profile]
+Profiles = Callable[[ChainModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedChain", "ComparedChain"]
 
 
@@ -121,9 +122,9 @@ class ComparedChain:
         return self.name, written(self.chain)
 
     @property
-    def profiled(self) -> Structure:
+    def profiled(self) -> ChainModel:
         """The canonical structure."""
-        return self.canonical.chain.structure
+        return ChainModel(self.canonical.chain.structure)
 
     @property
     def rank(self) -> int:
@@ -142,8 +143,7 @@ class ComparedChain:
 
     def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
         """Values and Jacobian columns of the transfer-function coefficients."""
-        seen = sample(self.chain.structure, Representation.TF, 0, point, prime("renaming"))
-        return seen.values, list(zip(*seen.rows, strict=True))
+        return ChainModel(self.chain.structure).columns(point, prime("renaming"))
 
     def symmetry_with(self, other: "ComparedChain") -> Renaming | None:
         """Left to the common canonical form, then back to the right model."""

@@ -11,18 +11,14 @@ from disting.conditions.finding import Finding
 from disting.conditions.side import Side
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding
-from disting.experiments import MeasuredChain
-from disting.general import AnyModel
 from disting.model.chain import Premise
 from disting.model.domain import Domain
+from disting.model.protocol import Model
 from disting.model.question import Models, Question
-from disting.model.structure import Structure
 from disting.questions.inclusion import Inclusions
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""
-Profiled = Structure | AnyModel | MeasuredChain
-"""What profiles are computed of."""
 
 
 class Compared(Side, Protocol):
@@ -45,7 +41,7 @@ class Compared(Side, Protocol):
         """All that its verdicts depend on, as text."""
 
     @property
-    def profiled(self) -> Profiled:
+    def profiled(self) -> Model:
         """What its profiles are computed of; models that share it share their profiles."""
 
     def exact(self, other: Self) -> Finding:

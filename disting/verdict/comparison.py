@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from disting.errors import InputError, of_type, shown
 from disting.experiments import Experiment, MeasuredChain
-from disting.general import AnyModel, MatrixModel, Model, as_chain
+from disting.general import AnyModel, Model, as_chain
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named, name_of
 from disting.verdict.cascade import Step, steps
@@ -212,7 +212,7 @@ def _done(experiment: Experiment) -> str:
 
 def refuse_ports(models: Sequence[AnyModel]) -> None:
     """Raises InputError for models of which not all have the same inputs and outputs."""
-    shapes = {m.shape if isinstance(m, MatrixModel) else (1, 1): m.name for m in models}
+    shapes = {m.shape: m.name for m in models}
     if len(shapes) > 1:
         told = [f"{name} has {p} x {m}" for (p, m), name in list(shapes.items())[:2]]
         raise InputError(

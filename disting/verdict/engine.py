@@ -17,14 +17,12 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from disting.algebra.content import written
-from disting.behaviour.profile import Profile, profile
-from disting.behaviour.profile_json import profile_from_json, profile_to_json
+from disting.behaviour.profile import Profile, profile, profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.experiments import ComparedMachine, MeasuredChain
-from disting.experiments.stacked_profiles import profile as measured_profile
-from disting.general import AnyModel, ComparedModel, MatrixModel, Model
-from disting.general.any_model import profile_of as general_profile
+from disting.general import AnyModel, ComparedModel
 from disting.model.chain import Chain
+from disting.model.protocol import Model
 from disting.model.question import Models, Question
 from disting.model.settings import Settings
 from disting.model.shown import summary
@@ -34,7 +32,7 @@ from disting.store.code import digest
 from disting.store.store import Store
 from disting.verdict.cascade import audit, decide
 from disting.verdict.chains import ComparedChain
-from disting.verdict.compared import Compared, Profiled
+from disting.verdict.compared import Compared
 from disting.verdict.deciding import decisions
 from disting.verdict.decisions import Decisions, Part
 from disting.verdict.query import Query
@@ -90,14 +88,14 @@ class Engine:
         return ComparedMachine(name, measured, self.settings, self.profile, self.answer)
 
     def profile(
-        self, what: Profiled, representation: Representation, count: int, settings: Settings
+        self, what: Model, representation: Representation, count: int, settings: Settings
     ) -> Profile:
         """The profile, from memory, from the store, or computed and stored."""
         key = profile_key(what, representation, count, settings)
         if key not in self.memo:
             texts = self.store.get_many([key])
             if key not in texts:
-                made = profile_of(what, representation, count, settings)
+                made = profile(what, representation, count, settings)
                 texts = {key: profile_to_json(made)}
                 self.store.put_many(texts)
             self.memo[key] = profile_from_json(texts[key])
@@ -177,7 +175,7 @@ class Engine:
         """
         r = Representation.MARKOV if markov else Representation.TF
         subjects = [self.subject("", chain) for chain in chains]
-        profiled: set[Profiled] = {s.profiled for s in subjects}
+        profiled: set[Model] = {s.profiled for s in subjects}
         self.prefetch(profiled, r, markov, executor, progress)
         return [s.profile(r, markov) for s in subjects]
 
@@ -203,7 +201,7 @@ class Engine:
 
     def prefetch(
         self,
-        what: set[Profiled],
+        what: set[Model],
         r: Representation,
         count: int,
         executor: Executor | None,
@@ -254,7 +252,7 @@ class Engine:
         return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
 
 
-def profile_key(what: Profiled, r: Representation, count: int, settings: Settings) -> str:
+def profile_key(what: Model, r: Representation, count: int, settings: Settings) -> str:
     """Content address of a profile."""
     return _key("profile", written(what), r.value, str(count), written(settings))
 
@@ -264,20 +262,11 @@ def question_key(question: Question[Any], models: Models, settings: Settings) ->
     return _key(question.name, *map(written, models), written(settings))
 
 
-def profile_of(what: Profiled, r: Representation, count: int, settings: Settings) -> Profile:
-    """The profile of a chain's structure, of a general model or of a chain under experiments."""
-    if isinstance(what, Model | MatrixModel):
-        return general_profile(what, r, count, settings)
-    if isinstance(what, MeasuredChain):
-        return measured_profile(what, r, count, settings)
-    return profile(what, r, count, settings)
-
-
 def compute(
-    batch: Sequence[Profiled], r: Representation, count: int, settings: Settings
-) -> list[tuple[Profiled, str]]:
+    batch: Sequence[Model], r: Representation, count: int, settings: Settings
+) -> list[tuple[Model, str]]:
     """A task for a worker: profiles as JSON text."""
-    return [(what, profile_to_json(profile_of(what, r, count, settings))) for what in batch]
+    return [(what, profile_to_json(profile(what, r, count, settings))) for what in batch]
 
 
 def compute_answer(question: Question[Any], models: Models, settings: Settings) -> str:

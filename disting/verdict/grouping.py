@@ -35,11 +35,11 @@ from disting.conditions.sufficient import condition_6
 from disting.conditions.table import NECESSARY, Necessary
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
+from disting.model.protocol import Model
 from disting.model.question import Question
 from disting.questions.same.limited import INVERSELY, QUICKLY
 from disting.verdict.chains import ComparedChain
 from disting.verdict.classes import Classes, without_dampers
-from disting.verdict.compared import Profiled
 from disting.verdict.engine import Engine, Progress, silent
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
@@ -136,8 +136,8 @@ class _Work:
     ) -> dict[int, Profile]:
         """Profiles of the wanted subjects."""
         chosen = list(wanted)
-        structures: set[Profiled] = {self.subjects[i].chain.structure for i in chosen}
-        self.engine.prefetch(structures, r, count, executor, progress)
+        models: set[Model] = {self.subjects[i].profiled for i in chosen}
+        self.engine.prefetch(models, r, count, executor, progress)
         return {i: self.subjects[i].profile(r, count) for i in chosen}
 
     def split_by(

@@ -57,7 +57,7 @@ def placed(
     """
     work = _Work.of(chains, kind, engine)
     new = [s for s, g in enumerate(work.gains) if g is Gain.NEW]
-    engine.prefetch({work.sides[s].measured for s in new}, Representation.TF, 0, executor, progress)
+    engine.prefetch({work.sides[s].profiled for s in new}, Representation.TF, 0, executor, progress)
     profiles = {s: work.sides[s].profile(Representation.TF, 0) for s in new}
     for column, condition in enumerate(NECESSARY, 1):
         work.fill(column, {s: condition.key(p) for s, p in profiles.items()})

@@ -163,7 +163,7 @@ class _Models:
             return self.left.exact(self.right) if self.left.rank == 0 else None
         if not models_comparable(self.left, self.right):
             return None
-        models = self.left.profiled, self.right.profiled
+        models = self.left.profiled.model, self.right.profiled.model
         found = model_evidence.exact_again(evidence, *models, self.left.settings)
         profiles = (side.profile(Representation.TF, 0) for side in (self.left, self.right))
         return None if found is None else resting_on_ranks(found, *profiles)

@@ -14,11 +14,17 @@ from disting import Chain, Engine, Family, Settings
 from disting.algebra.matroid import rank_in
 from disting.algebra.sampling import Size, prime, safety
 from disting.algebra.symbols import coefficients
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import expanded
 from disting.behaviour.powers import degrees, is_sign_free
-from disting.behaviour.profile import Unsearched, from_samples, minor_size, profile, samples
-from disting.behaviour.profile_json import profile_from_json, profile_to_json
-from disting.behaviour.sample import Representation, drawn
+from disting.behaviour.profile import (
+    Unsearched,
+    from_samples,
+    profile,
+    profile_from_json,
+    profile_to_json,
+)
+from disting.behaviour.sample import Representation, drawn, samples
 from tests.conditions.handmade import LARGE, SMALL, sample
 from tests.laws.strategies import chains
 from tests.oracles import sympy_twin as twin
@@ -30,7 +36,7 @@ quick = settings(max_examples=25, deadline=None)
 
 
 def of(chain, representation=TF, count=0, chosen=None):
-    return profile(chain.structure, representation, count, chosen or Settings())
+    return profile(ChainModel(chain.structure), representation, count, chosen or Settings())
 
 
 def written(structure):
@@ -113,7 +119,7 @@ def test_zeros_are_known_exactly_where_terms_may_cancel():
     whole = Chain(4, 1, 1, 3, 1, 3, damped=False).structure.united(
         Chain(4, 2, 1, 3, 1, 3, damped=False).structure
     )
-    found, table = profile(whole, TF, 0, Settings()), written(whole)
+    found, table = profile(ChainModel(whole), TF, 0, Settings()), written(whole)
     assert not is_sign_free(whole)
     assert (
         found.proven_zeros
@@ -162,7 +168,7 @@ def test_statements_share_the_error_bound():
     assert len(without.labels) == 13
     claims = len(list(with_matroid.matroid.dependences()))
     assert claims == 18
-    alone = safety(minor_size(chain.structure, TF, 0), 3)
+    alone = safety(ChainModel(chain.structure).minor_size(None), 3)
     assert (without.safety, with_matroid.safety) == (alone - 4, alone - ceil(log2(claims + 14)))
 
 
@@ -181,17 +187,17 @@ def test_minor_size_grows_with_all_that_it_should():
     small, large, lagged = (
         Chain(n, damped=True, lag=lag).structure for n, lag in ((2, False), (3, False), (2, True))
     )
-    base = minor_size(small, TF, 0)
+    base = ChainModel(small).minor_size(None)
     for other in (
-        minor_size(large, TF, 0),
-        minor_size(lagged, TF, 0),
-        minor_size(small, MARKOV, 8),
+        ChainModel(large).minor_size(None),
+        ChainModel(lagged).minor_size(None),
+        ChainModel(small).minor_size(8),
     ):
         assert other.degree > base.degree
         assert other.bits > base.bits
-    assert minor_size(small, MARKOV, 9).degree > minor_size(small, MARKOV, 8).degree
+    assert ChainModel(small).minor_size(9).degree > ChainModel(small).minor_size(8).degree
     assert base == Size(4 * 2 * 3, 4 * (2 * 11 + 3 + 1 + 3))
-    assert minor_size(small, MARKOV, 8) == Size(4 * 10 * 3, 4 * (10 * 11 + 5 + 1 + 3))
+    assert ChainModel(small).minor_size(8) == Size(4 * 10 * 3, 4 * (10 * 11 + 5 + 1 + 3))
 
 
 def test_one_special_point_among_others_does_no_harm():
@@ -247,7 +253,8 @@ def test_the_search_of_every_chain_with_dampers_ends():
     """The first search point of this one, among thousands, is special."""
     chain = Chain(5, 2, 2, 4, 2, 4, damped=True, ground_dampers=(1,))
     assert not isinstance(
-        profile(chain.structure, Representation.MARKOV, 20, Settings()).matroid, Unsearched
+        profile(ChainModel(chain.structure), Representation.MARKOV, 20, Settings()).matroid,
+        Unsearched,
     )
 
 
@@ -260,12 +267,12 @@ def test_constants_are_fractions_whatever_the_primes():
 
 def test_points_and_primes_are_independent_of_each_other():
     structure = Family(3, damped=False)[1].structure
-    seen = list(samples(structure, TF, 0, 4, "seed"))
+    seen = list(samples(ChainModel(structure), TF, 0, 4, "seed"))
     assert len({s.modulus for s in seen}) == 4
     assert len({s.values for s in seen}) == 4
     assert all(s.modulus.bit_length() == 61 for s in seen)
-    assert list(samples(structure, TF, 0, 2, "seed")) == seen[:2]
-    assert next(samples(structure, TF, 0, 1, "other")) != seen[0]
+    assert list(samples(ChainModel(structure), TF, 0, 2, "seed")) == seen[:2]
+    assert next(samples(ChainModel(structure), TF, 0, 1, "other")) != seen[0]
 
 
 # --- summaries that are exhaustive, limits, JSON
@@ -327,5 +334,5 @@ def test_degrees_do_not_depend_on_the_luck_of_a_point(chain, seed):
         for letter in "ba"
     )
     assert degrees(chain.structure) == expected
-    where = drawn(chain.structure, f"small:{seed}", 9)
-    assert (where.quotient.num.degree(), where.quotient.den.degree()) == expected
+    where = drawn(ChainModel(chain.structure), f"small:{seed}", 9)
+    assert (where.quotients[0].num.degree(), where.quotients[0].den.degree()) == expected

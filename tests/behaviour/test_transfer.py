@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from disting import Chain, Family, Sensor
 from disting.algebra.sampling import residues
 from disting.algebra.symbols import coefficients
+from disting.behaviour.chain_model import ChainModel, quotient
 from disting.behaviour.expanded import expanded
-from disting.behaviour.sample import Representation, quotient, sample
+from disting.behaviour.sample import Representation, at_point, seen_at
 from tests.laws.strategies import chains
 from tests.oracles import sympy_twin as twin
 
@@ -28,7 +29,7 @@ def point(chain):
 
 
 def seen(chain, representation=Representation.TF, count=0):
-    return sample(chain.structure, representation, count, point(chain), P)
+    return seen_at(at_point(ChainModel(chain.structure), point(chain), P), representation, count)
 
 
 def value(polynomial, numbers):
@@ -126,7 +127,7 @@ def test_a_chain_without_gap_is_the_oracle_s(damped):
     )
     plain.parameters = whole.parameters
     numbers = residues("whole", len(whole.parameters), P)
-    found = sample(whole, Representation.TF, 0, numbers, P)
+    found = seen_at(at_point(ChainModel(whole), numbers, P), Representation.TF, 0)
     entries = twin.summary(plain).entries
     named = dict(zip(whole.parameters, numbers, strict=True))
     assert list(found.values) == twin.values(entries, named)
@@ -250,8 +251,8 @@ def test_a_dead_time_is_one_more_invariant():
     plain, delayed = (Chain(2, damped=True, dead_time=on) for on in (False, True))
     numbers = point(delayed)
     for representation, count in ((Representation.TF, 0), (Representation.MARKOV, 3)):
-        one = sample(plain.structure, representation, count, numbers[:-1], P)
-        other = sample(delayed.structure, representation, count, numbers, P)
+        one = seen_at(at_point(ChainModel(plain.structure), numbers[:-1], P), representation, count)
+        other = seen_at(at_point(ChainModel(delayed.structure), numbers, P), representation, count)
         assert other.labels == (*one.labels, "Td")
         assert other.values == (*one.values, numbers[-1])
         assert other.rows == (*((*row, 0) for row in one.rows), (0, 0, 0, 0, 1))
@@ -309,8 +310,12 @@ def test_other_sensors_shift_the_markov_parameters(n_masses, sensor, shift):
     """Section 5.2: "shifted by one (two)"."""
     chain = Chain(n_masses, meas_plus=n_masses, damped=True)
     other = Chain(n_masses, meas_plus=n_masses, damped=True, sensor=sensor)
-    long = sample(other.structure, Representation.MARKOV, 10, point(chain), P)
-    short = sample(chain.structure, Representation.MARKOV, 10 - shift, point(chain), P)
+    long = seen_at(
+        at_point(ChainModel(other.structure), point(chain), P), Representation.MARKOV, 10
+    )
+    short = seen_at(
+        at_point(ChainModel(chain.structure), point(chain), P), Representation.MARKOV, 10 - shift
+    )
     assert long.values == (0,) * shift + short.values
     assert long.rows[shift:] == short.rows
 

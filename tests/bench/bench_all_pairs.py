@@ -9,8 +9,8 @@ import pytest
 
 from disting import Chain, Engine, Family
 from disting.algebra.sampling import residues
-from disting.behaviour.profile import samples
-from disting.behaviour.sample import Representation
+from disting.behaviour.chain_model import ChainModel
+from disting.behaviour.sample import Representation, samples
 from disting.model.symmetry import canonical
 from tests.bench.measure import in_fresh_process, seconds, table
 
@@ -47,7 +47,7 @@ def listing(n: int, damped: bool) -> float:
 
 def _each(chain: Chain, rows: list[int], rank: int) -> float:
     """Mean seconds for the rank of one set of rows."""
-    seen = next(samples(chain.structure, Representation.TF, 0, 1, "bench"))
+    seen = next(samples(ChainModel(chain.structure), Representation.TF, 0, 1, "bench"))
     chosen = [tuple(rows[j] for j in _some(len(rows), rank, k)) for k in range(300)]
     return seconds(lambda: [seen.rank(s) for s in chosen]) / 300
 

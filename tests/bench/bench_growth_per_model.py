@@ -8,7 +8,8 @@ import pytest
 
 from disting import Chain
 from disting.algebra.sampling import prime, residues
-from disting.behaviour.sample import Representation, sample
+from disting.behaviour.chain_model import ChainModel
+from disting.behaviour.sample import Representation, at_point, seen_at
 from tests.bench.measure import seconds, table
 
 pytestmark = pytest.mark.bench
@@ -24,10 +25,10 @@ def chains(n: int) -> list[Chain]:
 
 
 def milliseconds(chain: Chain) -> float:
-    structure = chain.structure
+    model = ChainModel(chain.structure)
     point = residues(str(chain), len(chain.parameters), PRIME)
     return 1e3 * seconds(
-        lambda: sample(structure, Representation.TF, 0, point, PRIME).jacobian.rank()
+        lambda: seen_at(at_point(model, point, PRIME), Representation.TF, 0).jacobian.rank()
     )
 
 

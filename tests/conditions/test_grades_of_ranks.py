@@ -8,12 +8,13 @@ import pytest
 
 from disting import Chain, Engine, Family, Outcome, Query, View, compare
 from disting.algebra.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
+from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
 from disting.conditions.rule import EXACT
 from disting.general import Model
-from disting.general.exact import exact_finding
-from disting.general.profiles import profile
+from disting.general.any_model import same
+from disting.general.behaviour import GeneralModel
 from disting.model.settings import Settings
 from disting.questions.same.exact import by_synthesis, resting_on_ranks
 from disting.verdict import family_safety, joint_in_words
@@ -50,10 +51,12 @@ def test_equal_closures_of_general_models_count_the_rank_that_is_not_proven():
     """
     left = Model.from_transfer_function(["a*b"], ["1", "a*b", "(a*b)**2"], name="two")
     right = Model.from_transfer_function(["c"], ["1", "c", "c**2"], name="one")
-    seen, proven = (profile(m, Representation.TF, 0, Settings()) for m in (left, right))
+    seen, proven = (
+        profile(GeneralModel(m), Representation.TF, 0, Settings()) for m in (left, right)
+    )
     assert proven.rank_proven and not seen.rank_proven
     fibre, found = (
-        exact_finding(left, right, "disting"),
+        same(left, right, Settings()),
         compare(left, right, query=Query(View.EXACT)),
     )
     assert found.decided_by == "exact" and found.safety >= LEAST_SAFETY

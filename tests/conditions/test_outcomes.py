@@ -19,6 +19,7 @@ from disting import (
     View,
     compare,
 )
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import Unsearched, profile
 from disting.behaviour.sample import Representation
 from disting.conditions import sufficient
@@ -430,7 +431,8 @@ def test_the_bounds_of_8_and_9_cover_all_profiles():
     one, other, both = subjects(*(ground(*masses, chain=chain) for masses in ((2,), (3,), (2, 3))))
     whole = both.chain.structure
     largest, third = (
-        profile(whole, Representation.TF, 0, Settings(subset_limit=n)).safety for n in (10**6, 0)
+        profile(ChainModel(whole), Representation.TF, 0, Settings(subset_limit=n)).safety
+        for n in (10**6, 0)
     )
     assert max(largest, third) < one.profile(Representation.TF, 0).safety
     for finding, weakest in (

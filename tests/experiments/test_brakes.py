@@ -8,9 +8,9 @@ import pytest
 
 from disting import Experiment, Family, Query, View, compare, compare_everywhere
 from disting.experiments import MeasuredChain
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import _by_mass
 from disting.experiments.same_rows import same_by_rows
-from disting.experiments.stacked_profiles import minor_size
 from disting.model.kinds import BRAKE, INERTIA, KINDS
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Standing, verify
@@ -123,7 +123,7 @@ def test_what_is_added_to_one_mass_counts_in_the_bound():
         {"inertias": {1: 1}, "springs": {1: 1}, "brakes": {1: 1}},
     ]
     measured = [MeasuredChain(A[1], (Experiment(**given),)) for given in sizes]
-    two, apart, three = (minor_size(m, "tf", 0).bits for m in measured)
+    two, apart, three = (MachineModel(m).minor_size(None).bits for m in measured)
     assert two == apart < three
 
 

@@ -8,10 +8,11 @@ import pytest
 from sympy import Rational
 
 from disting import Chain, Engine, Experiment, Family, InputError, Level, Store, identifiability
+from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.experiments import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE, identifiability_under
-from disting.experiments.stacked_profiles import profile
+from disting.experiments.machine_model import MachineModel
 from disting.model.kinds import KINDS
 from disting.model.settings import Settings
 from tests.experiments.plain_stack import determined, has_other
@@ -148,7 +149,7 @@ def test_it_agrees_with_the_profile_that_verdicts_rest_on():
     for chain in list(Family(3, damped=False))[:4]:
         measured = MeasuredChain(chain, (Experiment(), Experiment(locked=3)))
         found = identifiability_under(measured, Settings())
-        assert found.rank == profile(measured, Representation.TF, 0, Settings()).rank
+        assert found.rank == profile(MachineModel(measured), Representation.TF, 0, Settings()).rank
 
 
 def test_it_is_kept_and_read_back(tmp_path):

@@ -9,12 +9,13 @@ import pytest
 from sympy import Rational, Symbol
 
 from disting import Chain, Engine, Experiment, Family, Inclusion, Query, View, compare, findings
+from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.evidence.conditions import Counts
 from disting.experiments import MeasuredChain, confirms
 from disting.experiments.inclusion import inclusions_under, numbering
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.measured_evidence import confirms_inclusion
-from disting.experiments.stacked_profiles import profile
 from disting.model.settings import Settings
 from tests.experiments.plain_stack import determined, transfer
 
@@ -38,7 +39,7 @@ def measured(chain, used=TWO):
 
 
 def profile_of(of):
-    return profile(of, Representation.TF, 0, Settings(subset_limit=0))
+    return profile(MachineModel(of), Representation.TF, 0, Settings(subset_limit=0))
 
 
 def goes_over(part, whole, used):

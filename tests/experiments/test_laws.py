@@ -8,9 +8,11 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from disting import Chain, Engine, Experiment, Family, Model, Query, View, compare
+from disting.behaviour.chain_model import ChainModel
+from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.experiments import MeasuredChain
-from disting.experiments.stacked_profiles import profile
+from disting.experiments.machine_model import MachineModel
 from disting.model.settings import Settings
 from tests.experiments.plain_stack import S, has_equivalent, keywords, transfer
 from tests.laws.strategies import chains
@@ -89,11 +91,11 @@ def test_a_single_experiment_is_the_verdict_of_today(data):
 @few
 @given(chains(2, 4))
 def test_a_single_experiment_has_the_profile_of_the_chain(chain):
-    from disting.behaviour.profile import profile as of_structure
-
     for r, count in ((Representation.TF, 0), (Representation.MARKOV, 6)):
-        plain = of_structure(chain.structure, r, count, Settings())
-        numbered = profile(MeasuredChain(chain, (Experiment(),)), r, count, Settings())
+        plain = profile(ChainModel(chain.structure), r, count, Settings())
+        numbered = profile(
+            MachineModel(MeasuredChain(chain, (Experiment(),))), r, count, Settings()
+        )
         labels = tuple(x.removesuffix("[1]") for x in numbered.labels)
         zeros = frozenset(x.removesuffix("[1]") for x in numbered.proven_zeros)
         stacked = replace(numbered, labels=labels, proven_zeros=zeros)
@@ -120,10 +122,10 @@ def test_a_locked_mass_cuts_the_chain(n, damped, data):
     force, sensor = (data.draw(st.integers(2, n)) for _ in range(2))
     chain = Chain(n, damped=damped, sensor="position")
     locked = MeasuredChain(chain, (Experiment(force=force, sensor=sensor, locked=1),))
-    found = profile(locked, Representation.TF, 0, Settings())
+    found = profile(MachineModel(locked), Representation.TF, 0, Settings())
     hung = Chain(n, n - 1, n - 1, n, n - 1, n, damped=damped, sensor="position")
     ports = Experiment(force=force - 1, sensor=sensor - 1)
-    plain = profile(MeasuredChain(hung, (ports,)), Representation.TF, 0, Settings())
+    plain = profile(MachineModel(MeasuredChain(hung, (ports,))), Representation.TF, 0, Settings())
     assert (found.degrees, found.form, found.rank) == (plain.degrees, plain.form, plain.rank)
 
 

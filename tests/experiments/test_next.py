@@ -9,12 +9,13 @@ import pytest
 from sympy import Rational
 
 from disting import Experiment, Family, Query, View, compare
+from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.catalogs.next_files import next_catalog
 from disting.cli.run import main
 from disting.errors import InputError
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.menu import Costs, Gain, Item, gain, measured
-from disting.experiments.stacked_profiles import profile
 from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.model.names import chain_of
 from disting.verdict import Engine, Relation
@@ -102,12 +103,14 @@ def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
     determinable parameters.
     """
     chain, settings = Family(3, damped)[number], Engine().settings
-    as_it_is = profile(measured(chain), Representation.TF, 0, settings).rank
+    as_it_is = profile(MachineModel(measured(chain)), Representation.TF, 0, settings).rank
     for kind, at in product(KINDS, (1, 2, 3)):
         known = gain(chain, Item(kind, at))
         assert known is not None
         if known is not Gain.NEW:
-            more = profile(measured(chain, Item(kind, at)), Representation.TF, 0, settings)
+            more = profile(
+                MachineModel(measured(chain, Item(kind, at))), Representation.TF, 0, settings
+            )
             assert more.rank == as_it_is
 
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting.errors import InputError
-from disting.experiments.stacked_profiles import rank_by
+from disting.experiments.machine_model import rank_by
 from disting.fit.alternatives import representatives
 from disting.fit.cost import Case, Cost, lines_by_deviation
 from disting.fit.descent import fine

@@ -25,6 +25,7 @@ from disting import (
     read_models,
     write_models,
 )
+from disting.general.behaviour import GeneralModel
 from tests.cli.process import called
 from tests.general.plain_matrices import determined, has_other, names_of, system
 
@@ -214,9 +215,22 @@ def test_an_entry_that_is_zero_is_part_of_the_form():
         MatrixModel.from_transfer_functions([["1/(s+a)", corner], ["b/(s+a)", "1/(s+b)"]])
         for corner in ("c/(s+a)", 0)
     )
-    assert triangular.degrees[1] == (-1, 0) and str(triangular).count("[[1/(a + s), 0]") == 1
+    assert GeneralModel(triangular).degrees[1] == (-1, 0)
+    assert str(triangular).count("[[1/(a + s), 0]") == 1
     assert compare(full, triangular, query=EXACT).relation.value == "distinguishable"
     assert identifiability(triangular).level is G
+
+
+def test_a_matrix_of_one_entry_is_that_transfer_function():
+    one = Model.from_transfer_function("a*b", "s + a*b", name="one")
+    same, other = (
+        MatrixModel.from_transfer_functions([[text]], name="matrix")
+        for text in ("c/(s + c)", "c/(s + 1)")
+    )
+    for pair in ((one, same), (same, one), (same, same)):
+        assert compare(*pair, query=EXACT).relation.value == "indistinguishable"
+        assert compare(*pair).relation.value == "indistinguishable"
+    assert compare(one, other).relation.value == "distinguishable"
 
 
 def test_transposed_twins():

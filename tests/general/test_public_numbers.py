@@ -8,12 +8,12 @@ import pytest
 
 from disting import Relation, compare
 from disting.algebra.sampling import prime
-from disting.behaviour.sample import Representation
+from disting.behaviour.profile import profile
+from disting.behaviour.sample import Representation, drawn, samples
 from disting.fibres.ideals import decide
 from disting.general import Model, local_identifiability
-from disting.general.exact import coefficient_map
-from disting.general.profiles import profile
-from disting.general.samples import drawn, samples
+from disting.general.any_model import coefficient_map
+from disting.general.behaviour import GeneralModel
 from disting.model.settings import Settings
 
 OTHER = Model.from_transfer_function(["c"], ["1", "0"], name="integrator")
@@ -27,13 +27,13 @@ def first_order(factor):
 
 def moduli(model):
     """Every prime that the model is looked at with."""
-    kept = [s.modulus for s in samples(model, Representation.TF, 0, 3, "disting")]
-    return {*kept, drawn(model, Representation.TF, 0, "disting:search", 31).modulus}
+    kept = [s.modulus for s in samples(GeneralModel(model), Representation.TF, 0, 3, "disting")]
+    return {*kept, drawn(GeneralModel(model), "disting:search", 31).modulus}
 
 
 def test_a_model_of_the_primes_of_the_seed_alone():
     model = first_order(prod(prime(f"disting:{k}") for k in range(3)))
-    assert profile(model, Representation.TF, 0, Settings()).rank == 2
+    assert profile(GeneralModel(model), Representation.TF, 0, Settings()).rank == 2
     assert local_identifiability(model).rank == 2
     assert (
         compare(model, OTHER).relation is compare(OTHER, model).relation is Relation.DISTINGUISHABLE
@@ -69,6 +69,6 @@ def test_primes_of_the_ideals_belong_to_both_models():
 def test_points_are_reproducible(seed):
     model = Model.from_transfer_function(["a"], ["1", "b"], name="one")
     same = Model.from_transfer_function(["a"], ["1", "b"], name="two")
-    assert list(samples(model, Representation.TF, 0, 3, seed)) == list(
-        samples(same, Representation.TF, 0, 3, seed)
+    assert list(samples(GeneralModel(model), Representation.TF, 0, 3, seed)) == list(
+        samples(GeneralModel(same), Representation.TF, 0, 3, seed)
     )

@@ -20,13 +20,14 @@ from disting import (
     findings,
 )
 from disting import compare as compare_chains
+from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.evidence.conditions import Renaming
 from disting.general import ComparedModel, Model, local_identifiability
-from disting.general.profiles import profile, proven_constants
-from disting.general.renaming import is_renaming
+from disting.general.any_model import is_renamed
+from disting.general.behaviour import GeneralModel
 from disting.model.settings import Settings
 
 COMPLEX = Query(View.EXACT)  # the paper's domain
@@ -124,8 +125,8 @@ def test_parallel_paths_are_found_by_an_explicit_renaming():
 def test_renaming_with_the_opposite_sign_of_all_coefficients():
     one = Model.from_transfer_function("a", "(a - b)*s + c")
     other = Model.from_transfer_function("z", "(z - y)*s + x")
-    assert is_renaming(one, other, {"a": "z", "b": "y", "c": "x"})
-    assert not is_renaming(one, other, {"a": "z", "b": "x", "c": "y"})
+    assert is_renamed(one, other, {"a": "z", "b": "y", "c": "x"})
+    assert not is_renamed(one, other, {"a": "z", "b": "x", "c": "y"})
     assert compare(one, other, query=COMPLEX).decided_by == "6"
 
 
@@ -148,14 +149,10 @@ def test_a_curve_that_is_not_the_other_curve():
 
 def test_constants_are_proven_exactly():
     model = Model.from_transfer_function("m*s**2 + k", "2*m*s**2 + 6*k")
-    assert proven_constants(model, Representation.TF, 0) == {
-        "b1": 0,
-        "b2": sp.Rational(1, 2),
-        "a1": 0,
-    }
-    markov = proven_constants(model, Representation.MARKOV, 5)
-    assert markov == {"G0": sp.Rational(1, 2), "G1": 0, "G3": 0, "G5": 0}
-    seen = profile(model, Representation.MARKOV, 5, Settings())
+    assert GeneralModel(model).constants(None) == {"b1": "0", "b2": "1/2", "a1": "0"}
+    markov = GeneralModel(model).constants(5)
+    assert markov == {"G0": "1/2", "G1": "0", "G3": "0", "G5": "0"}
+    seen = profile(GeneralModel(model), Representation.MARKOV, 5, Settings())
     assert seen.form == {"G2", "G4"} and seen.rank == 1
 
 

@@ -8,6 +8,7 @@ import sympy
 from disting import Certainty, Engine, Family, Query, View, compare
 from disting.algebra.fractionfree import OutOfTimeError, rank
 from disting.algebra.symbols import symbols
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.behaviour.symbolic import rank_is_at_most
@@ -52,7 +53,7 @@ def test_rank_of_nothing_and_out_of_time():
 @pytest.mark.parametrize(("n", "damped"), [(2, True), (3, False), (3, True), (4, False)])
 def test_proven_ranks_are_the_sampled_ones(n, damped):
     for chain in Family(n, damped):
-        found = profile(chain.structure, Representation.TF, 0, Settings()).rank
+        found = profile(ChainModel(chain.structure), Representation.TF, 0, Settings()).rank
         assert rank_is_at_most(chain.structure, (), found, 20.0)
         assert not rank_is_at_most(chain.structure, (), found - 1, 20.0)
 
@@ -63,7 +64,7 @@ def test_proven_ranks_are_the_sampled_ones(n, damped):
 def test_markov_ranks_are_proven_too(model):
     structure = Family(3, damped=True)[model].structure
     labels = tuple(f"G{k}" for k in range(1, 13))
-    seen = profile(structure, Representation.MARKOV, 12, Settings())
+    seen = profile(ChainModel(structure), Representation.MARKOV, 12, Settings())
     positions = tuple(i for i, label in enumerate(seen.labels) if label != "G0")
     assert len(positions) == 12
     for count in (3, 12):

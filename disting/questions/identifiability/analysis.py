@@ -24,9 +24,8 @@ from flint import acb, fmpq
 
 from disting.algebra.certainty import Certainty, Grade
 from disting.algebra.sampling import enough
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import expanded
-from disting.behaviour.profile import minor_size
-from disting.behaviour.sample import Representation
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.result import Answer, Status
 from disting.model.chain import Chain, Sensor
@@ -108,7 +107,7 @@ def as_given(found: Identifiability, form: Form, chain: Chain) -> Identifiabilit
 
 def _canonically(chain: Chain, settings: Settings) -> Identifiability:
     structure = chain.structure
-    points = enough(minor_size(structure, Representation.TF, 0), settings.points)
+    points = enough(ChainModel(structure).minor_size(None), settings.points)
     proof = proof_tangents(structure, settings.seed, points)
     rank = max(t.rank for t in proof)
     seen = basis(structure, proof, rank, settings.seed)

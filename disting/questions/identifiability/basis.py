@@ -12,8 +12,7 @@ from math import ceil, log2
 
 from disting.algebra.quotient import matrix
 from disting.algebra.sampling import Size, safety
-from disting.behaviour.profile import minor_size
-from disting.behaviour.sample import Representation
+from disting.behaviour.chain_model import ChainModel
 from disting.model.structure import Structure
 from disting.questions.identifiability.functions import Candidate, Candidates
 from disting.questions.identifiability.tangent import Tangent
@@ -61,7 +60,7 @@ def _safety(structure: Structure, tested: Sequence[Candidate], points: int) -> i
     """Bound for all tests and the rank: one more row in the largest minor, and as many
     statements as tests.
     """
-    minor, sizes = minor_size(structure, Representation.TF, 0), [c.formula.size for c in tested]
+    minor, sizes = ChainModel(structure).minor_size(None), [c.formula.size for c in tested]
     rows = len(structure.parameters) + 1
     bits = minor.bits + max(s.bits for s in sizes) + ceil(log2(rows))
     return safety(Size(minor.degree + max(s.degree for s in sizes), bits), points) - ceil(

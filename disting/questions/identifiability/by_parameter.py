@@ -14,9 +14,10 @@ from math import ceil, log2
 from typing import Any
 
 from disting.algebra.certainty import Certainty, graded, joint_safety
-from disting.algebra.sampling import Size, safety
-from disting.behaviour.sample import Sample
+from disting.algebra.sampling import enough, safety
+from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
+from disting.model.protocol import Model
 from disting.model.settings import Settings
 from disting.model.shown import summary
 from disting.questions.identifiability.parts import Level
@@ -131,8 +132,11 @@ class Local:
     safety: int
 
 
-def local(names: Sequence[str], seen: Sequence[Sample], size: Size) -> Local:
-    """What samples at independent points tell; `size` bounds the minors of the Jacobian."""
+def local(model: Model, settings: Settings) -> Local:
+    """What the coefficients tell at as many independent points as a bound needs."""
+    names, size = model.parameters, model.minor_size(None)
+    points = enough(size, settings.points)
+    seen = list(samples(model, Representation.TF, 0, points, settings.seed))
     rank, columns = identifiable_columns(seen)
     bits = safety(size, len(seen)) - len(seen) - ceil(log2(len(names) + 1))
     _, left = graded(rank == len(names), bits)

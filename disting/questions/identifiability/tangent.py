@@ -19,8 +19,9 @@ from flint import fmpz_mat, nmod_mat
 
 from disting.algebra.quotient import matrix, rational
 from disting.algebra.sampling import about, prime, residues
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.powers import powers
-from disting.behaviour.sample import Drawn, Representation, drawn, quotient, seen_at
+from disting.behaviour.sample import Drawn, Representation, at_point, drawn, seen_at
 from disting.model.structure import Structure
 from disting.questions.identifiability.formula import Formula
 
@@ -60,7 +61,7 @@ def tangent(where: Drawn) -> Tangent:
     """The tangent at a point that was drawn.
 
     >>> from disting.model.chain import Chain
-    >>> found = tangent(drawn(Chain(2, meas_plus=2, damped=False).structure, "doc"))
+    >>> found = tangent(drawn(ChainModel(Chain(2, meas_plus=2, damped=False).structure), "doc"))
     >>> found.rank, len(found.kernel)
     (2, 1)
     """
@@ -68,13 +69,14 @@ def tangent(where: Drawn) -> Tangent:
     kernel, nullity = seen.jacobian.nullspace()
     columns = kernel.transpose().tolist()[: int(nullity)]
     vectors = tuple(tuple(int(x) for x in column) for column in columns)
-    values = dict(zip(where.structure.parameters, where.point, strict=True))
+    values = dict(zip(where.model.parameters, where.point, strict=True))
     return Tangent(values, where.modulus, tuple(filter(any, seen.rows)), vectors)
 
 
 def proof_tangents(structure: Structure, seed: str, points: int) -> tuple[Tangent, ...]:
     """Independent points, each with its own prime: for statements with an error bound."""
-    return tuple(tangent(drawn(structure, f"identifiability:{seed}:{k}")) for k in range(points))
+    model = ChainModel(structure)
+    return tuple(tangent(drawn(model, f"identifiability:{seed}:{k}")) for k in range(points))
 
 
 def search_tangents(structure: Structure, seed: str, count: int) -> Iterator[Tangent]:
@@ -86,7 +88,7 @@ def search_tangents(structure: Structure, seed: str, count: int) -> Iterator[Tan
     points = (
         tuple(residues(f"{label}:{k}", len(structure.parameters), modulus)) for k in range(count)
     )
-    return (tangent(Drawn(structure, p, modulus, quotient(structure, p, modulus))) for p in points)
+    return (tangent(at_point(ChainModel(structure), p, modulus)) for p in points)
 
 
 def combinations(seen: Sequence[Tangent], terms: Sequence[Formula]) -> list[list[int]]:

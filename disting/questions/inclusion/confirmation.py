@@ -3,8 +3,8 @@
 from dataclasses import replace
 from math import comb
 
-from disting.behaviour.profile import samples
-from disting.behaviour.sample import Representation
+from disting.behaviour.chain_model import ChainModel
+from disting.behaviour.sample import Representation, samples
 from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
@@ -133,7 +133,10 @@ def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
     """Ranks of named invariants of both chains at fresh points; None for coefficients if they have
     different numbers of poles.
     """
-    seen = [list(samples(c.structure, Representation.TF, 0, POINTS, "inclusion")) for c in (a, b)]
+    seen = [
+        list(samples(ChainModel(c.structure), Representation.TF, 0, POINTS, "inclusion"))
+        for c in (a, b)
+    ]
     here, there = (
         max(s.rank(tuple(i for i, x in enumerate(s.labels) if x in rows)) for s in each)
         for each in seen
@@ -146,7 +149,10 @@ def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
     """Whether all invariants but the free ones have the same values in both chains at fresh
     points, absent ones zero.
     """
-    seen = [list(samples(c.structure, Representation.TF, 0, POINTS, "inclusion")) for c in (a, b)]
+    seen = [
+        list(samples(ChainModel(c.structure), Representation.TF, 0, POINTS, "inclusion"))
+        for c in (a, b)
+    ]
     values = [[dict(zip(s.labels, s.values, strict=True)) for s in each] for each in seen]
     poles = {sum(x[0] == "a" for x in each[0]) for each in values}
     labels = {*values[0][0], *values[1][0]} - set(free)

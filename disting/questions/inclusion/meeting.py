@@ -23,6 +23,7 @@ equations a_0 = m b_0 and a_1 = m b_1. So one dimension less is needed.
 from dataclasses import dataclass
 from functools import lru_cache
 
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.powers import Powers, powers
 from disting.behaviour.sample import Representation, drawn, seen_at
 from disting.model.row import rows_of
@@ -77,7 +78,7 @@ def most_rank(structure: Structure) -> int:
 
 
 def _rank_at(structure: Structure, label: str) -> int:
-    return int(seen_at(drawn(structure, label), Representation.TF, 0).jacobian.rank())
+    return int(seen_at(drawn(ChainModel(structure), label), Representation.TF, 0).jacobian.rank())
 
 
 def _same_mass(small: Structure, large: Structure) -> bool:

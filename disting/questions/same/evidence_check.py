@@ -5,15 +5,14 @@ profiles, matroids or searches.
 from dataclasses import dataclass, field, replace
 from functools import partial
 
+from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
-from disting.behaviour.profile import samples
-from disting.behaviour.sample import Representation, Sample
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
 from disting.evidence.kind import Kind
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
-from disting.evidence.seen import POINTS, Seen, SeenPair
+from disting.evidence.seen import Seen, SeenPair, seen
 from disting.fibres.ideals import (
     chains_told_apart,
     coefficient_map,
@@ -41,9 +40,7 @@ class Witness:
     """Fresh samples of structures, drawn with a seed of its own and kept for the next question."""
 
     seed: str = "verify"
-    memo: dict[tuple[Structure, Representation, int], tuple[Sample, ...]] = field(
-        default_factory=dict
-    )
+    memo: dict[Structure, Seen] = field(default_factory=dict)
 
     def confirms(self, evidence: Kind, representation: str, left: Chain, right: Chain) -> bool:
         """Whether the evidence is true of the two chains and decides them."""
@@ -64,17 +61,9 @@ class Witness:
         return self._seen(a.united(b)) if same_ports else None
 
     def _seen(self, structure: Structure) -> Seen:
-        labels = self._samples(structure, Representation.TF, 0)[0].labels
-        degrees = sum(x[0] == "b" for x in labels) - 1, sum(x[0] == "a" for x in labels)
-        return Seen(structure.parameters, degrees, partial(self._samples, structure))
-
-    def _samples(
-        self, structure: Structure, representation: Representation, count: int
-    ) -> tuple[Sample, ...]:
-        key = (structure, representation, count)
-        if key not in self.memo:
-            self.memo[key] = tuple(samples(structure, representation, count, POINTS, self.seed))
-        return self.memo[key]
+        if structure not in self.memo:
+            self.memo[structure] = seen(ChainModel(structure), self.seed)
+        return self.memo[structure]
 
 
 def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:

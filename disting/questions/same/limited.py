@@ -11,9 +11,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from disting.algebra.certainty import Certainty
-from disting.behaviour.inverse import inverse_profile
-from disting.behaviour.profile import Profile
-from disting.behaviour.profile_json import profile_from_json, profile_to_json
+from disting.behaviour.profile import (
+    Profile,
+    inverse_profile,
+    profile_from_json,
+    profile_to_json,
+)
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT

@@ -10,12 +10,13 @@ from random import Random
 import pytest
 
 from disting import Chain, Engine, Experiment, Family, Query, Relation, View
+from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.evidence.limits import Outside
 from disting.experiments import MeasuredChain
 from disting.experiments.inclusion import inclusions_under
+from disting.experiments.machine_model import MachineModel
 from disting.experiments.measured_evidence import confirms_inclusion
-from disting.experiments.stacked_profiles import profile
 from disting.model.settings import Settings
 from disting.questions.inclusion import Inclusion, confirms, quick_closure
 from disting.questions.inclusion.across_sizes import refuted
@@ -131,7 +132,7 @@ def setup(chain, kind, mass):
 
 
 def profile_of(measured):
-    return profile(measured, Representation.TF, 0, Settings(subset_limit=0))
+    return profile(MachineModel(measured), Representation.TF, 0, Settings(subset_limit=0))
 
 
 def agree_under(chains, share):
