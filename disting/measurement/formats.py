@@ -12,6 +12,7 @@ from disting.errors import InputError, listed
 from disting.measurement.column_words import Role, meaning
 from disting.measurement.matlab import responses, variables
 from disting.measurement.response import FrequencyResponse
+from disting.measurement.scope_table import scope_table
 from disting.measurement.source import Source
 from disting.measurement.stored import chosen_response, from_stored
 from disting.measurement.table import Table, is_time, time_series
@@ -119,7 +120,8 @@ def _from_universal(file: Source, options: Options) -> FrequencyResponse:
 
 
 def _table(file: Source) -> Table:
-    return table(decoded(file.content, file.name), file.name)
+    text = decoded(file.content, file.name)
+    return scope_table(text, file.name) or table(text, file.name)
 
 
 def _from_text(file: Source, options: Options) -> FrequencyResponse:

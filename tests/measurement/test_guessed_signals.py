@@ -5,7 +5,7 @@ import pytest
 import scipy.io
 
 from disting.errors import InputError
-from disting.measurement import read
+from disting.measurement import read, read_time_series
 from disting.measurement.reading import guessed
 from tests.measurement.bench_data import measured_data
 
@@ -68,3 +68,53 @@ def test_words(names, found):
     else:
         with pytest.raises(InputError, match="which signal is the input"):
             guessed(names, "a")
+
+
+def test_an_export_without_sample_times_is_refused(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("Name;bench\n\nName;iq;speed\nSampleTime[ms];x;\n\n1;2;3\n")
+    with pytest.raises(InputError, match=r"no channel .* has a SampleTime\[ms\]"):
+        read(path)
+
+
+def scope_export(mark, decimal, own_times):
+    """What TwinCAT Scope exports of a current and a speed sampled each 1 ms and a torque sampled
+    each 0.2 ms, which has more samples.
+    """
+    fast = ["Name", "torque"], ["SampleTime[ms]", "0.2"], ["Unit", "N m (Torque)"]
+    slow = ["Name", "iq"], ["SampleTime[ms]", "1"], ["Unit", "A (Current)"]
+    speed = ["motorSpeed"], ["1"], ["(None)"]
+    if own_times:
+        speed = ["Name", "motorSpeed"], ["SampleTime[ms]", "1"], ["Unit", "(None)"]
+    head = [[*a, *b, *c] for a, b, c in zip(fast, slow, speed, strict=True)]
+    head[1:1] = [["SymbolComment" if c == "Name" else "" for c in head[0]]]
+    lines = ["Name", "bench"], ["File", "bench.csv"], ["Starttime of export", "132959733843760000"]
+    rows = []
+    for k in range(5 * len(TIME)):
+        cells = [repr(0.2 * k), "1"]
+        if k < len(TIME):
+            cells += [repr(float(k)), repr(float(U[k]))]
+            cells += [repr(float(k))] * own_times + [repr(float(Y[k]))]
+        rows.append(cells)
+    whole = [*lines, [""], *head, [""], *rows, ["EOF"]]
+    point = [mark.join(c.replace(".", decimal) for c in row) for row in whole]
+    return "\r\n".join(point) + "\r\n"
+
+
+@pytest.mark.parametrize(
+    ("mark", "decimal", "own"), [("\t", ",", False), (";", ".", True), (",", ".", False)]
+)
+def test_an_export_of_twincat_scope(tmp_path, mark, decimal, own):
+    path = tmp_path / "a.csv"
+    path.write_text(scope_export(mark, decimal, own))
+    series = read_time_series(path, "iq [A]", "motorSpeed")
+    assert series.sampling_rate == pytest.approx(1000.0) and series.input == ("iq", "A")
+    assert np.array_equal(series.u, U) and np.array_equal(series.y, Y)
+    assert np.allclose(read(path).frequency, np.arange(2, 22))
+    with pytest.raises(InputError, match="no columns are called 'torque'"):
+        read_time_series(path, "torque", "motorSpeed")
+    path.write_text(
+        path.read_text().replace(f"{mark}3{decimal}0{mark}", f"{mark}3{decimal}0{mark}x", 1)
+    )
+    with pytest.raises(InputError, match=r"line 13, column .*is no number"):
+        read(path)
