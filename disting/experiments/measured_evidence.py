@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
-from disting.algebra.certainty import Certainty, Grade, weakest
+from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
@@ -25,7 +25,7 @@ from disting.experiments.listing import by_list, listable, listed_at, without_de
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import matched
 from disting.experiments.polynomials import is_renaming
-from disting.experiments.positive import answer_of, positive_finding
+from disting.experiments.positive import answer_of
 from disting.fibres.ideals import seen_again
 from disting.fibres.synthesis.result import Answer
 from disting.fibres.synthesis.target import fraction
@@ -35,8 +35,7 @@ from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
 from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.positive import proves
-from disting.questions.same.decided_again import by_labels
-from disting.questions.same.real_and_positive import positive_ways
+from disting.questions.same.exact import by_labels
 
 FRESH = Settings(seed="checked again", subset_limit=0)
 OfMeasured = Evidence | InclusionEvidence
@@ -103,20 +102,6 @@ def exact_again(
         case Solved() | Refuted():
             return by_labels(evidence, *matched(left, right), settings.seed)
     return None
-
-
-def positive_again(
-    left: MeasuredChain, right: MeasuredChain, settings: Settings, equal: Grade | None
-) -> Finding:
-    """What both ways say over positive parameters of two measured chains that are equal over
-    complex ones: `equal` by the exact decision, so surely, or None by all coefficients being free.
-    """
-    ways = (left, right), (right, left)
-    found = positive_ways(*(positive_finding(*way, settings) for way in ways))
-    if equal is None:
-        return found
-    certainty, safety = weakest((found.certainty, found.safety), equal)
-    return replace(found, certainty=certainty, safety=safety)
 
 
 def _seen(measured: MeasuredChain) -> Seen:

@@ -88,11 +88,7 @@ def decide(left: Compared, right: Compared, query: Query) -> Verdict:
         found = _with_shares(found, left, right)
     if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
         return replace(found, domain=domain)
-    grade = (found.certainty or Certainty.NUMERICAL, found.safety)
-    step = Step(
-        Stage.PARAMETERS,
-        resting_on(left.admissible(right, domain, found.evidence), grade, found.evidence),
-    )
+    step = Step(Stage.PARAMETERS, over_domain(left, right, domain, found))
     said = (
         undecided(left, right, (open_note(step.finding.note),), domain)
         if step.relation is Relation.UNDECIDED
@@ -100,6 +96,16 @@ def decide(left: Compared, right: Compared, query: Query) -> Verdict:
     )
     said = replace(said, image=found.image, closure=found.closure)
     return replace(said, left_positive=found.left_positive, right_positive=found.right_positive)
+
+
+def over_domain(left: Compared, right: Compared, domain: Domain, equal: Verdict | None) -> Finding:
+    """What is found over real or positive parameters, as sure as the verdict over complex ones that
+    it rests on; without one, what rests on none.
+    """
+    if equal is None:
+        return left.admissible(right, domain)
+    grade = (equal.certainty or Certainty.NUMERICAL, equal.safety)
+    return resting_on(left.admissible(right, domain, equal.evidence), grade, equal.evidence)
 
 
 def open_note(reason: str) -> str:

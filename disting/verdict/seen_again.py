@@ -8,29 +8,22 @@ chains under several experiments and general models have evidence of their own.
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
-from disting.conditions.rule import EXACT
 from disting.errors import InputError
-from disting.evidence.conditions import FreeChoice
 from disting.evidence.general import Constants
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
-from disting.evidence.real import BothWays
 from disting.experiments import ComparedMachine, measured_evidence
 from disting.experiments.machine_side import comparable as machines_comparable
 from disting.general import ComparedModel, model_evidence
 from disting.general.compared import comparable as models_comparable
-from disting.model.domain import Domain
 from disting.questions.inclusion import confirms as confirms_inclusion
 from disting.questions.positive import proves
-from disting.questions.same import decided_again
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import mirrored, resting_on_ranks
+from disting.questions.same.exact import exact_again, mirrored, resting_on_ranks
 from disting.verdict.chains import ComparedChain
 from disting.verdict.compared import Compared
-from disting.verdict.result import Verdict
 
 
 class Pair(Protocol):
@@ -44,11 +37,6 @@ class Pair(Protocol):
 
     def exact(self, evidence: Evidence) -> Finding | None:
         """What the settings find by the exact decision with evidence of this kind."""
-
-    def admissible(
-        self, evidence: Evidence, domain: Domain, equal: Verdict | None
-    ) -> Finding | None:
-        """What they find so over real or positive parameters, `equal` over complex ones."""
 
     def proves(self, found: PositiveFinding, left_given: bool) -> bool:
         """Whether evidence on positive equivalents is true of them."""
@@ -84,18 +72,11 @@ class _Chains:
         first, second = self.left.in_order(self.right)
         turned = first != self.left.canonical.chain
         asked = evidence.turned if turned else evidence
-        found = decided_again.exact_again(asked, first, second, self.left.settings)
+        found = exact_again(asked, first, second, self.left.settings)
         if found is None:
             return None
         profiles = self.left.transfer_profile, self.right.transfer_profile
         return resting_on_ranks(mirrored(found) if turned else found, *profiles)
-
-    def admissible(
-        self, evidence: Evidence, domain: Domain, equal: Verdict | None
-    ) -> Finding | None:
-        chains = self.left.canonical.chain, self.right.canonical.chain
-        grade = (Certainty.NUMERICAL, 0) if equal is None else _grade(equal)
-        return decided_again.admissible_again(evidence, *chains, self.left.settings, grade)
 
     def proves(self, found: PositiveFinding, left_given: bool) -> bool:
         chains = self.left.canonical.chain, self.right.canonical.chain
@@ -124,23 +105,6 @@ class _Machines:
         sketches = (side.sketch(Representation.TF, 0) for side in (self.left, self.right))
         return None if found is None else resting_on_ranks(found, *sketches)
 
-    def admissible(
-        self, evidence: Evidence, domain: Domain, equal: Verdict | None
-    ) -> Finding | None:
-        """See `Pair`; of positive equivalents both ways, the only kind under experiments."""
-        if not isinstance(evidence, BothWays) or equal is None:
-            return None
-        grade = None if isinstance(equal.evidence, FreeChoice) else self._grade(equal)
-        sides = self.left.measured, self.right.measured
-        return measured_evidence.positive_again(*sides, self.left.settings, grade)
-
-    def _grade(self, equal: Verdict) -> Grade:
-        """How sure the exact decision is, which need not be what decided."""
-        if equal.decided_by == EXACT.name:
-            return _grade(equal)
-        found = self.left.exact(self.right)
-        return found.certainty, found.safety
-
     def proves(self, found: PositiveFinding, left_given: bool) -> bool:
         return False  # it is not told
 
@@ -168,16 +132,5 @@ class _Models:
         profiles = (side.profile(Representation.TF, 0) for side in (self.left, self.right))
         return None if found is None else resting_on_ranks(found, *profiles)
 
-    def admissible(
-        self, evidence: Evidence, domain: Domain, equal: Verdict | None
-    ) -> Finding | None:
-        why = None if equal is None else equal.evidence
-        return self.left.admissible(self.right, domain, why)
-
     def proves(self, found: PositiveFinding, left_given: bool) -> bool:
         return False  # it is not told
-
-
-def _grade(verdict: Verdict) -> Grade:
-    """How sure a verdict is; one that is undecided shows nothing."""
-    return verdict.certainty or Certainty.NUMERICAL, verdict.safety

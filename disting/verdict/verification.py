@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from disting.algebra.certainty import Certainty
+from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.errors import DistingError, InputError, NotSeenError, shown
-from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.files import as_path, read_json
@@ -23,7 +23,7 @@ from disting.model.chain import Chain
 from disting.model.domain import Domain
 from disting.model.shown import summary
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
-from disting.verdict.cascade import decide, follows
+from disting.verdict.cascade import decide, follows, over_domain
 from disting.verdict.chains import ComparedChain
 from disting.verdict.comparison import Sides
 from disting.verdict.engine import Engine
@@ -285,14 +285,12 @@ def _again(claim: _Claim, evidence: Evidence) -> Told | None:
     v = claim.verdict
     if v.decided_by not in (EXACT.name, ADMISSIBLE.name):
         return _condition_again(claim) if v.decided_by in claim.query.conditions else None
-    if v.decided_by == ADMISSIBLE.name and isinstance(evidence, Renaming):
-        return None if claim.equal is None else _told(claim.equal)
     found = (
         claim.pair.exact(evidence)
         if v.decided_by == EXACT.name
-        else claim.pair.admissible(evidence, v.domain, claim.equal)
+        else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
     )
-    return None if found is None else (found.certainty, found.safety, found.evidence)
+    return None if found is None else _told(found)
 
 
 def _condition_again(claim: _Claim) -> Told:
@@ -306,8 +304,8 @@ def _condition_again(claim: _Claim) -> Told:
     return _told(again) if again.representation is v.representation else (None, 0, None)
 
 
-def _told(v: Verdict) -> Told:
-    return v.certainty, v.safety, v.evidence
+def _told(found: Verdict | Finding) -> Told:
+    return found.certainty, found.safety, found.evidence
 
 
 def _false_inclusions(claim: _Claim) -> Iterator[str]:

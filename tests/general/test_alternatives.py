@@ -20,9 +20,9 @@ from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target as chain_target
 from disting.general import Extent, Model, alternatives
 from disting.general.alternatives import AT_ONCE
-from disting.general.certificate import certified
 from disting.general.target import fibre_equations, rational_values, target
 from disting.model.domain import Domain
+from tests.general.certificate import certified
 
 IRREVERSIBLE = Model.from_state_space(
     [["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible"

@@ -1,11 +1,19 @@
 """Checks the evidence of an inclusion again, from itself alone."""
 
-from dataclasses import replace
+from dataclasses import astuple, replace
 from math import comb
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Representation, samples
-from disting.evidence.across_sizes import Limit, LimitFibre, Meeting, PoleSharing, TooLarge
+from disting.evidence.across_sizes import (
+    AcrossSizes,
+    Limit,
+    LimitFibre,
+    Meeting,
+    PoleSharing,
+    RowLimit,
+    TooLarge,
+)
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refuted, Solved
@@ -22,10 +30,15 @@ from disting.evidence.seen import POINTS, Labels
 from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
+from disting.model.row import Row, canonical_rows
 from disting.model.structure import Structure
-from disting.questions.inclusion.across_sizes_confirmation import confirms_across_sizes
+from disting.questions.inclusion.across_sizes import degrees_of, exceeds, fewer_poles, twins
 from disting.questions.inclusion.closures import confirms_rows
+from disting.questions.inclusion.limit_fibre import contains
+from disting.questions.inclusion.limits import follows
+from disting.questions.inclusion.meeting import Room, room
 from disting.questions.inclusion.missing_elements import confirms_missing
+from disting.questions.inclusion.pole_sharing import excludes
 from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.evidence_check import Witness
@@ -40,54 +53,36 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
 
     A fibre is computed again. The ranks of the two models are taken from their profiles.
     """
-    a, b = left.canonical.chain, right.canonical.chain
+    a, b, fresh = left.canonical.chain, right.canonical.chain, Witness("inclusion")
+    of_one_size = a.n_masses == b.n_masses
     left_is_smaller = (a.n_masses, left.rank) < (b.n_masses, right.rank)
     match evidence:
-        case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre():
-            return a.n_masses != b.n_masses and confirms_across_sizes(evidence, left, right)
-        case Counts() if a.n_masses != b.n_masses:
-            return confirms_across_sizes(evidence, left, right)
+        case Counts() if of_one_size:
+            small, large = ordered(evidence.left, evidence.right, left_is_smaller)
+            return exceed(small, large) and fresh.confirms(evidence, "tf", a, b)
+        case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre() | Counts():
+            return not of_one_size and _across_sizes(evidence, left, right)
         case MissingElements():
             return evidence.left_is_part == left_is_smaller and confirms_missing(evidence, a, b)
         case DeadTime():
             return (a.dead_time, b.dead_time) == (evidence.left_given, not evidence.left_given)
-        case Counts() | LargerProjection() | FullImage() | RelativeDegrees():
-            return _confirms_summary(evidence, a, b, left_is_smaller)
-        case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():
-            return evidence.left_given == left_is_smaller and _confirms_fibre(evidence, a, b)
-
-
-def _confirms_summary(
-    evidence: Counts | LargerProjection | FullImage | RelativeDegrees,
-    a: Chain,
-    b: Chain,
-    left_is_smaller: bool,
-) -> bool:
-    """What degrees, ranks and values of the invariants say."""
-    fresh = Witness("inclusion")
-    match evidence:
-        case Counts():
-            small, large = ordered(evidence.left, evidence.right, left_is_smaller)
-            return exceed(small, large) and fresh.confirms(evidence, "tf", a, b)
         case LargerProjection():
             here, there = ordered(evidence.left, evidence.right, left_is_smaller)
             return here > there and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
         case FullImage():
-            larger = a if evidence.left_is_larger else b
-            free = FreeChoice(evidence.rank, evidence.free)
-            same = evidence.left_is_larger != left_is_smaller and _same_elsewhere(
-                evidence.free, a, b
-            )
-            return same and fresh.confirms(free, "tf", larger, larger)
+            larger, free = (a if evidence.left_is_larger else b), evidence.free
+            same = evidence.left_is_larger != left_is_smaller and _same_elsewhere(free, a, b)
+            return same and fresh.confirms(FreeChoice(evidence.rank, free), "tf", larger, larger)
         case RelativeDegrees():
             larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
-            here, there = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
-            return evidence.left_is_larger != left_is_smaller and _fall_apart(
-                smaller, larger, here, there
-            )
+            degrees = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
+            told = evidence.left_is_larger != left_is_smaller
+            return told and _fall_apart(smaller, larger, *degrees)
+        case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():
+            return evidence.left_given == left_is_smaller and _found_again(evidence, a, b)
 
 
-def _confirms_fibre(
+def _found_again(
     evidence: Outside | RowsInside | ByRows | FibreAt | Solved | Refuted, a: Chain, b: Chain
 ) -> bool:
     """What the fibre of the given model, or its rows, say: computed again."""
@@ -105,6 +100,71 @@ def _confirms_fibre(
                 if _is_large(evidence, a, b)
                 else fresh.confirms(evidence, "tf", a, b)
             )
+
+
+def _across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainSide) -> bool:
+    """Whether the evidence is true of the two chains; ranks are taken from their profiles,
+    counts made at fresh points.
+    """
+    left_is_larger = left.chain.n_masses > right.chain.n_masses
+    small, large = (right, left) if left_is_larger else (left, right)
+    one, other = small.canonical.chain, large.canonical.chain
+    match evidence:
+        case Counts():
+            same = (evidence.left, evidence.right) == ordered(
+                degrees_of(one), degrees_of(other), not left_is_larger
+            )
+            return same and exceeds(one, other) and fewer_poles(one, other)
+        case TooLarge():
+            same = (evidence.left, evidence.right) == (left.rank, right.rank)
+            return same and small.rank >= large.rank and fewer_poles(one, other)
+        case Limit():
+            a, b = _twin(one, evidence.smaller), _twin(other, evidence.larger)
+            known = a is not None and b is not None and _follow(evidence.parts, a, b)
+            return evidence.left_is_larger == left_is_larger and known
+        case Meeting():
+            told = Room(evidence.rank, evidence.coordinates, evidence.factors, evidence.same_mass)
+            again = room(rational_part(one), rational_part(other), "verify")
+            return evidence.left_is_larger == left_is_larger and again == told and told.suffices
+        case PoleSharing():
+            fewer = evidence.left_is_larger == left_is_larger and fewer_poles(one, other)
+            return fewer and excludes(one, other, evidence.label, evidence.points)
+        case LimitFibre():
+            solved = Solved(evidence.small_given, evidence.labels, evidence.solutions)
+            return evidence.left_is_larger == left_is_larger and contains(
+                one, other, evidence.steps, solved
+            )
+
+
+def _twin(chain: Chain, indices: tuple[int, ...]) -> Chain | None:
+    """The twin with these indices; the chain itself for ()."""
+    return (
+        next((c for c in twins(chain) if tuple(c.indices) == indices), None) if indices else chain
+    )
+
+
+def _follow(limits: tuple[RowLimit, ...], small: Chain, large: Chain) -> bool:
+    """Whether these are all rows of the smaller chain, made from different rows of the
+    larger one.
+    """
+    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
+    names = sorted(p.wanted for p in limits), {p.given for p in limits}
+    complete = (
+        names[0] == sorted(wanted) and len(names[1]) == len(limits) and names[1] <= given.keys()
+    )
+    return (
+        small.lag == large.lag
+        and complete
+        and all(_leads(p, given[p.given], wanted[p.wanted]) for p in limits)
+    )
+
+
+def _leads(limit: RowLimit, row: Row, target: Row) -> bool:
+    ends = follows(row, limit.steps)
+    if not limit.room:
+        return target in ends
+    counts = (room(target.structure, below.structure, "verify") for below in ends)
+    return any(c.suffices and tuple(map(int, astuple(c))) == limit.room for c in counts)
 
 
 def _is_large(evidence: Refuted, a: Chain, b: Chain) -> bool:

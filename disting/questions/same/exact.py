@@ -38,17 +38,28 @@ as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and fu
 ranks.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
+from disting.evidence.kinds import Evidence
 from disting.fibres import ideals
 from disting.fibres.decision import Decision
-from disting.fibres.ideals import Limits, chains_told_apart, coefficient_map, normalised
+from disting.fibres.ideals import (
+    Limits,
+    PolynomialMap,
+    chains_told_apart,
+    coefficient_map,
+    matched,
+    normalised,
+    safety_of,
+)
 from disting.fibres.ideals.full_rows import same_by_full_rows
 from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
 from disting.fibres.synthesis.duality import are_dual
@@ -69,23 +80,53 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """Exact decision for two chains of equal rank, size and sensor; of unequal dead time they
     differ, by a theorem.
     """
+    alike = (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
+    for method in METHODS.values() if alike else OF_ANY_CHAINS.values():
+        found = method(a, b, settings)
+        if found is not None:
+            return found
+    if not alike:
+        note = "the exact decision compares chains of equal size and sensor"
+        return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
+    return by_ideals(a, b, settings, LIMITS)
+
+
+def exact_again(evidence: Evidence, a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What the settings find with evidence of this kind on two canonical chains of equal rank, None
+    if nothing: a point, a prime or a bound that somebody chose bounds nothing.
+
+    All is computed again, but for ideals: of these the labels are drawn again.
+    """
+    if isinstance(evidence, Solved | Refuted):
+        coordinates = normalised if evidence.is_normalised else coefficient_map
+        maps = (coordinates(rational_part(chain)) for chain in (a, b))
+        return by_labels(evidence, *matched(*maps), settings.seed)
+    method = METHODS.get(type(evidence))
+    return None if method is None else method(a, b, settings)
+
+
+def by_labels(
+    evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap, seed: str
+) -> Finding:
+    """What the ideals at these labels say of two models of equal rank, if the seed draws them."""
+    is_solved = isinstance(evidence, Solved)
+    told = Membership.MEMBER if is_solved else Membership.EXCLUDED
+    return decided(Decision(told, safety_of(evidence, left, right, seed), evidence))
+
+
+def by_theorem(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """What a theorem says of all parameters."""
     named = theorem(a, b)
-    if named:
-        return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    if a.dead_time != b.dead_time:
-        return Finding(EXACT, Outcome.FAILS, Certainty.THEOREM, evidence=DeadTime(a.dead_time))
-    if (a.n_masses, a.sensor) != (b.n_masses, b.sensor):
-        return Finding(
-            EXACT,
-            Outcome.INAPPLICABLE,
-            note="the exact decision compares chains of equal size and sensor",
-        )
-    found = by_synthesis(a, b, settings)
-    if found is None:
-        found = by_full_rows(a, b)
-    if found is None:
-        found = by_shares(a, b, settings)
-    return by_ideals(a, b, settings, LIMITS) if found is None else found
+    if not named:
+        return None
+    return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
+
+
+def by_dead_time(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """A dead time that one of them has alone."""
+    if a.dead_time == b.dead_time:
+        return None
+    return Finding(EXACT, Outcome.FAILS, Certainty.THEOREM, evidence=DeadTime(a.dead_time))
 
 
 def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -101,7 +142,7 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     return None if told.membership is Membership.UNKNOWN else decided(told)
 
 
-def by_full_rows(a: Chain, b: Chain) -> Finding | None:
+def by_full_rows(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     """What rows that can have any receptance prove; a dead time that both have is a factor of
     its own.
     """
@@ -127,6 +168,18 @@ def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
         safety=found[1],
         evidence=found[0],
     )
+
+
+Method = Callable[[Chain, Chain, Settings], Finding | None]
+OF_ANY_CHAINS: dict[type[Any], Method] = {Theorem: by_theorem, DeadTime: by_dead_time}
+METHODS: dict[type[Any], Method] = OF_ANY_CHAINS | {
+    FibreAt: by_synthesis,
+    FullRows: by_full_rows,
+    Shared: by_shares,
+}
+"""What decides, by the evidence that it finds, in the order in which it is asked; others of chains
+of one size and sensor only.
+"""
 
 
 def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:

@@ -10,7 +10,6 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import (
     Profile,
     inverse_profile,
@@ -20,12 +19,17 @@ from disting.behaviour.profile import (
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
-from disting.evidence.decision import Theorem
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
 from disting.model.question import Question
 from disting.model.settings import Settings
-from disting.questions.same.exact import by_full_rows, by_ideals, by_shares, by_synthesis, theorem
+from disting.questions.same.exact import (
+    by_full_rows,
+    by_ideals,
+    by_shares,
+    by_synthesis,
+    by_theorem,
+)
 
 SECONDS = 60.0
 # the work is limited long before the time
@@ -40,12 +44,10 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """What is cheap of `exact_finding`, for chains of equal rank and size without dead time;
     ABANDONED where it is silent.
     """
-    named = theorem(a, b)
-    if named:
-        return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    full = by_full_rows(a, b)
-    if full is not None:
-        return full
+    for method in (by_theorem, by_full_rows):
+        known = method(a, b, settings)
+        if known is not None:
+            return known
     try:
         with _limited(SECONDS):
             found = by_synthesis(a, b, settings)

@@ -70,7 +70,7 @@ def test_what_it_says():
 
 def test_compare_gives_it_as_proven_evidence_that_can_be_checked_again():
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(1, 2)) for at in (1, 2))
-    finding = by_full_rows(a, b)
+    finding = by_full_rows(a, b, Settings())
     assert finding.outcome is Outcome.HOLDS and finding.certainty is Certainty.PROVEN
     assert Witness().confirms(finding.evidence, "fibre", a, b)
     other = replace(b, ground_dampers=())
