@@ -19,7 +19,7 @@ MARKED = Rule("marked", Role.STRUCTURAL, "a marked pair", "they are the marked o
 CHECKS = """
 from dataclasses import replace
 from disting.algebra.certainty import Certainty, graded
-from disting.evidence.decision import Theorem
+from disting.evidence.conditions import Mark
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import AGAIN, ALWAYS, MARKED, NEVER
 
@@ -31,10 +31,28 @@ def _again(left: Profile, right: Profile) -> Finding:
 def _marked(left: Side, right: Side) -> Finding:
     if {left.name, right.name} not in ({"A1", "A11"}, {"3:1", "3:11"}):
         return Finding(MARKED, Outcome.INAPPLICABLE, note="not marked")
-    return Finding(MARKED, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("duality"))
+    return Finding(MARKED, Outcome.HOLDS, Certainty.THEOREM, evidence=Mark((4, 4)))
 
 
 """
+KIND = """@dataclass(frozen=True, slots=True)
+class Mark(Kind):
+    kind: ClassVar[str] = "mark"
+    claim: ClassVar[Claim] = _SAME
+    degrees: tuple[int, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        return f"{left} and {right} are marked."
+
+    @property
+    def formula(self) -> str:
+        return "M"
+
+    def holds(self, pair: SeenPair, representation: str) -> bool:
+        return pair.left.degrees == pair.right.degrees == self.degrees
+
+
+ByConditions = Mark | """
 NECESSARY = """    Necessary(ALWAYS, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(ALWAYS, Outcome.HOLDS)),
     Necessary(NEVER, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(NEVER, Outcome.INAPPLICABLE)),
     Necessary(AGAIN, _n.numbers_of_coefficients, _n.degree_grade, _again, of_degrees=True),
@@ -47,7 +65,9 @@ CONDITIONS"""
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A copy of the package with four rules more and a row for each, and no other line that differs."""
+    """A copy of the package with four rules more, a row for each and a kind of evidence, and no
+    other line that differs.
+    """
     rules = (
         ("RULES = {", RULES + "RULES = {"),
         ("RANK, DEPENDENCES)", "RANK, DEPENDENCES, ALWAYS, NEVER, AGAIN)"),
@@ -58,7 +78,11 @@ def folder(tmp_path_factory):
         (")\nSUFFICIENT = (", NECESSARY),
         (")\nCONDITIONS", STRUCTURAL),
     )
-    changes = {"conditions/rule.py": rules, "conditions/table.py": rows}
+    changes = {
+        "conditions/rule.py": rules,
+        "conditions/table.py": rows,
+        "evidence/conditions.py": (("ByConditions = ", KIND),),
+    }
     return copied(tmp_path_factory.mktemp("rows"), changes)
 
 
@@ -91,12 +115,18 @@ def test_it_changes_no_other_verdict(folder):
     [(("3:1", "3:11"), "marked", "indistinguishable"), (("3:1", "3:2"), "12", "distinguishable")],
 )
 def test_its_verdict_is_verified(folder, pair, rule, relation):
-    """By evidence of a kind that other rules have too."""
+    """By evidence of a kind of its own, and of one that other rules have too; and refused where it
+    is not true.
+    """
     written = json.loads(run(folder, "compare", *pair, "--conditions", rule, "--json", "-"))
     assert (written["relation"], written["decided_by"]) == (relation, rule)
     path = folder / "verdict.json"
     path.write_text(json.dumps(written), encoding="utf-8")
-    assert "holds" in run(folder, "verify", "verdict.json")
+    assert "verdict.json: holds" in run(folder, "verify", "verdict.json")
+    if rule == "marked":
+        false = written | {"evidence": written["evidence"] | {"degrees": [4, 5]}}
+        path.write_text(json.dumps(false), encoding="utf-8")
+        assert said(folder, "-m", "disting", "verify", "verdict.json", status=1) == ""
 
 
 def test_it_is_told_everywhere(folder):
