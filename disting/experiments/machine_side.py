@@ -23,12 +23,13 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.evidence.conditions import FreeChoice, Renaming
-from disting.evidence.kinds import Evidence
+from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.experiments.exact_under import exact_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.machine_model import MachineModel
+from disting.experiments.measured_evidence import confirms, confirms_inclusion, exact_again
 from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import positive_finding
 from disting.model.chain import Premise
@@ -157,6 +158,26 @@ class ComparedMachine:
             return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
         found = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
         return resting_on_ranks(found, one, there)
+
+    def confirms(self, other: "ComparedMachine", evidence: Evidence, representation: str) -> bool:
+        """Whether evidence of a verdict is true of both."""
+        return confirms(evidence, self.measured, other.measured, representation)
+
+    def includes(self, other: "ComparedMachine", evidence: InclusionEvidence) -> bool:
+        """Whether evidence of an inclusion is true of both."""
+        return confirms_inclusion(evidence, self.measured, other.measured)
+
+    def proves(self, other: "ComparedMachine", found: PositiveFinding) -> bool:
+        """No: it is not told."""
+        return False
+
+    def exact_again(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
+        """What `exact` finds with evidence of this kind."""
+        if not comparable(self, other):
+            return None
+        found = exact_again(evidence, self.measured, other.measured, self.settings)
+        sketches = (side.sketch(Representation.TF, 0) for side in (self, other))
+        return None if found is None else resting_on_ranks(found, *sketches)
 
     def admissible(
         self, other: "ComparedMachine", domain: Domain, why: Evidence | None = None

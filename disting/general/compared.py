@@ -23,8 +23,9 @@ from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.evidence.conditions import Renaming
 from disting.evidence.general import Constants
-from disting.evidence.kinds import Evidence
+from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
+from disting.general import model_evidence
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import as_chain, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
@@ -169,6 +170,29 @@ class ComparedModel:
             return _constants(self.model, other.model)
         found = self.answerer(EXACTLY, _models(self, other), self.settings)
         return resting_on_ranks(found, one, there)
+
+    def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:
+        """Whether evidence of a verdict is true of both."""
+        return model_evidence.confirms_models(evidence, self.model, other.model, representation)
+
+    def includes(self, other: "ComparedModel", evidence: InclusionEvidence) -> bool:
+        """No: it is not asked."""
+        return False
+
+    def proves(self, other: "ComparedModel", found: PositiveFinding) -> bool:
+        """No: it is not told."""
+        return False
+
+    def exact_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
+        """What `exact` finds with evidence of this kind."""
+        if isinstance(evidence, Constants):
+            return self.exact(other) if self.rank == 0 else None
+        if not comparable(self, other):
+            return None
+        models = self.profiled.model, other.profiled.model
+        found = model_evidence.exact_again(evidence, *models, self.settings)
+        profiles = (side.profile(Representation.TF, 0) for side in (self, other))
+        return None if found is None else resting_on_ranks(found, *profiles)
 
     def admissible(
         self, other: "ComparedModel", domain: Domain, why: Evidence | None = None

@@ -17,7 +17,7 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Renaming
-from disting.evidence.kinds import Evidence
+from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.model.chain import Chain, Premise
 from disting.model.domain import Domain
@@ -41,7 +41,10 @@ from disting.questions.inclusion import (
     needs_ideals,
     quick_closure,
 )
-from disting.questions.same.exact import exact_finding, mirrored, resting_on_ranks
+from disting.questions.inclusion import confirms as confirms_inclusion
+from disting.questions.positive import proves
+from disting.questions.same.evidence_check import Witness
+from disting.questions.same.exact import exact_again, exact_finding, mirrored, resting_on_ranks
 from disting.questions.same.real_and_positive import (
     LACKING,
     POSITIVELY,
@@ -167,6 +170,30 @@ class ComparedChain:
         first, second = self.in_order(other)
         found = self.answerer(EXACTLY, (first, second), self.settings)
         found = found if first == self.canonical.chain else mirrored(found)
+        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
+
+    def confirms(self, other: "ComparedChain", evidence: Evidence, representation: str) -> bool:
+        """Whether evidence of a verdict is true of both chains."""
+        return Witness().confirms(evidence, representation, self.chain, other.chain)
+
+    def includes(self, other: "ComparedChain", evidence: InclusionEvidence) -> bool:
+        """Whether evidence of an inclusion is true of both chains."""
+        return confirms_inclusion(evidence, self, other)
+
+    def proves(self, other: "ComparedChain", found: PositiveFinding) -> bool:
+        """Whether evidence on positive equivalents in the other is true."""
+        return proves(found, *_canonical(self, other))
+
+    def exact_again(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
+        """What `exact` finds with evidence of this kind."""
+        if self.rank != other.rank:
+            return None
+        first, second = self.in_order(other)
+        turned = first != self.canonical.chain
+        found = exact_again(evidence.turned if turned else evidence, first, second, self.settings)
+        if found is None:
+            return None
+        found = mirrored(found) if turned else found
         return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
 
     def admissible(

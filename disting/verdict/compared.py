@@ -9,7 +9,7 @@ from typing import Any, Protocol, Self
 
 from disting.conditions.finding import Finding
 from disting.conditions.side import Side
-from disting.evidence.kinds import Evidence
+from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Premise
 from disting.model.domain import Domain
@@ -43,6 +43,22 @@ class Compared(Side, Protocol):
     @property
     def profiled(self) -> Model:
         """What its profiles are computed of; models that share it share their profiles."""
+
+    def confirms(self, other: Self, evidence: Evidence, representation: str) -> bool:
+        """Whether evidence of a verdict is true of both, seen anew; raises NotSeenError where that
+        takes too long.
+        """
+
+    def includes(self, other: Self, evidence: InclusionEvidence) -> bool:
+        """Whether evidence of an inclusion is true of both, seen anew."""
+
+    def proves(self, other: Self, found: PositiveFinding) -> bool:
+        """Whether evidence on the positive equivalents of the one in the other is true."""
+
+    def exact_again(self, other: Self, evidence: Evidence) -> Finding | None:
+        """What the settings find by the exact decision with evidence of this kind: evidence that is
+        true can have been chosen, and then bounds nothing.
+        """
 
     def exact(self, other: Self) -> Finding:
         """The exact decision, for equal ranks."""

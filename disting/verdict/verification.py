@@ -2,7 +2,9 @@
 that the file says follows from it.
 
 Nothing is looked up. What would take more work to see again than is done for it is said, and all
-else is checked (see `seen_again`).
+else is checked. Evidence that is true can have been chosen, and then bounds nothing: so certainty,
+bounds and points are compared with those that the settings give, found again with evidence of this
+kind.
 """
 
 from collections.abc import Callable, Iterator
@@ -32,7 +34,6 @@ from disting.verdict.everywhere_file import differing_everywhere, read_everywher
 from disting.verdict.proof import prove
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.seen_again import Pair, pair_of
 from disting.verdict.verdict_file import (
     DAMAGED,
     Stored,
@@ -198,7 +199,6 @@ class _Claim:
     verdict: Verdict
     query: Query
     sides: Sides
-    pair: Pair
     equal: Verdict | None
     where: str
 
@@ -213,11 +213,11 @@ def _checks(
     hold, cheap things first.
     """
     yield "models, sentence and all that is derived", partial(_disagreeing, data, stored, sides)
-    beside, pair = stored.over_complex, pair_of(sides.left, sides.right)
-    claims = [_Claim(stored.verdict, stored.query, sides, pair, beside, "")]
+    beside = stored.over_complex
+    claims = [_Claim(stored.verdict, stored.query, sides, beside, "")]
     if beside is not None:
         query, where = exact(stored.query), "over complex parameters "
-        claims.append(_Claim(beside, query, sides, pair, None, where))
+        claims.append(_Claim(beside, query, sides, None, where))
     for what, check in CHECKS.items():
         yield from (_named(what, claim, check) for claim in claims)
     yield "", partial(_false_equality, stored)
@@ -261,8 +261,8 @@ def _unfounded(claim: _Claim) -> Iterator[str]:
 
 
 def _untrue(claim: _Claim) -> Iterator[str]:
-    v = claim.verdict
-    if v.evidence is not None and not claim.pair.confirms(v.evidence, v.representation):
+    v, left, right = claim.verdict, claim.sides.left, claim.sides.right
+    if v.evidence is not None and not left.confirms(right, v.evidence, v.representation):
         yield f"{claim.where}the evidence is not true of these models"
 
 
@@ -286,7 +286,7 @@ def _again(claim: _Claim, evidence: Evidence) -> Told | None:
     if v.decided_by not in (EXACT.name, ADMISSIBLE.name):
         return _condition_again(claim) if v.decided_by in claim.query.conditions else None
     found = (
-        claim.pair.exact(evidence)
+        claim.sides.left.exact_again(claim.sides.right, evidence)
         if v.decided_by == EXACT.name
         else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
     )
@@ -321,7 +321,7 @@ def _false_inclusions(claim: _Claim) -> Iterator[str]:
         yield f"{where}an inclusion is told of models of equal rank"
         return
     for found, what in ((both.image, "finite elements"), (both.closure, "limits")):
-        if found.evidence is not None and not claim.pair.includes(found.evidence):
+        if found.evidence is not None and not left.includes(right, found.evidence):
             yield f"{where}the evidence of the inclusion ({what}) is not true of these models"
     if _plain(both) != _plain(left.inclusions(right)):
         yield f"{where}the inclusion, or its certainty, is not what the settings give"
@@ -349,14 +349,14 @@ def _false_shares(claim: _Claim) -> Iterator[str]:
         told = (v.left_positive, v.right_positive)
         if told != (v.evidence.left, v.evidence.right) and told != (None, None):
             yield f"{where}positive equivalents are told in two ways"
-    for found, left_given in ((v.left_positive, True), (v.right_positive, False)):
+    for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         if found is None:
             continue
         if not left.tells_shares(right):
             yield f"{where}positive equivalents are told of models of which they are not asked"
-        elif found.evidence is not None and not claim.pair.proves(found, left_given):
+        elif found.evidence is not None and not given.proves(other, found):
             yield f"{where}the evidence on positive equivalents is not true of these models"
-        elif found != (left.positive(right) if left_given else right.positive(left)):
+        elif found != given.positive(other):
             yield f"{where}what is told of positive equivalents is not what the settings give"
 
 

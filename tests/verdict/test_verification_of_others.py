@@ -19,7 +19,7 @@ from disting import (
     verify,
 )
 from disting.errors import NotSeenError
-from disting.verdict import seen_again
+from disting.general import model_evidence
 from disting.verdict.verification import Standing
 from tests.cli.process import called
 from tests.verdict.lies import ENGINE, found_out, missed, plain, put, told_again
@@ -212,7 +212,7 @@ def test_what_takes_too_long_to_see_again_is_open_and_all_else_is_checked(
         raise NotSeenError("the contradiction was not found again (too large)")
 
     data = told("general: refuted")
-    monkeypatch.setattr(seen_again.model_evidence, "confirms_models", tired)
+    monkeypatch.setattr(model_evidence, "confirms_models", tired)
     found = verify(data)
     assert found.standing is Standing.OPEN and "was not found again" in found.sentence
     assert verify(told_again(data, safety=data["safety"] + 1)).standing is Standing.FAILS
