@@ -111,7 +111,7 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
     rows = [plan_to_dict(one) | _reverse(back) for one, back in found]
     _emit(options, {"format": Format.PLANS_OF_FIT.value, "same": named.same, "rivals": rows})
     if options.json != "-":
-        print(printable("\n".join(rivals_in_words(named, found, effort.source))))
+        print(printable("\n".join(rivals_in_words(named, found, effort.source, str(path)))))
     return 0
 
 

@@ -14,6 +14,7 @@ from disting.measurement import FrequencyResponse, read, write_csv
 from disting.model.chain import Chain
 from tests.cli.process import called
 from tests.fit.drives import response
+from tests.fit.monte_carlo import drive, measured, offered, truth
 
 GUIDE = Path(__file__).parents[2] / "disting" / "guide" / "plan.md"
 VALUES = "m1=0.0045,m2=0.005,k12=550,d12=0.08,b1=0.1"
@@ -158,7 +159,41 @@ def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
     other.write_text(json.dumps(plain), encoding="utf-8")
     said = called("plan", other).stdout
     assert "impossible: 2:2+b1: the same response for the fitted values" in said
-    assert "disting next" in said
+    assert f"\nwhat else could be measured: disting next {other}\n" in said
+
+
+def test_what_is_the_same_for_these_values_names_no_command_that_denies_it():
+    values = (  # of 3:1+b1+b3 with m = 1, 2, 3, k = 100, 150, d = 0.1, 0.2, b = 0.2, 0.3
+        "m1=0.149957938326015,m2=1,m3=4.84996534958645,k12=23.8889425518369,k23=76.1116574329771,"
+        "d12=0.0192530376701838,d23=0.123171237219046,b1=0.0142792213520461,b2=0.15757572511077,"
+        "b3=0.328145053537184"
+    )
+    pair = ("3:4+b1+b2+b3", "3:1+b1+b3", "--damped", "--set", values)
+    said = called("plan", *pair, "--noise", 0.1, "--band", "0.5..5").stdout
+    assert said.startswith("impossible for these values: 3:1+b1+b3 fits within rounding")
+    assert said.splitlines()[0].endswith(
+        "; another sensor, or the force elsewhere, may tell them apart"
+    )
+    done = called("next", *pair[:3])
+    assert "are told apart by the present force and sensor already" in done.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("n_masses", [2, 3, 4])
+def test_plan_and_next_answer_for_fits_of_random_drives(tmp_path, n_masses):
+    for seed in range(10):
+        machine = drive(n_masses, 100 + seed)
+        some = np.random.default_rng(seed).permutation(len(offered(machine)))[:6]
+        chains = dict.fromkeys([truth(machine), *(offered(machine)[i] for i in some)])
+        found = select(measured(machine, (1, 2, 10)[seed % 3]), list(chains))
+        path = tmp_path / f"{seed}.json"
+        path.write_text(json.dumps(selection_to_dict(found)), encoding="utf-8")
+        done = called("plan", path)
+        assert done.returncode == 0 and "is taken for true" in done.stdout
+        done = called("next", path)
+        alone = len(found.members) < 2 and not any(m.twins for m in found.members)
+        assert done.returncode == (2 if alone else 0)
+        assert "nothing to tell apart" in done.stderr if alone else "measure" in done.stdout
 
 
 @pytest.mark.parametrize(

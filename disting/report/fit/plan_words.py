@@ -1,5 +1,6 @@
 """A plan in words: the answer first, then the numbers behind it."""
 
+import shlex
 from collections.abc import Iterator, Sequence
 from math import ceil, floor, sqrt
 
@@ -55,16 +56,17 @@ def plan_in_words(found: Plan, best: Designed | None, source: str) -> Iterator[s
 
 
 def rivals_in_words(
-    named: Named, found: Sequence[tuple[Plan, Plan | None]], source: str
+    named: Named, found: Sequence[tuple[Plan, Plan | None]], source: str, file: str
 ) -> Iterator[str]:
-    """The selected structure of a fit against each rival; beside it the reverse, where the rival
-    contains the selected structure.
+    """The selected structure of a fit, of which `file` is the name, against each rival; beside it
+    the reverse, where the rival contains the selected structure.
     """
     name = reference(named.model)
     yield f"{name} is taken for true: {_values(named.values)}; noise {source}"
     for same, why in named.same.items():
         yield f"impossible: {same}: {why}"
-        yield f"  what else could be measured: {next_command(name, same, named.model.damped)}"
+    if named.same:
+        yield f"what else could be measured: disting next {shlex.quote(file)}"
     if not found:
         yield "" if named.same else "the fit names no rival: nothing is to be told apart"
         return
@@ -171,11 +173,11 @@ def _same(found: Plan, rival: Rival) -> str:
         Relation.DISTINGUISHABLE: "the verdict says that the structures differ: all models of the"
         " one, or these values at least, have an equivalent in the other, though not the reverse",
     }.get(relation, "whether that holds for other values too is not decided")
-    other = next_command(model, name, found.model.damped)
-    return (
-        f"impossible for these values: {name} fits within rounding ({why}); what else could be"
-        f" measured is told by: {other}"
-    )
+    more = "another sensor, or the force elsewhere, may tell them apart"
+    if relation is Relation.SOMETIMES:
+        other = next_command(model, name, found.model.damped)
+        more = f"what else could be measured is told by: {other}"
+    return f"impossible for these values: {name} fits within rounding ({why}); {more}"
 
 
 def _limits(rival: Rival) -> str:
