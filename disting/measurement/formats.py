@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 
 from disting.errors import InputError, listed
 from disting.measurement.column_words import Role, meaning
+from disting.measurement.exports import exported
 from disting.measurement.matlab import responses, variables
 from disting.measurement.response import FrequencyResponse
-from disting.measurement.scope_table import scope_table
 from disting.measurement.source import Source
 from disting.measurement.stored import chosen_response, from_stored
 from disting.measurement.table import Table, is_time, time_series
@@ -121,7 +121,7 @@ def _from_universal(file: Source, options: Options) -> FrequencyResponse:
 
 def _table(file: Source) -> Table:
     text = decoded(file.content, file.name)
-    return scope_table(text, file.name) or table(text, file.name)
+    return exported(text, file.name) or table(text, file.name)
 
 
 def _from_text(file: Source, options: Options) -> FrequencyResponse:

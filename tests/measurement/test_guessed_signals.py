@@ -118,3 +118,44 @@ def test_an_export_of_twincat_scope(tmp_path, mark, decimal, own):
     )
     with pytest.raises(InputError, match=r"line 13, column .*is no number"):
         read(path)
+
+
+def lvm(columns, decimal, steps=("1.0E-3", "1.0E-3")):
+    """What LabVIEW writes of two channels, with a column of times for each or with none."""
+    times = columns == "Multi"
+
+    def beside(first, *cells):
+        """Cells of the channels, between them those of the second column of times."""
+        return [first, *([cells[0], "", cells[1]] if times else cells), ""]
+
+    head = [
+        ["LabVIEW Measurement", ""], ["Separator", "Tab"], ["X_Columns", columns],
+        ["Time", "09:54:07,284627"], ["***End_of_Header***", ""], ["", ""],
+        beside("Channels", "2", ""), beside("Samples", "6000", "6000"),
+        beside("Y_Unit_Label", "A", ""), beside("X_Dimension", "Time", "Time"),
+        beside("X0", "0.0E+0", "0.0E+0"), beside("Delta_X", *steps), ["***End_of_Header***", ""],
+        ["X_Value", "iq", *(["X_Value"] * times), "motorSpeed", "Comment"],
+    ]  # fmt: skip
+    rows = [
+        [t, u, t, y] if times else ["", u, y]
+        for t, u, y in zip(*([repr(float(x)) for x in a] for a in (TIME, U, Y)), strict=True)
+    ]
+    return "\n".join(
+        "\t".join(c.replace(".", decimal) for c in row) for row in [*head, *rows, [""]]
+    )
+
+
+@pytest.mark.parametrize(("columns", "decimal"), [("No", ","), ("Multi", ".")])
+def test_a_record_of_labview(tmp_path, columns, decimal):
+    path = tmp_path / "a.lvm"
+    path.write_text(lvm(columns, decimal))
+    series = read_time_series(path, "iq [A]", "motorSpeed")
+    assert series.sampling_rate == pytest.approx(1000.0) and series.input == ("iq", "A")
+    assert np.array_equal(series.u, U) and np.array_equal(series.y, Y)
+    assert np.allclose(read(path).frequency, np.arange(2, 22))
+    path.write_text(lvm(columns, decimal, ("1.0E-3", "2.0E-3")))
+    with pytest.raises(InputError, match="no common Delta_X"):
+        read(path)
+    path.write_text(lvm(columns, decimal) + lvm(columns, decimal))
+    with pytest.raises(InputError, match="an LVM file of 3 records; export one"):
+        read(path)
