@@ -109,8 +109,8 @@ class TimeSeries:
         (module `welch`), which is used exactly where `segment` is given; lines of a coherence
         below `least_coherence` are left out then (default: what chance gives). A reference makes
         both methods hold in closed loop. `band` = (low, high) [Hz]. Raises InputError where no
-        period is found, periods are missing, too few lines are left, or `period` and `segment` are
-        both given.
+        period is found, periods are missing, too few lines are left, or `segment` is given with
+        `period` or `outliers`.
         """
         given = (self.u, self.y, self.sampling_rate)
         # what is not finite then is refused below
@@ -129,6 +129,11 @@ class TimeSeries:
                     raise InputError(
                         "period and lines belong to a periodic excitation, segment to any other:"
                         " give one of them"
+                    )
+                if outliers != "keep":
+                    raise InputError(
+                        "--outliers drop compares periods or repeats; segments of Welch's method"
+                        " are not alike: cut the record where it is disturbed, or leave it away"
                     )
                 found = welch.estimate(*given, segment, band, self.reference, least_coherence)
         _refuse_few(found, band)

@@ -9,7 +9,9 @@ loop r = u. With
 
     deviation = sqrt(S_vv S_rr / n_e) / |S_ru|,      n_e = n_d / (1 + 2/36),
 
-for n_d segments; 1/36 is the squared correlation of neighbouring segments (Welch 1967). For r = u
+for n_d segments; 1/36 is the squared correlation of neighbouring segments (Welch 1967). A Hann
+window correlates the errors of neighbouring lines by 4/9, of next ones by 1/36: every second line
+is taken, which tells as much as all. For r = u
 this is the H1 estimator with
 
     deviation = |G| sqrt((1 - gamma^2) / (gamma^2 n_e))
@@ -21,6 +23,14 @@ Identification, 2nd ed. 1999, section 13.5). The coherence is gamma^2 = |S_uy|^2
 open loop, the smaller one of those of r with u and with y in closed loop. Without any relation,
 gamma^2 exceeds 1 - p^(1 / (n_e - 1)) with probability p; lines below that tell nothing and are
 left out.
+
+A segment of N samples smooths G over the squared main lobe of its window, of variance 4/3
+(pi rate/N)^2, so that G is wrong by
+
+    bias = G'' 2/3 (pi rate/N)^2 = (G_{k+1} - 2 G_k + G_{k-1}) / 6,
+
+of which chance makes 2.5/36 deviation^2: what exceeds that is added to the squared deviation, and
+said where it is more than the deviation and than chance makes of any line (level `CHANCE`).
 """
 
 import numpy as np
@@ -28,9 +38,11 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.periodic import Estimated
+from disting.model.shown import plural
 
 FEWEST_SEGMENTS = 4
 CHANCE = 1e-3  # p of the module's text
+CURVED = 2.5  # squared second difference of lines that chance makes, in squared deviations
 
 
 def estimate(
@@ -42,8 +54,8 @@ def estimate(
     reference: Real | None = None,
     least_coherence: float | None = None,
 ) -> Estimated:
-    """Estimate at the multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half the
-    sampling rate.
+    """Estimate at the even multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half
+    the sampling rate.
 
     Lines of a coherence below `least_coherence` are left out (default: that of chance).
     """
@@ -74,17 +86,50 @@ def estimate(
         *(np.abs(cross) ** 2 / (rr.real * power) for cross, power in ((ru, uu), (ry, yy)))
     )
     level = 1 - CHANCE ** (1 / (effective - 1)) if least_coherence is None else least_coherence
+    even = np.rint(grid[kept] * segment / rate) % 2 == 0
     good = coherence >= level
     notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples"]
-    notes += [_left_out(grid[kept], good, level)] * (not good.all())
+    notes += [_left_out(grid[kept][even], good[even], level)] * (not good[even].all())
     coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
+    good &= even
+    bias = _bias(response, deviation)[good]
     return Estimated(
         omega=2 * np.pi * grid[kept][good],
         G=response[good],
-        deviation=deviation[good],
+        deviation=np.hypot(deviation[good], bias),
         coherence=coherence[good],
         notes=tuple(notes),
         freedom=2.0 * (effective - 1),
+        doubts=_smoothed(
+            grid[kept][good],
+            bias / np.abs(response[good]),
+            deviation[good] / np.abs(response[good]),
+            segment,
+        ),
+    )
+
+
+def _bias(response: Complex, deviation: Real) -> Real:
+    """|bias| of each line beyond what chance makes of it, shape (n_f,)."""
+    if len(response) < 3:
+        return np.zeros(len(response))
+    curved = np.pad(np.abs(np.diff(response, 2)) ** 2, 1, mode="edge")
+    return np.asarray(np.sqrt(np.maximum(curved - CURVED * deviation**2, 0.0) / 36))
+
+
+def _smoothed(grid: Real, bias: Real, deviation: Real, segment: int) -> tuple[str, ...]:
+    """Where segments are too short for the response, by relative bias and deviation of the lines,
+    shape (n_f,) each.
+    """
+    wide = bias > np.sqrt(CURVED / 36 * np.log(max(len(bias), 1) / CHANCE) + 1) * deviation
+    if not wide.any():
+        return ()
+    worst = int(np.argmax(np.where(wide, bias, 0.0)))
+    lines = plural(int(np.count_nonzero(wide)), "line")
+    return (
+        f"segments of {segment} samples smooth the response at {lines}, by"
+        f" {100 * bias[worst]:.2g} % at {grid[worst]:.4g} Hz, which counts as scatter there; longer"
+        f" segments, such as --read segment={2 * segment}, or a periodic excitation tell more",
     )
 
 

@@ -35,7 +35,7 @@ def test_the_reference_gives_the_plant_and_its_deviation_in_closed_loop():
     alone = TimeSeries(u, y, RATE).response(segment=1000, band=(5, 100))
     found = TimeSeries(u, y, RATE, reference=r).response(segment=1000, band=(5, 100))
     error = np.abs(found.G - true(found.frequency)) / found.deviation
-    assert len(found) > 90 and 0.75 < np.mean(error**2) < 1.3
+    assert len(found) > 45 and 0.7 < np.mean(error**2) < 1.3
     biased = np.abs(alone.G - true(alone.frequency)) / alone.deviation
     assert np.median(biased) > 10
     assert any("the input follows the past output" in note for note in alone.notes)
@@ -52,7 +52,8 @@ def test_a_reference_that_is_the_input_changes_nothing():
     np.testing.assert_allclose(one.G, other.G, rtol=1e-12)
     np.testing.assert_allclose(one.deviation, other.deviation, rtol=1e-9)
     ordinary = np.abs(one.G) * np.sqrt((1 - one.coherence) / one.coherence * (1 + 2 / 36) / 79)
-    np.testing.assert_allclose(one.deviation, ordinary, rtol=1e-9)
+    assert np.all(one.deviation > ordinary * (1 - 1e-9))  # and what chance bends here and there
+    assert np.median(one.deviation / ordinary) == pytest.approx(1)
 
 
 @pytest.mark.parametrize("noise", [0.01, 0.1])
@@ -84,10 +85,10 @@ def test_lines_without_coherence_are_left_out_and_counted():
     y = lfilter([0, GAIN], [1, -POLE], u) + 0.05 * source.normal(size=N)
     whole = TimeSeries(u, y, RATE).response(segment=1000, least_coherence=0)
     kept = TimeSeries(u, y, RATE).response(segment=1000)
-    assert len(whole) == 499 and 50 < len(kept) < 150 and kept.frequency[0] == 1.0
+    assert len(whole) == 249 and 25 < len(kept) < 75 and kept.frequency[0] == 2.0
     assert np.quantile(kept.frequency, 0.9) < 130  # the excitation ends at 50 Hz, 24 dB per octave
     assert any(
-        f"{499 - len(kept)} of 499 lines left out" in note and "nine tenths" in note
+        f"{249 - len(kept)} of 249 lines left out" in note and "nine tenths" in note
         for note in kept.notes
     )
 
@@ -99,12 +100,12 @@ def test_too_few_lines_say_why():
         (
             TimeSeries(u, y, RATE),
             {"segment": 1000, "band": (100, 102)},
-            r"3 frequencies are too few.*band 100..102 Hz",
+            r"2 frequencies are too few.*band 100..102 Hz",
         ),
         (
             TimeSeries(r, noise, RATE),
             {"segment": 100},
-            r"all 49 lines left out|of 49 lines left out",
+            r"all 24 lines left out|of 24 lines left out",
         ),
         (
             TimeSeries(np.sin(0.1 * np.pi * np.arange(4000)), y[:4000], RATE),

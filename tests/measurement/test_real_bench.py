@@ -60,8 +60,8 @@ def test_welch_agrees_with_the_periods_within_the_deviations():
     series = read_time_series(path, "iq_adx", "theta_mx")
     periodic = series.response("acceleration").masked(20, 240)
     welch = series.response("acceleration", segment=2500, band=(20, 240))
-    assert np.allclose(welch.omega, periodic.omega)
-    assert np.median(np.abs(welch.G / periodic.G - 1)) < 0.02
+    assert np.allclose(welch.omega, periodic.omega[::2])
+    assert np.median(np.abs(welch.G / periodic.G[::2] - 1)) < 0.02
 
 
 def test_a_real_response_is_written_and_read_bit_by_bit(tmp_path):
