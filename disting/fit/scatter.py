@@ -15,11 +15,12 @@ ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put
   their own scatter (G. Smyth, Linear models and empirical Bayes methods, 2004). A file that does
   not say how many repeats it has tells nu by how much ln s_k^2 jumps from line to line.
 
-Repeats of one excitation do not see what it makes itself: distortion by friction and play repeats
-with it, and jumps from line to line. Nor do they see that a machine changes between two
-measurements. Both are found where the data scatter more than sigma allows (F test), and added as a
-relative variance tau^2 that makes them agree (R. Paule, J. Mandel, Consensus values and weighting
-factors, 1982).
+Repeats of one excitation do not see what it makes itself: distortion by friction and play, and the
+steps of an encoder, repeat with it, and jump from line to line. Nor do they see that a machine
+changes between two measurements. Both are found where the data scatter more than sigma allows
+(F test), and added as a relative variance tau^2 that makes them agree (R. Paule, J. Mandel,
+Consensus values and weighting factors, 1982), or as the sources of a bench where these describe
+the jumps far better.
 """
 
 from collections.abc import Callable, Sequence
@@ -38,11 +39,14 @@ from disting.fit.plant import Complex, Real
 from disting.measurement import FrequencyResponse
 from disting.model.shown import summary
 
+# tau up to which lines that jump are distorted; beyond, the grid may be too coarse for resonances
+DISTORTED = 0.05
+# gain in the logarithm of the likelihood of a line from which on jumps are those of sources: where
+# distortion would do, and where it would be too large
+BETTER, GOOD = 1.0, 0.5
 COMMON = 8  # lines that two measurements must share
 SAME = 1e-6  # relative distance of two frequencies that count as one
 LEAST = 1e-5  # scatter below this is the rounding of a file
-# tau up to which lines that jump are distorted; beyond, the grid may be too coarse for resonances
-DISTORTED = 0.05
 SURE = 1e-3  # level of the tests for tau, and for standard deviations that are wrong
 WRONG = 2.0  # factor by which standard deviations are too large before that is said
 MOST_FREEDOM = 1e4  # of a variance: as good as known
@@ -154,23 +158,17 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
 def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Scatter:
     """With what neighbouring lines say of standard deviations."""
     there = freedom(measured.omega)
-
-    def excess(tau: float) -> float:
-        """Mean ratio of contrasts to what is expected, less 1."""
-        ratio = seen.power / seen.expected(variance + 2 * (tau * seen.size) ** 2)
-        kept = ratio <= np.quantile(ratio, 1 - LARGEST_LEFT_OUT)
-        return float(ratio[kept].mean()) / kept_mean(LARGEST_LEFT_OUT) - 1
-
-    level = 1 + excess(0.0)
+    level = _excess(seen, variance) + 1
     if level > f_distribution.isf(SURE, there, own.freedom):
-        tau = _balanced(excess)
-        if 0 < tau <= DISTORTED:
-            return replace(
-                own,
-                rho=np.hypot(own.rho, tau),
-                source="neighbouring lines, which jump by more than their standard deviations",
-                freedom=there,
-            )
+        found = _widened(variance, seen, measured)
+        if found is None:
+            return own
+        return replace(
+            own,
+            rho=np.maximum(np.sqrt(found / 2) / seen.size, LEAST),
+            source="neighbouring lines, which jump by more than their standard deviations",
+            freedom=there,
+        )
     if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, there, own.freedom):
         return replace(
             own,
@@ -181,6 +179,37 @@ def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyR
             ),
         )
     return own
+
+
+def _widened(variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Real | None:
+    """Variances with what makes neighbouring lines jump: distortion, a share tau of each line, or
+    what the sources of a bench add, such as the steps of an encoder, which repeat with the
+    excitation too, where these describe the jumps far better. None where neither does.
+    """
+    tau = _balanced(lambda tau: _excess(seen, variance + 2 * (tau * seen.size) ** 2))
+    distorted = variance + 2 * (tau * seen.size) ** 2
+    columns = sources(measured.omega, seen.size, measured.sensor.order)
+    columns = np.column_stack([variance, columns])
+    noisy = np.maximum(columns @ coefficients(seen.expected(columns), seen.power), variance)
+    gain = _deviance(seen, distorted) - _deviance(seen, noisy)
+    if gain > (BETTER if tau <= DISTORTED else GOOD):
+        return noisy
+    return distorted if tau <= DISTORTED else None
+
+
+def _deviance(seen: Contrasts, variance: Real) -> float:
+    """ln mu + q / mu of contrasts q that are expected to be mu, mean of those that are kept."""
+    expected = seen.expected(variance)
+    ratio = seen.power / expected
+    kept = ratio <= np.quantile(ratio, 1 - LARGEST_LEFT_OUT)
+    return float(np.mean(np.log(expected[kept]) + ratio[kept]))
+
+
+def _excess(seen: Contrasts, variance: Real) -> float:
+    """Mean ratio of contrasts to what is expected, less 1."""
+    ratio = seen.power / seen.expected(variance)
+    kept = ratio <= np.quantile(ratio, 1 - LARGEST_LEFT_OUT)
+    return float(ratio[kept].mean()) / kept_mean(LARGEST_LEFT_OUT) - 1
 
 
 def _balanced(excess: Callable[[float], float], most: float = 2.0) -> float:

@@ -36,10 +36,13 @@ SILENT = 1e-9  # share of the largest line of a period below which a line is rou
 class Bench:
     """How the record is taken.
 
-    `sampling_rate` [Hz]; `samples` of one period; `periods`; standard deviations of white noise
-    `input_noise` and `output_noise` added to the recorded signals [their units]; `quantum` = step
-    of the sensor, to which the output is rounded (an encoder shows positions: use a position
-    sensor) [unit of the output]; `friction` by mass; `seed` of phases and noise.
+    `sampling_rate` [Hz]; `samples` of one period; `periods`; standard deviations of noise
+    `input_noise` and `output_noise` added to the recorded signals [their units]: white, that of
+    the output of density (1 + (f/c)^2)^(-n/2), n = `noise_slope`, c = `noise_corner` [Hz] (n = 1:
+    1/f above c, n = 2: white noise through a low-pass of first order); `quantum` = step of the
+    sensor, to which the output is rounded (an encoder shows positions: use a position sensor) [unit
+    of the output]; `friction` by mass; `seed` of phases and noise. An excitation that does not
+    repeat is a single period with random phases.
     """
 
     sampling_rate: float = 2500.0
@@ -47,6 +50,8 @@ class Bench:
     periods: int = 20
     input_noise: float = 0.0
     output_noise: float = 0.0
+    noise_slope: float = 0.0
+    noise_corner: float = 1.0
     quantum: float = 0.0
     friction: Mapping[int, Friction] = field(default_factory=dict)
     seed: int = 0
@@ -61,6 +66,8 @@ class Bench:
             0 <= value < np.inf for value in (self.input_noise, self.output_noise, self.quantum)
         ):
             raise InputError("noise and quantum are finite and not negative")
+        if not 0 <= self.noise_slope < np.inf or not 0 < self.noise_corner < np.inf:
+            raise InputError("noise has a slope of at least 0 and a positive corner [Hz]")
         if self.seed < 0:
             raise InputError(f"a seed is a whole number of at least 0, not {self.seed}")
 
@@ -87,10 +94,10 @@ def simulate(
     values = checked(model, parameters)
     period = excitation.period(bench.samples, bench.sampling_rate, bench.seed)
     output = _output(model, values, period, bench)
-    noise = np.random.default_rng([bench.seed, 1]).standard_normal(
-        (2, bench.samples * bench.periods)
-    )
-    recorded = output + bench.output_noise * noise[1]
+    source = np.random.default_rng([bench.seed, 1])
+    noise = source.standard_normal((2, bench.samples * bench.periods))
+    coloured = _coloured(noise[1], bench, source) if bench.noise_slope else noise[1]
+    recorded = output + bench.output_noise * coloured
     return TimeSeries(
         u=np.tile(period, bench.periods) + bench.input_noise * noise[0],
         y=np.round(recorded / bench.quantum) * bench.quantum if bench.quantum else recorded,
@@ -123,6 +130,18 @@ def _output(
         (1j * omega[used]) ** order * (motion(m, act, omega[used]) @ meas) * force[used]
     )
     return np.tile(np.fft.irfft(spectrum, bench.samples), bench.periods)
+
+
+def _coloured(white: Real, bench: Bench, source: np.random.Generator) -> Real:
+    """White noise, shape (n,), with the density of the bench and variance 1: half of a signal of
+    twice its length, so that its end does not lead to its beginning.
+    """
+    whole = np.concatenate([white, source.standard_normal(len(white))])
+    hertz = np.fft.rfftfreq(len(whole), 1 / bench.sampling_rate)
+    gain = (1 + (hertz / bench.noise_corner) ** 2) ** (-bench.noise_slope / 4)
+    gain[0] = 0.0
+    shaped = np.fft.irfft(np.fft.rfft(whole) * gain, len(whole))
+    return np.asarray(shaped[: len(white)] / np.sqrt(2 * np.sum(gain**2) / len(whole)))
 
 
 def _lines(period: Real) -> Complex:

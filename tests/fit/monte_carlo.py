@@ -1,7 +1,8 @@
 """Random drives on a simulated bench, and what a fit says of them.
 
-Noise is white in time on the measured current and on the measured speed, so that the relative
-scatter of a line varies over the lines and is large at antiresonances, as on a bench.
+Noise is that of time signals, on the measured current and on the measured speed or position, so
+that the relative scatter of a line varies over the lines and is large at antiresonances, as on a
+bench. `KINDS` are the ways in which a drive is excited and recorded.
 """
 
 from collections.abc import Sequence
@@ -20,19 +21,45 @@ from disting.simulation import Bench, Excitation, simulate
 BENCH = Bench(sampling_rate=1000.0, samples=1000)
 EXCITATION = Excitation(kind="random-phase", low=4.0, high=300.0, every=3)
 LEVELS = (0.02, 0.06, 0.2)  # noise of the speed [its root mean square]; of the current a tenth
+SEGMENT = 1000  # samples, of Welch's method
+KINDS = {
+    "white": EXCITATION,
+    "coloured": EXCITATION,
+    "quantised": EXCITATION,
+    "swept": Excitation(kind="chirp", low=4.0, high=300.0),
+    "random": Excitation(kind="random-phase", low=2.0, high=400.0),
+}
 
 
 @dataclass(frozen=True)
 class Drive:
-    """A machine with known values, its noise and the seed of its measurements."""
+    """A machine with known values, its noise, the seed of its measurements, and the kind of these.
+
+    white: noise of the speed, as all but quantised; coloured: of slope 1 or 2 above 3 to 100 Hz;
+    quantised: an encoder whose steps are all the noise of its output; swept: a periodic chirp;
+    random: an excitation that does not repeat.
+    """
 
     chain: Chain
     values: dict[str, float]
     level: float
     seed: int
+    kind: str = "white"
+
+    @property
+    def excitation(self) -> Excitation:
+        """Its test signal."""
+        return KINDS[self.kind]
+
+    def bench(self, repeats: int, again: int = 0) -> Bench:
+        """How so many periods, or a record of 60 s times them, are recorded, without noise."""
+        seed = 2 * self.seed + again
+        if self.kind == "random":
+            return replace(BENCH, samples=60_000 * repeats, periods=1, seed=seed)
+        return replace(BENCH, periods=repeats, seed=seed)
 
 
-def drive(n_masses: int, seed: int) -> Drive:
+def drive(n_masses: int, seed: int, kind: str = "white") -> Drive:
     """Random drive: ground dampers, lag and dead time or none, 0.3 to 10 % damping."""
     source = np.random.default_rng([seed, n_masses])
     free = range(1, n_masses + 1)
@@ -48,39 +75,71 @@ def drive(n_masses: int, seed: int) -> Drive:
     zeta = np.exp(source.uniform(np.log(0.003), np.log(0.1)))
     values, mass = {}, 5e-3
     for name in chain.parameters:
-        kind = name[0]
-        if kind == "m":
+        letter = name[0]
+        if letter == "m":
             values[name] = mass * np.exp(source.uniform(-0.7, 0.7))
-        elif kind == "k":
+        elif letter == "k":
             values[name] = mass * (2 * np.pi * source.uniform(20, 100)) ** 2
-        elif kind == "d":
+        elif letter == "d":
             omega = np.sqrt(values["k" + name[1:]] / mass)
             values[name] = 2 * zeta * mass * omega * np.exp(source.uniform(-0.5, 0.5))
-        elif kind == "b":
+        elif letter == "b":
             values[name] = mass * 2 * np.pi * np.exp(source.uniform(np.log(2.0), np.log(20.0)))
         else:
             values[name] = float(np.exp(source.uniform(np.log(2e-4), np.log(2e-3))))
-    return Drive(chain, {k: float(v) for k, v in values.items()}, LEVELS[seed % 3], seed)
+    return Drive(chain, {k: float(v) for k, v in values.items()}, LEVELS[seed % 3], seed, kind)
 
 
 def recorded(machine: Drive, repeats: int, again: int = 0) -> TimeSeries:
-    """Current and speed over so many periods; `again`: another measurement."""
-    bench = replace(BENCH, periods=repeats, seed=2 * machine.seed + again)
-    quiet = simulate(machine.chain, machine.values, EXCITATION, bench)
-    size = float(np.sqrt(np.mean(quiet.y**2)))
-    noisy = replace(bench, input_noise=0.1 * machine.level, output_noise=machine.level * size)
-    return simulate(machine.chain, machine.values, EXCITATION, noisy)
+    """Current and speed, or position, over so many periods; `again`: another measurement."""
+    bench, excitation = machine.bench(repeats, again), machine.excitation
+    quiet = simulate(machine.chain, machine.values, excitation, bench)
+    size = machine.level * float(np.sqrt(np.mean(quiet.y**2)))
+    noisy = replace(bench, input_noise=0.1 * machine.level, output_noise=size)
+    if machine.kind == "coloured":
+        corner = 3.0 * (100 / 3) ** np.random.default_rng([machine.seed, 7]).random()
+        noisy = replace(noisy, noise_slope=1.0 + machine.seed % 2, noise_corner=corner)
+    if machine.kind == "quantised":  # as much as the other kinds at 100 Hz
+        seen = replace(machine.chain, sensor="position")
+        noisy = replace(noisy, output_noise=0.0, quantum=np.sqrt(12) * size / (2 * np.pi * 100))
+        return simulate(seen, machine.values, excitation, noisy)
+    return simulate(machine.chain, machine.values, excitation, noisy)
 
 
 def measured(machine: Drive, repeats: int, again: int = 0) -> FrequencyResponse:
     """The acceleration response of what was recorded, by the reader of the package."""
-    lines = EXCITATION.lines(BENCH.samples, BENCH.sampling_rate)
-    return recorded(machine, repeats, again).response(
+    series = recorded(machine, repeats, again)
+    if machine.kind == "random":
+        return series.response("acceleration", segment=SEGMENT, band=(4.0, 300.0))
+    lines = machine.excitation.lines(BENCH.samples, BENCH.sampling_rate)
+    return series.response(
         "acceleration",
         period=BENCH.samples,
         transient=0,
         lines=lines * BENCH.sampling_rate / BENCH.samples,
     )
+
+
+def by_hand(machine: Drive, repeats: int) -> tuple[np.ndarray, np.ndarray]:
+    """omega and the acceleration response of what was recorded, by numpy alone."""
+    series = recorded(machine, repeats)
+    n, step = BENCH.samples, BENCH.samples
+    lines = machine.excitation.lines(n, BENCH.sampling_rate)
+    window = np.ones(n)
+    if machine.kind == "random":
+        n, step = SEGMENT, SEGMENT // 2
+        lines = np.arange(4, 301, 2)
+        window = np.sin(np.pi * np.arange(n) / n) ** 2
+    starts = range(0, len(series) - n + 1, step)
+    cut = [[x[i : i + n] for i in starts] for x in (series.u, series.y)]
+    u, y = (
+        np.array([np.fft.rfft((one - one.mean()) * window)[lines] for one in each]) for each in cut
+    )
+    against = u if machine.kind == "random" else np.ones_like(u)
+    omega = 2 * np.pi * lines * BENCH.sampling_rate / n
+    steps = 2 - series.sensor.order
+    quotient = (y * against.conj()).sum(axis=0) / (u * against.conj()).sum(axis=0)
+    return omega, (1j * omega) ** steps * quotient
 
 
 def true_scatter(machine: Drive, omega: np.ndarray, repeats: int) -> np.ndarray:

@@ -1,5 +1,5 @@
-"""Noise as a bench has it: white in time on the measured current and speed, so that the relative
-scatter of a line varies over the lines. The scatter is found, the true structure is kept.
+"""Noise as a bench has it: that of time signals, so that the relative scatter of a line varies over
+the lines. The scatter is found, the true structure is kept.
 """
 
 import shlex
@@ -23,7 +23,9 @@ from disting.model.settings import Settings
 from tests.cli.process import called
 from tests.fit.monte_carlo import (
     BENCH,
+    KINDS,
     Drive,
+    by_hand,
     drive,
     measured,
     outcome,
@@ -56,18 +58,6 @@ def test_the_scatter_is_that_of_the_bench_however_often_it_was_measured(repeats)
     assert np.median(shapes) < 0.2
 
 
-@pytest.mark.parametrize("repeats", [1, 2, 10])
-def test_whitened_residuals_of_the_truth_are_standard_normal(repeats):
-    size = []
-    for machine in DRIVES:
-        data = measured(machine, repeats)
-        response = exact(machine, data.omega)
-        size.append(
-            np.mean(Whitened(Cost(data), scatter(data, [response])).residual(response) ** 2)
-        )
-    assert np.mean(size) == pytest.approx(1, abs=0.1) and np.max(size) < 1.7
-
-
 def test_the_reader_is_the_plain_quotient_of_the_spectra():
     """A twin by numpy alone: mean spectra, and the scatter of the quotients of single periods."""
     machine, periods = DRIVES[0], 3
@@ -79,6 +69,38 @@ def test_the_reader_is_the_plain_quotient_of_the_spectra():
     spread = np.sqrt(np.sum(np.abs(y / u - (y / u).mean(axis=0)) ** 2, axis=0) / (2 * periods))
     np.testing.assert_allclose(data.deviation, omega * spread, rtol=1e-9)
     assert data.freedom == 4.0 and measured(machine, 1).freedom is None
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_reader_of_every_kind_of_record_is_a_few_lines_of_numpy(kind):
+    machine = drive(2, 1, kind)
+    data, (omega, response) = measured(machine, 2), by_hand(machine, 2)
+    np.testing.assert_allclose(data.omega, omega, rtol=1e-12)
+    np.testing.assert_allclose(data.G, response, rtol=1e-9)
+
+
+@pytest.mark.parametrize("repeats", [1, 2, 10])
+@pytest.mark.parametrize("kind", ["white", "coloured", "quantised", "swept"])
+def test_whitened_residuals_of_every_kind_are_standard_normal(kind, repeats):
+    """Also the steps of an encoder, which repeat with the excitation: the periods do not see
+    them.
+    """
+    _standard_normal([drive(2, seed, kind) for seed in range(12)], repeats)
+
+
+def test_whitened_residuals_of_short_segments_are_standard_normal():
+    """Segments of 1 s are too short for resonances of 0.3 % damping: what they miss counts."""
+    _standard_normal([drive(2, seed, "random") for seed in range(6)], 1)
+
+
+def _standard_normal(machines, repeats):
+    size = []
+    for machine in machines:
+        data = measured(machine, repeats)
+        response = exact(machine, data.omega)
+        whitened = Whitened(Cost(data), scatter(data, [response]))
+        size.append(np.mean(whitened.residual(response) ** 2))
+    assert np.median(size) == pytest.approx(1, abs=0.12) and np.max(size) < 1.8
 
 
 def test_coefficients_are_those_that_made_the_powers():
@@ -221,6 +243,16 @@ def test_the_true_structure_is_kept_in_95_percent(n_masses, least, repeats, test
     found = [outcome(m, selected(m, repeats, tested)) for m in machines]
     print(n_masses, repeats, tested, table(found))
     assert np.mean([one.kept for one in found]) >= least
+    assert np.mean([one.smaller_excluded for one in found]) >= 2 / 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["coloured", "quantised", "swept", "random"])
+def test_the_true_structure_is_kept_in_every_kind_of_record(kind):
+    machines = [drive(2, seed, kind) for seed in range(6)]
+    found = [outcome(m, selected(m, 1 if kind == "random" else 2)) for m in machines]
+    print(kind, table(found))
+    assert sum(one.kept for one in found) >= 5 and all(one.explained for one in found)
     assert np.mean([one.smaller_excluded for one in found]) >= 2 / 3
 
 

@@ -204,6 +204,20 @@ def test_noise_is_as_large_as_asked_for_and_its_deviation_is_true():
     assert 0.8 < np.mean(error**2) < 1.3
 
 
+@pytest.mark.parametrize(("slope", "corner"), [(1.0, 2.0), (2.0, 20.0)])
+def test_coloured_noise_has_its_size_and_its_density(slope, corner):
+    chain, values = CHAINS[0], truth(CHAINS[0])
+    bench = replace(BENCH, periods=200)
+    loud = replace(bench, output_noise=1e-3, noise_slope=slope, noise_corner=corner)
+    noise = simulate(chain, values, BAND, loud).y - simulate(chain, values, BAND, bench).y
+    assert np.std(noise) == pytest.approx(1e-3, rel=0.05)
+    power = np.abs(np.fft.rfft(noise.reshape(200, 1000) * np.hanning(1000), axis=1)) ** 2
+    hertz = np.arange(5, 400)
+    flat = power.mean(axis=0)[hertz] * (1 + (hertz / corner) ** 2) ** (slope / 2)
+    for part in np.array_split(flat / flat.mean(), 4):
+        assert part.mean() == pytest.approx(1, abs=0.05)
+
+
 def test_an_encoder_shows_multiples_of_its_step():
     quantum = 2 * np.pi / 2**16
     record = simulate(DEMO_MODEL, DEMO_PARAMETERS, bench=Bench(quantum=quantum, periods=2))
@@ -284,6 +298,8 @@ def test_the_demonstration_is_a_bench_that_shows_its_model():
         (lambda: Excitation(low=10.1, high=10.2).period(1000, 1000.0), "holds no line"),
         (lambda: Bench(sampling_rate=0.0), "positive sampling rate"),
         (lambda: Bench(quantum=-1.0), "not negative"),
+        (lambda: Bench(noise_slope=-1.0), "slope of at least 0"),
+        (lambda: Bench(noise_corner=0.0), "positive corner"),
         (lambda: Friction(speed=0.0), "speed > 0"),
         (
             lambda: simulate(
