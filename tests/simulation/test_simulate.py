@@ -1,12 +1,15 @@
 """Simulated records: the response of a record without noise is that of the model, exactly."""
 
+import re
 from dataclasses import replace
+from importlib.resources import files
 
 import numpy as np
 import pytest
 import sympy
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.signal import cont2discrete
 
 from disting.errors import InputError
 from disting.model.chain import Chain, Sensor
@@ -274,6 +277,41 @@ def test_the_demonstration_is_a_bench_that_shows_its_model():
         found.frequency[np.argmin(np.abs(found.G))].round() == 53
         and found.frequency[np.argmax(np.abs(found.G))].round() == 77
     )
+
+
+def held_error(rate, hertz):
+    """Errors of the motor position per force, held at a rate [Hz]: beside half a sample of delay,
+    and after division by the response of the hold; by exact discretisation.
+    """
+    chain = replace(DEMO_MODEL, dead_time=False)
+    values = {name: value for name, value in DEMO_PARAMETERS.items() if name != "Td"}
+    m = matrices(chain, values)
+    A = np.block(
+        [
+            [np.zeros((2, 2)), np.eye(2)],
+            [-np.linalg.solve(m.M, m.K), -np.linalg.solve(m.M, m.D)],
+        ]
+    )
+    B = np.array([[0.0], [0.0], [1 / values["m1"]], [0.0]])
+    a, b, c, _, _ = cont2discrete((A, B, np.eye(4)[:1], [[0.0]]), 1 / rate)
+    s = 2j * np.pi * hertz / rate
+    sampled = np.array([(c @ np.linalg.solve(np.exp(x) * np.eye(4) - a, b))[0, 0] for x in s])
+    ratio = sampled / frequency_response(chain, values, 2 * np.pi * hertz)
+    return abs(ratio * np.exp(s / 2) - 1), abs(ratio * s / (1 - np.exp(-s)) - 1)
+
+
+def test_a_held_input_makes_the_errors_that_the_guide_tells():
+    guide = files("disting").joinpath("guide", "measured-data.md").read_text(encoding="utf-8")
+    rows = re.findall(r"\| ([\d.]+) f_s \| ([\d.]+) % \| ([\d.]+) % \|", guide)
+    assert len(rows) == 5
+    lines = np.linspace(0.01, 0.45, 441)
+    delayed, divided = (100 * error for error in held_error(5000.0, 5000.0 * lines))
+    for share, one, other in rows:
+        last = np.argmin(abs(lines - float(share))) + 1
+        assert delayed[:last].max() == pytest.approx(float(one), rel=0.06)
+        assert divided[:last].max() == pytest.approx(float(other), rel=0.06, abs=0.008)
+    antiresonance = held_error(300.0, np.linspace(50.0, 55.0, 501))[1]
+    assert 100 * antiresonance.max() == pytest.approx(17, abs=1)
 
 
 @pytest.mark.parametrize(
