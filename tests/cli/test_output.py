@@ -42,10 +42,12 @@ def models(tmp_path: Path) -> Path:
     "asked", [f"{PAIR} --json", "verdicts models.json --json", "verdicts models.json --csv"]
 )
 def test_data_are_the_same_bytes_in_a_file_and_on_any_standard_output(
-    models: Path, asked: str, encoding: str
+    models: Path, monkeypatch: pytest.MonkeyPatch, asked: str, encoding: str
 ) -> None:
-    done = shell(f"$D {asked} FILE && $D {asked} -", models.parent, PYTHONIOENCODING=encoding)
+    monkeypatch.chdir(models.parent)
+    assert called(*asked.split(), "FILE").returncode == 0
     content = (models.parent / "FILE").read_bytes()
+    done = shell(f"$D {asked} -", models.parent, PYTHONIOENCODING=encoding)
     assert (done.returncode, done.stderr) == (0, b"") and done.stdout.endswith(content)
     assert not content.isascii() and content.decode("utf-8")
 
