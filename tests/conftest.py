@@ -5,9 +5,8 @@ HYPOTHESIS_PROFILE=fresh draws new ones."""
 import gc
 import os
 
+import pytest
 from hypothesis import settings
-
-gc.disable()  # until all tests are collected: a third of the time in which they are
 
 os.environ["DISTING_CACHE"] = "off"
 os.environ["DISTING_PROGRESS"] = "off"
@@ -19,10 +18,17 @@ settings.register_profile("fresh", deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 
 
-def pytest_collection_finish():
-    """What was collected stays, and is not looked through again."""
-    gc.freeze()
-    gc.enable()
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """What is collected stays: to look through it for garbage takes a third of the time, and is
+    not done later either.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 SECTIONS = {"oracle": "compared with independent programs", "attack": "attacked"}

@@ -107,10 +107,12 @@ def test_a_unit_that_contradicts_the_quantity_is_not_lost():
         FrequencyResponse(2 * np.pi * FREQUENCY, G, **said).to_quantity("acceleration")
 
 
-@pytest.mark.parametrize("drive", [name.replace(" ", gap) for name in DRIVES for gap in ("", " ")])
-@pytest.mark.parametrize("name", [name for name, unit in MOTIONS.items() if not unit.order])
-def test_a_unit_that_is_known_is_known_in_a_comment(name, drive):
-    assert ratio([f"# {name}/s^2 per {drive}, of June"]) == (f"{name}/s^2", drive)
+def test_a_unit_that_is_known_is_known_in_a_comment():
+    drives = {name.replace(" ", gap) for name in DRIVES for gap in ("", " ")}
+    motions = [name for name, unit in MOTIONS.items() if not unit.order]
+    pairs = [(f"{name}/s^2", drive) for name in motions for drive in drives]
+    assert [pair for pair in pairs if ratio([f"# {' per '.join(pair)}, of June"]) != pair] == []
+    assert len(pairs) > 200
 
 
 def test_units_that_the_caller_gives():
