@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from disting.conditions.finding import Finding
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.files import intact_text
 from disting.model.chain import Chain
 from disting.questions.same.limited import SETTLED
@@ -28,7 +27,7 @@ def read_settled(folder: Path) -> Settled:
     records = (
         [json.loads(line) for line in intact_text(path).splitlines()] if path.is_file() else []
     )
-    return {(r["left"], r["right"]): finding_from_json(json.dumps(r["finding"])) for r in records}
+    return {(r["left"], r["right"]): Finding.from_json(json.dumps(r["finding"])) for r in records}
 
 
 def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
@@ -36,7 +35,7 @@ def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
     record = {
         "left": str(first),
         "right": str(second),
-        "finding": json.loads(finding_to_json(finding)),
+        "finding": json.loads(finding.to_json()),
     }
     with (folder / FILE).open("a", encoding="utf-8", newline="\n") as file:
         file.write(json.dumps(record, separators=(",", ":")) + "\n")

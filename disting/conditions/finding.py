@@ -1,12 +1,18 @@
 """What one condition finds about one pair: three-valued and more, never a bare bool."""
 
-from dataclasses import dataclass
+import json
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Self
 
 from disting.algebra.certainty import Certainty, shortfall
-from disting.conditions.rule import Rule
-from disting.evidence.kinds import Evidence
+from disting.conditions.rule import EXACT, Rule
+from disting.evidence.kinds import Evidence, evidence_from
 from disting.model.shown import summary
+
+# what files have in the place of the rule where a decision found it, since the first of them: a
+# mark, and no place in the table of conditions, of which one called 10 is written as text
+WRITTEN = 10
 
 
 class Outcome(StrEnum):
@@ -56,3 +62,31 @@ class Finding:
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its outcome")
+
+    @property
+    def turned(self) -> Self:
+        """The finding on the pair in the other order."""
+        return self if self.evidence is None else replace(self, evidence=self.evidence.turned)
+
+    def to_json(self) -> str:
+        """Compact JSON text of a finding of a decision; its rule is known to whoever asked."""
+        evidence = None if self.evidence is None else self.evidence.to_dict()
+        data = [WRITTEN, self.outcome, self.certainty, self.safety, evidence, self.note]
+        return json.dumps(data, separators=(",", ":"))
+
+    @classmethod
+    def from_json(cls, text: str, rule: Rule = EXACT) -> Self:
+        """Inverse of `to_json`, for a finding by this rule; raises ValueError, KeyError or
+        TypeError for what is none.
+        """
+        written, outcome, certainty, safety, evidence, note = json.loads(text)
+        if written != WRITTEN:
+            raise ValueError("not a finding of a decision")
+        return cls(
+            rule=rule,
+            outcome=Outcome(outcome),
+            certainty=Certainty(certainty),
+            safety=safety,
+            evidence=evidence_from(evidence) if evidence else None,
+            note=note,
+        )

@@ -2,13 +2,11 @@
 masses.
 """
 
-import re
 from dataclasses import dataclass, replace
-from itertools import groupby
-from typing import ClassVar
+from typing import ClassVar, Self
 
 from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind
-from disting.evidence.seen import Labels, SeenPair
+from disting.evidence.seen import Labels, SeenPair, spelled
 from disting.model.domain import Domain
 from disting.model.relation import Relation
 
@@ -166,6 +164,11 @@ class Renaming(Kind):
         """It carries all parameters over."""
         return True
 
+    @property
+    def turned(self) -> Self:
+        """The renaming back."""
+        return replace(self, pairs=tuple((b, a) for a, b in self.pairs))
+
 
 @dataclass(frozen=True, slots=True)
 class FreeChoice(Kind):
@@ -262,22 +265,6 @@ class Supermodel(Kind):
 
 
 ByConditions = Counts | Forms | Ranks | Renaming | FreeChoice | Embedding | Supermodel
-
-
-def spelled(labels: Labels) -> str:
-    """Labels with runs shortened.
-
-    >>> spelled(("b0", "b1", "b2", "a1")), spelled(("b0[2]", "b1[2]"))
-    ('b0–b2, a1', 'b0[2]–b1[2]')
-    """
-    found = [re.fullmatch(r"([A-Za-z]+)(\d+)(.*)", label) for label in labels]
-    numbered = [(m[1] + m[3], int(m[2])) if m else ("", -1) for m in found]
-    runs = [
-        list(run)
-        for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))
-    ]
-    ends = [(labels[run[0][0]], labels[run[-1][0]]) for run in runs]
-    return ", ".join(a if a == b else f"{a}–{b}" for a, b in ends)
 
 
 def _degrees_in_words(degrees: tuple[int, ...]) -> str:

@@ -101,11 +101,13 @@ class Kind:
 
     @property
     def turned(self) -> Self:
-        """The same of the pair in the other order, of kinds whose fields name the side."""
+        """The same of the pair in the other order, where fields tell left from right."""
         told = {f.name: getattr(self, f.name) for f in fields(self)}
-        flipped = {name: not value for name, value in told.items() if name.startswith("left_")}
-        sides = {"left": told["right"], "right": told["left"]} if "right" in told else {}
-        return replace(self, **flipped, **sides)
+        sides = {name: name.replace("left", "right") for name in told if "left" in name}
+        twins = {name: twin for name, twin in sides.items() if twin in told}
+        flipped = {name: not told[name] for name in sides.keys() - twins.keys()}
+        swapped = {a: told[b] for pair in twins.items() for a, b in (pair, pair[::-1])}
+        return replace(self, **flipped, **swapped)
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""

@@ -7,9 +7,8 @@ from enum import StrEnum
 from itertools import groupby
 from typing import ClassVar, NamedTuple
 
-from disting.evidence.conditions import spelled
 from disting.evidence.kind import Claim, Inside, Kind
-from disting.evidence.seen import Labels
+from disting.evidence.seen import Labels, spelled
 
 
 class Why(StrEnum):

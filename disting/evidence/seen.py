@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
-from itertools import chain
+from itertools import chain, groupby
 from typing import Any
 
 from disting.behaviour.sample import Representation, Sample, samples
@@ -88,3 +88,19 @@ def markov_count(labels: Labels) -> int:
     if most > MOST_MARKOV:
         raise ValueError(f"G{most} is beyond the first {MOST_MARKOV} Markov parameters")
     return most
+
+
+def spelled(labels: Labels) -> str:
+    """Labels with runs shortened.
+
+    >>> spelled(("b0", "b1", "b2", "a1")), spelled(("b0[2]", "b1[2]"))
+    ('b0–b2, a1', 'b0[2]–b1[2]')
+    """
+    found = [re.fullmatch(r"([A-Za-z]+)(\d+)(.*)", label) for label in labels]
+    numbered = [(m[1] + m[3], int(m[2])) if m else ("", -1) for m in found]
+    runs = [
+        list(run)
+        for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))
+    ]
+    ends = [(labels[run[0][0]], labels[run[-1][0]]) for run in runs]
+    return ", ".join(a if a == b else f"{a}–{b}" for a, b in ends)

@@ -16,7 +16,6 @@ from dataclasses import replace
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import by_list
@@ -64,5 +63,5 @@ def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings)
 
 
 QUICKLY = Question(
-    "exact decisions under experiments, quickly", quick_finding, finding_to_json, finding_from_json
+    "exact decisions under experiments, quickly", quick_finding, Finding.to_json, Finding.from_json
 )

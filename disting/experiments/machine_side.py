@@ -20,7 +20,6 @@ from disting.algebra.sampling import prime
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
@@ -43,7 +42,7 @@ from disting.questions.same.real_and_positive import positive_ways
 NOT_COMPARABLE = "ranks, degrees or dead times differ (conditions 2 to 4)"
 NOT_KNOWN = "whether equivalents under these experiments are {} is not known"
 EXACTLY = Question(
-    "exact decisions under experiments", exact_finding, finding_to_json, finding_from_json
+    "exact decisions under experiments", exact_finding, Finding.to_json, Finding.from_json
 )
 POSITIVELY = Question(
     "positive equivalents under experiments",

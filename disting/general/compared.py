@@ -19,7 +19,6 @@ from disting.algebra.sampling import prime
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.evidence.conditions import Renaming
 from disting.evidence.general import Constants
@@ -50,16 +49,16 @@ def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Findi
     return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
 
 
-EXACTLY = Question("exact decisions on general models", same, finding_to_json, finding_from_json)
-_admissible_from_json = partial(finding_from_json, rule=ADMISSIBLE)
+EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
+_admissible_from_json = partial(Finding.from_json, rule=ADMISSIBLE)
 ADMISSIBLY = {
     Domain.REAL: Question(
-        "real equivalents of general models", _over_real, finding_to_json, _admissible_from_json
+        "real equivalents of general models", _over_real, Finding.to_json, _admissible_from_json
     ),
     Domain.POSITIVE: Question(
         "positive equivalents of general models",
         _over_positive,
-        finding_to_json,
+        Finding.to_json,
         _admissible_from_json,
     ),
 }

@@ -14,7 +14,6 @@ from disting.behaviour.expanded import is_renaming
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
@@ -44,7 +43,7 @@ from disting.questions.inclusion import (
 from disting.questions.inclusion import confirms as confirms_inclusion
 from disting.questions.positive import proves
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_again, exact_finding, mirrored, resting_on_ranks
+from disting.questions.same.exact import exact_again, exact_finding, resting_on_ranks
 from disting.questions.same.real_and_positive import (
     LACKING,
     POSITIVELY,
@@ -56,7 +55,7 @@ from disting.questions.same.real_and_positive import (
 )
 from disting.verdict.compared import Ask
 
-EXACTLY = Question("exact decisions", exact_finding, finding_to_json, finding_from_json)
+EXACTLY = Question("exact decisions", exact_finding, Finding.to_json, Finding.from_json)
 Profiles = Callable[[ChainModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedChain", "ComparedChain"]
 
@@ -169,7 +168,7 @@ class ComparedChain:
             return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
         first, second = self.in_order(other)
         found = self.answerer(EXACTLY, (first, second), self.settings)
-        found = found if first == self.canonical.chain else mirrored(found)
+        found = found if first == self.canonical.chain else found.turned
         return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
 
     def confirms(self, other: "ComparedChain", evidence: Evidence, representation: str) -> bool:
@@ -193,7 +192,7 @@ class ComparedChain:
         found = exact_again(evidence.turned if turned else evidence, first, second, self.settings)
         if found is None:
             return None
-        found = mirrored(found) if turned else found
+        found = found.turned if turned else found
         return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
 
     def admissible(

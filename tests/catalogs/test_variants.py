@@ -13,7 +13,7 @@ from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
 from disting.model.settings import Settings
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_finding, mirrored
+from disting.questions.same.exact import exact_finding
 from tests.catalogs.variants import (
     originals_against_lagged,
     sensor_effects,
@@ -85,7 +85,7 @@ def test_the_exact_decision_knows_the_theorem():
         Certainty.THEOREM,
         DeadTime(False),
     )
-    assert mirrored(found) == exact_finding(other, plain, Settings())
+    assert found.turned == exact_finding(other, plain, Settings())
     assert "B has a dead time, A has none" in found.evidence.sentence("A", "B")
     assert evidence_from(found.evidence.to_dict()) == found.evidence
     witness = Witness()

@@ -8,8 +8,7 @@ import pytest
 
 from disting import Engine, Query, Relation
 from disting.algebra.certainty import Certainty
-from disting.conditions.finding import Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
+from disting.conditions.finding import Finding, Outcome
 from disting.evidence.kinds import evidence_from
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
@@ -34,7 +33,7 @@ def test_the_row_that_differs_decides_chains_of_any_size(pair, part):
     assert (found.outcome, found.certainty) == (Outcome.FAILS, Certainty.BOUNDED)
     assert found.safety >= 100
     assert (found.evidence.kind, found.evidence.part) == ("shared", part)
-    assert finding_from_json(finding_to_json(found)) == found
+    assert Finding.from_json(found.to_json()) == found
     assert Witness().confirms(found.evidence, "fibre", *pair)
     assert not Witness().confirms(found.evidence, "fibre", pair[0], pair[0])
 

@@ -10,7 +10,6 @@ import pytest
 from disting import Certainty, Chain, Relation, Settings, compare
 from disting.algebra.certainty import LEAST_SAFETY, joint_safety, shortfall
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Ranks
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
@@ -46,14 +45,14 @@ def test_a_finding_below_the_floor_is_abandoned(outcome, safety):
 
 def test_a_finding_at_the_floor_stands():
     found = Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, LEAST_SAFETY, RANKS)
-    assert found.outcome is Outcome.FAILS and finding_from_json(finding_to_json(found)) == found
+    assert found.outcome is Outcome.FAILS and Finding.from_json(found.to_json()) == found
 
 
 def test_a_stored_finding_below_the_floor_is_not_believed():
-    text = finding_to_json(Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, 100, RANKS)).replace(
-        "100", "99"
+    text = (
+        Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, 100, RANKS).to_json().replace("100", "99")
     )
-    assert finding_from_json(text).outcome is Outcome.ABANDONED
+    assert Finding.from_json(text).outcome is Outcome.ABANDONED
 
 
 def test_positive_equivalents_and_inclusion_keep_to_the_floor():

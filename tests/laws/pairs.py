@@ -8,7 +8,6 @@ from hypothesis import example, settings
 from hypothesis import strategies as st
 
 from disting import Chain, Engine, Family, Query, View, compare
-from disting.evidence.conditions import Counts, Embedding, Forms, Ranks, Renaming
 from disting.questions.same.evidence_check import Witness
 from disting.verdict import audit, decide
 from tests.laws.strategies import chains
@@ -74,24 +73,6 @@ def with_examples(test):
     for pair in EXAMPLES:
         test = example(pair=pair)(test)
     return test
-
-
-def mirrored(evidence):
-    """The same evidence said of (right, left)."""
-    match evidence:
-        case Counts() | Ranks():
-            return replace(evidence, left=evidence.right, right=evidence.left)
-        case Forms():
-            return Forms(evidence.only_right, evidence.only_left)
-        case Embedding():
-            return replace(evidence, left_is_submodel=not evidence.left_is_submodel)
-    return evidence
-
-
-def mirrored_renaming(evidence):
-    if isinstance(evidence, Renaming):
-        return replace(evidence, pairs=tuple((b, a) for a, b in evidence.pairs))
-    return mirrored(evidence)
 
 
 def audited(subjects, query):

@@ -11,7 +11,7 @@ import pytest
 from disting import Chain, Experiment, Family, Query, Relation, Settings, View, verdict_file, verify
 from disting.catalogs import catalog
 from disting.model.symmetry import canonical
-from disting.questions.same.exact import by_synthesis, mirrored
+from disting.questions.same.exact import by_synthesis
 from disting.verdict.verification import Standing
 from tests.cli.process import called
 from tests.verdict.lies import ENGINE, missed, plain, told_again
@@ -114,7 +114,7 @@ def test_a_fibre_of_models_of_unequal_rank_does_not_make_them_the_same() -> None
     first, second = sorted(sides, key=lambda c: (c.indices, c.ground_dampers, c.lag))
     found = by_synthesis(first, second, Settings())
     assert found is not None
-    found = found if first == sides[0] else mirrored(found)
+    found = found if first == sides[0] else found.turned
     assert found.outcome.value == "holds" and found.evidence is not None
     lie = {
         "relation": "indistinguishable",

@@ -61,13 +61,11 @@ def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: Coefficien
     matrices, which takes long and much memory for many unknowns and high degrees (10 unknowns,
     degree 5: minutes).
     """
+    if isinstance(evidence, Refuted):
+        return bool(evidence.labels) and confirms_matched(evidence, *matched(left, right))
     given, other = (left, right) if evidence.left_given else (right, left)
-    if isinstance(evidence, Solved):
-        runs = zip(evidence.labels, evidence.solutions, strict=True)
-        return bool(evidence.labels) and all(_agree(given, other, label, q) for label, q in runs)
-    return bool(evidence.labels) and all(
-        _refuted(evidence, given, other, label) for label in evidence.labels
-    )
+    runs = zip(evidence.labels, evidence.solutions, strict=True)
+    return bool(evidence.labels) and all(_agree(given, other, label, q) for label, q in runs)
 
 
 def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap) -> bool:
@@ -125,8 +123,3 @@ def _at(model: CoefficientMap, point: Sequence[int], modulus: int) -> tuple[nmod
         [value(p) for p in polynomials] for polynomials in (model.numerator, model.denominator)
     )
     return nmod_poly(num, modulus), nmod_poly(den, modulus)
-
-
-def _refuted(evidence: Refuted, given: CoefficientMap, other: CoefficientMap, label: str) -> bool:
-    ideal = fibre_ideal(*matched(given, other), label, evidence.tangent)
-    return reaches_one(ideal.generators, len(ideal.unknowns), ideal.modulus, evidence.degree)

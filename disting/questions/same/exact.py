@@ -228,13 +228,6 @@ def rational_part(chain: Chain) -> Structure:
     return replace(chain, dead_time=False).structure
 
 
-def mirrored(finding: Finding) -> Finding:
-    """The finding on the pair in the other order."""
-    return (
-        finding if finding.evidence is None else replace(finding, evidence=finding.evidence.turned)
-    )
-
-
 def theorem(a: Chain, b: Chain) -> str:
     """Name of the theorem by which two chains are the same for all parameters; "" if there is none.
 

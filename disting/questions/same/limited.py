@@ -17,7 +17,6 @@ from disting.behaviour.profile import (
     profile_to_json,
 )
 from disting.conditions.finding import Finding, Outcome
-from disting.conditions.finding_json import finding_from_json, finding_to_json
 from disting.conditions.rule import EXACT
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
@@ -92,10 +91,10 @@ def quick_profile(chain: Chain, settings: Settings) -> Profile:
     return inverse_profile(structure, 2 * structure.n_states, settings)
 
 
-QUICKLY = Question("quick exact decisions", quick_finding, finding_to_json, finding_from_json)
-SETTLED = Question("settled decisions", settled_finding, finding_to_json, finding_from_json)
-SHARING = Question("decisions by shares", sharing_finding, finding_to_json, finding_from_json)
-PATIENTLY = Question("patient exact decisions", patient_finding, finding_to_json, finding_from_json)
+QUICKLY = Question("quick exact decisions", quick_finding, Finding.to_json, Finding.from_json)
+SETTLED = Question("settled decisions", settled_finding, Finding.to_json, Finding.from_json)
+SHARING = Question("decisions by shares", sharing_finding, Finding.to_json, Finding.from_json)
+PATIENTLY = Question("patient exact decisions", patient_finding, Finding.to_json, Finding.from_json)
 INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile_from_json)
 
 
