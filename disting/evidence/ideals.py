@@ -91,7 +91,7 @@ class Vanishing(Kind):
     index: int
 
 
-Shown = Vanishing | Solved | Refuted
+Shown = Vanishing | Solved
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,11 +122,6 @@ class ByRows(Kind):
     def inside(self) -> Inside:
         """Two rows that can be are a limit: elements may be zero."""
         return Inside.LIMIT if self.is_member else Inside.NO_EQUIVALENT
-
-    @property
-    def is_proven(self) -> bool:
-        """Whether nothing is left to chance."""
-        return all(isinstance(s.shown, Vanishing) for s in self.steps)
 
     def sentence(self, left: str, right: str) -> str:
         """What was found, row by row."""
@@ -258,11 +253,6 @@ def _told(step: RowStep, searched: str) -> str:
         case Solved():
             found = (
                 f"{row} was solved for {len(step.shown.labels)} random receptances modulo random"
-                " primes"
-            )
-        case Refuted():
-            found = (
-                f"{row} was refuted for {len(step.shown.labels)} random receptances modulo random"
                 " primes"
             )
     return f"{_SPLITS[step.split]}, {found}"

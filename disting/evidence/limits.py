@@ -18,7 +18,6 @@ class Why(StrEnum):
     FULL = "full"
     MOMENTUM = "momentum"
     COEFFICIENT = "coefficient"
-    RANK = "rank"
     RESULTANT = "resultant"
     EQUATION = "equation"
 
@@ -30,8 +29,8 @@ class RowLimits(NamedTuple):
     """What is shown of one row (`part`) in one `split` (see `disting.fibres.ideals.splits`; "whole"
     for a chain without a gap).
 
-    `detail`: the coefficient's name, both ranks, or the label from which primes and points of an
-    equation are drawn.
+    `detail`: the coefficient's name, or the label from which primes and points of an equation are
+    drawn.
     """
 
     split: str
@@ -85,11 +84,6 @@ class Outside(_Steps):
         return f"A generic {given} is no limit of models {searched}: {told}."
 
     @property
-    def is_proven(self) -> bool:
-        """Whether nothing is left to chance."""
-        return all(step.why is not Why.EQUATION for step in self.steps)
-
-    @property
     def formula(self) -> str:
         """What does not vanish."""
         return (
@@ -128,7 +122,6 @@ _TOLD = {
     Why.FULL: "{row} can have any coefficients that it has at all",
     Why.MOMENTUM: "{row} can have any coefficients that keep the momentum (a₂ b₁ = a₃ b₀)",
     Why.COEFFICIENT: "coefficient {detail} is zero in {row} and would not be",
-    Why.RANK: "{row} has too few determinable parameters ({detail})",
     Why.RESULTANT: (
         "the coefficients of {row} fulfil an equation, a resultant, that would not hold"
     ),
@@ -136,7 +129,6 @@ _TOLD = {
 }
 _FORMULAS = {
     Why.COEFFICIENT: "{detail} ≠ 0",
-    Why.RANK: "{detail}",
     Why.RESULTANT: "Res(U, V) ≠ 0",
     Why.EQUATION: "F(b, a) ≠ 0",
 }

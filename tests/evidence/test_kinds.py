@@ -10,7 +10,7 @@ import pytest
 import disting.evidence
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import Theorem
-from disting.evidence.ideals import ByRows, Refuted, RowStep, Solved, Vanishing
+from disting.evidence.ideals import ByRows, RowStep, Solved, Vanishing
 from disting.evidence.kind import read
 from disting.evidence.kinds import (
     Evidence,
@@ -67,7 +67,7 @@ def test_what_belongs_to_another_statement_is_refused():
                 True,
                 (
                     RowStep("same", "free", Vanishing(3)),
-                    RowStep("rigid", "free", Refuted(True, ("x",), 2, False)),
+                    RowStep("rigid", "free", Solved(True, ("x",), ((1, 2),))),
                 ),
             ),
             {
@@ -78,12 +78,12 @@ def test_what_belongs_to_another_statement_is_refused():
                     {
                         "split": "rigid",
                         "part": "free",
-                        "kind": "refuted",
+                        "kind": "solved",
                         "left_given": True,
                         "labels": ("x",),
-                        "degree": 2,
+                        "solutions": ((1, 2),),
                     }
-                    | {"tangent": False, "is_normalised": False},
+                    | {"is_normalised": False},
                 ],
             },
         ),

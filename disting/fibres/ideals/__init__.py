@@ -8,7 +8,6 @@ apart first (`by_two_rows`). Independent of `disting.fibres.synthesis`.
 from disting.fibres.decision import Decision as Decision
 from disting.fibres.ideals.by_shares import chains_told_apart as chains_told_apart
 from disting.fibres.ideals.by_two_rows import confirms_by_rows as confirms_by_rows
-from disting.fibres.ideals.by_two_rows import decide_by_rows as decide_by_rows
 from disting.fibres.ideals.by_two_rows import included_by_rows as included_by_rows
 from disting.fibres.ideals.by_two_rows import refuted_by_rows as refuted_by_rows
 from disting.fibres.ideals.confirm import confirms as confirms

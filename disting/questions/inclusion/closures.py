@@ -28,15 +28,12 @@ sum is a limit of its models. So `of_closure` looks at each row:
   a free damped row has a_2 b_1 = a_3 b_0 (see `meeting`), an irreducible quadric; where the rank
   is one less than in FULL, its closure is this quadric. A rank seen modulo a prime is a lower
   bound of the rank, so nothing of this is left to chance.
-* COEFFICIENT: one that vanishes identically in the row and not in what is wanted. RANK: what is
-  wanted has a larger rank than the row has parameters, or coefficients. Both are seen modulo a
-  prime: what is not zero there is not zero.
+* COEFFICIENT: one that vanishes identically in the row and not in what is wanted.
 * RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error
   bound.
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from disting.algebra.certainty import LEAST_SAFETY, joint_safety
 from disting.algebra.sampling import about, prime, residues
@@ -58,7 +55,6 @@ from disting.questions.inclusion.row_equations import equation_safety, label_of,
 LARGEST_ROW = 3
 # label of the points where ranks are seen: they prove what they show, so all pairs may share them
 RANKS = "ranks of rows"
-REMEMBERED = 256  # rows whose rank is kept
 TRIALS = 3  # primes and points at which an equation must not vanish
 Support = tuple[frozenset[int], frozenset[int]]
 
@@ -206,14 +202,6 @@ def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     return (Why.MOMENTUM, "") if missing == 1 and _keeps_momentum(wanted) else None
 
 
-def _rank(wanted: Wanted, label: str) -> tuple[Why, str] | None:
-    here, most = (
-        _rank_of_function(wanted.receptance),
-        min(len(wanted.there.parameters), _coordinates(wanted.there)),
-    )
-    return (Why.RANK, f"{here} > {most}") if here > most else None
-
-
 def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     modulus = prime(label)
     coefficients = _at(wanted.receptance, label, modulus)
@@ -235,12 +223,11 @@ def _equation(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     )
 
 
-_TESTS = (_inside, _coefficient, _full, _rank, _resultant, _equation)
+_TESTS = (_inside, _coefficient, _full, _resultant, _equation)
 _OF = {
     Why.INSIDE: _inside,
     Why.FULL: _full,
     Why.MOMENTUM: _full,
-    Why.RANK: _rank,
     Why.RESULTANT: _resultant,
 }
 
@@ -283,12 +270,6 @@ def _keeps_momentum(wanted: Wanted) -> bool:
             return False
     num, den = _support(wanted.there)
     return {0, 1} <= num and {2, 3} <= den
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _rank_of_function(model: CoefficientMap) -> int:
-    """Rank of the coefficients up to a common factor."""
-    return generic_rank(model.with_scale(), RANKS) - 1
 
 
 def _at(model: CoefficientMap, label: str, modulus: int) -> tuple[list[int], list[int]]:

@@ -14,7 +14,7 @@ finite. For chains of one size:
 4. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of
    the rows refute it without any chance; one fibre by the synthesis refutes or proves it
    (`image`), and with it CLOSURE is proven; a small ideal refutes it.
-5. Where neither is known: the rows, then the whole model, as ideals of fibres, with the bounds of
+5. Where neither is known: the whole model as the ideal of a fibre, with the bounds of
    `disting.fibres.ideals.bounds`. An empty fibre refutes IMAGE, a solution, whose elements may be
    zero, proves CLOSURE.
 """
@@ -29,7 +29,6 @@ from disting.evidence.limits import RowsInside
 from disting.fibres.ideals import (
     Limits,
     coefficient_map,
-    decide_by_rows,
     included_by_rows,
     normalised,
 )
@@ -58,7 +57,6 @@ from disting.questions.same.exact import rational_part
 INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)
 # of the ideal of one row, tried for every pair
 CLOSURE_LIMITS = Limits(seconds=60.0, entries=30_000, safety=100)
-ROW_LIMITS = Limits(seconds=240.0, entries=1_000_000, safety=100)  # of the ideal of one row
 NOT_ASKED = "of chains of different sizes only limits are asked for"
 ONE_SENSOR = "models of one sensor quantity are compared"
 
@@ -175,11 +173,8 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
 
 
 def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
-    """The model of the smaller rank searched in the other by ideals: by rows, then as a whole."""
+    """The model of the smaller rank searched in the other by the ideal of one fibre."""
     structures = (rational_part(small), rational_part(large))
-    found = decide_by_rows(*structures, settings.seed, ROW_LIMITS)
-    if found.evidence is not None:
-        return _read(found.membership, found.safety, found.evidence)
     reason = ""
     for coordinates in (normalised, coefficient_map):
         whole = decide_ideal(

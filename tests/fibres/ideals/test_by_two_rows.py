@@ -15,13 +15,12 @@ from disting.evidence.ideals import Vanishing
 from disting.fibres.ideals import (
     Limits,
     confirms_by_rows,
-    decide_by_rows,
     generic_rank,
     included_by_rows,
     normalised,
     refuted_by_rows,
 )
-from disting.fibres.ideals.by_two_rows import vanishing
+from disting.fibres.ideals.by_two_rows import not_covered, vanishing
 from disting.fibres.ideals.monodromy import _is_inseparable, poles_are_inseparable
 from disting.fibres.ideals.splits import gap, receptances, splits
 from disting.fibres.synthesis.decide import Grounds, member
@@ -145,7 +144,7 @@ def test_markov_parameters_agree_with_sympy():
 def agrees_with_the_synthesis(n, damped):
     chains = canonicals(n, damped)
     ranks = {c: generic_rank(normalised(c.structure), "test") for c in chains}
-    counts = dict.fromkeys(Membership, 0)
+    refuted = 0
     for small, large in product(chains, chains):
         if not (ranks[small] < ranks[large] and gap(large.structure)):
             continue
@@ -155,27 +154,17 @@ def agrees_with_the_synthesis(n, damped):
         )
         synthesis = member(small, large)
         assert exact is None or synthesis.grounds in (Grounds.REFUTED, Grounds.NONE)
-        if n < 4 or not damped:
-            found = decide_by_rows(small.structure, large.structure, "test", LIMITS)
-            counts[found.membership] += 1
-            if (
-                synthesis.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION)
-                and found.membership is not Membership.UNKNOWN
-            ):
-                assert (synthesis.membership is Membership.MEMBER) == (
-                    found.membership is Membership.MEMBER
-                )
+        refuted += exact is not None
         for evidence in (exact, inside.evidence) if n == 3 else ():
             assert evidence is None or confirms_by_rows(evidence, small.structure, large.structure)
-    return counts
+    return refuted
 
 
 @pytest.mark.parametrize(
     ("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)]
 )
 def test_rows_agree_with_the_synthesis(n, damped):
-    counts = agrees_with_the_synthesis(n, damped)
-    assert counts[Membership.EXCLUDED] > 0
+    assert agrees_with_the_synthesis(n, damped) > 0
 
 
 @pytest.mark.slow
@@ -215,13 +204,12 @@ def test_what_is_not_covered_is_unknown():
         Chain(3, damped=False),
     )
     for other in others:
-        found = decide_by_rows(plain.structure, other.structure, "test", LIMITS)
-        assert found.membership is Membership.UNKNOWN and found.reason and found.evidence is None
+        assert not_covered(plain.structure, other.structure, "test")
         assert refuted_by_rows(plain.structure, other.structure, "test") is None
     both = Chain(3, 1, 1, 2, 1, 2, damped=False)
-    assert "one place" in decide_by_rows(both.structure, both.structure, "test", LIMITS).reason
+    assert "one place" in not_covered(both.structure, both.structure, "test")
     with pytest.raises(TypeError):
-        bool(found)
+        bool(included_by_rows(both.structure, both.structure, "test", LIMITS))
 
 
 def test_a_forged_step_is_refused():
@@ -230,7 +218,7 @@ def test_a_forged_step_is_refused():
         Chain(4, 2, 2, 3, 2, 3, damped=True).structure,
     )
     found = refuted_by_rows(small, large, "test")
-    assert found is not None and found.is_proven and confirms_by_rows(found, small, large)
+    assert found is not None and confirms_by_rows(found, small, large)
     (step,) = found.steps
     assert step.shown == Vanishing(2)
     for forged in (
@@ -256,7 +244,5 @@ def test_sentences_name_the_rows():
         Chain(5, 2, 2, 3, 2, 3, damped=True).structure,
         "t",
     )
-    assert (
-        nothing is not None and nothing.steps == () and nothing.is_proven and not nothing.is_member
-    )
+    assert nothing is not None and nothing.steps == () and not nothing.is_member
     assert "as many poles" in nothing.sentence("A", "B") and nothing.formula

@@ -182,7 +182,6 @@ def test_false_rows_are_refused():
         replace(outside, steps=()),
         replace(outside, steps=(step, step)),
         replace(outside, steps=(step._replace(why=Why.COEFFICIENT, detail="b4"),)),
-        replace(outside, steps=(step._replace(why=Why.RANK, detail="7 > 6"),)),
         replace(outside, steps=(step._replace(split="same"),)),
         RowsInside(True, (step._replace(why=Why.FULL),)),
         RowsInside(True, (step,)),
