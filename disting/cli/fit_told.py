@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
-from disting.fit.admissible import FROM_ZERO
+from disting.fit.admissible import FROM_ZERO, UNDETERMINED
 from disting.fit.each import explanations
 from disting.fit.exclusion import LEVEL
 from disting.fit.measured import read_in_words
@@ -26,7 +26,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.report.fit.responses import fits_of
-from disting.report.fit.words import UNDETERMINED, fit_in_words, percent, result_unit, with_error
+from disting.report.fit.words import fit_in_words, percent, result_unit, with_error
 from disting.report.fit.words import name as name_of
 from disting.verdict import Relation
 

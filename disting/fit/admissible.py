@@ -15,6 +15,7 @@ from disting.fit.judged import Candidate
 from disting.fit.modes import Result, physical
 from disting.fit.practical import Thresholds
 
+UNDETERMINED = 10.0  # relative standard error above which a value is called not determined
 FROM_ZERO = 1 / 3  # largest relative standard error of a parameter that is known not to be zero
 KNOWN = 0.1  # and of a quantity that a machine is designed with
 DESIGNED = ("inertia", "stiffness", "resonance", "antiresonance")

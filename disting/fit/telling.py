@@ -11,7 +11,7 @@ from math import isfinite
 import numpy as np
 from scipy.ndimage import median_filter
 
-from disting.fit.admissible import FROM_ZERO, KNOWN
+from disting.fit.admissible import FROM_ZERO, KNOWN, UNDETERMINED
 from disting.fit.candidates import as_listed, reference
 from disting.fit.each import correlations, partners
 from disting.fit.explained import allowed
@@ -331,7 +331,7 @@ def _weak(found: Selection) -> Iterator[str]:
 
 
 def _loose(name: str, error: float) -> str:
-    return f"{name} to ± {100 * error:.0f} %" if isfinite(error) else f"{name} not at all"
+    return f"{name} to ± {100 * error:.0f} %" if error <= UNDETERMINED else f"{name} not at all"
 
 
 def limits_in_words(low: float, high: float) -> str:

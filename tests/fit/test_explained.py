@@ -258,3 +258,10 @@ def test_what_explains_the_data_goes_before_what_does_not():
     assert sizes[right] < 3 < sizes[wrong]
     assert found.selected.chain == right and [m.name for m in found.members] == ["2:1+b1+delay"]
     assert first_lines(found)[0].startswith("2:1+b1+delay explains this data")
+
+
+def test_what_is_not_determined_has_no_percentage():
+    found = select(noisy(ONE_MASS), [ONE])
+    errors = replace(found.selected.practical, relative_errors={"m1": 92.0, "b1": 0.5})
+    badly = replace(found, selected=replace(found.selected, practical=errors), members=())
+    assert "known badly: m1 not at all, b1 to ± 50 %" in suspicions(badly)

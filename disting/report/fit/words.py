@@ -2,6 +2,7 @@
 
 from math import floor, inf, isfinite, log10, pi
 
+from disting.fit.admissible import UNDETERMINED
 from disting.fit.cost import Case
 from disting.fit.fitted import fit_percent
 from disting.fit.joint import AnyCost
@@ -13,7 +14,6 @@ from disting.model.chain import Chain, Sensor
 from disting.report.words import plural
 
 NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing
-UNDETERMINED = 10.0  # relative standard error above which a value is called not determined
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOTIONS = {
     "m": Sensor.ACCELERATION,
