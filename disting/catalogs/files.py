@@ -17,7 +17,6 @@ appended later is the user's own. See `disting.files.intact_text`, which compare
 import hashlib
 import json
 import platform
-from importlib.metadata import version
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -89,6 +88,8 @@ def digest(path: Path) -> str:
 
 def provenance_of(folder: Path) -> Record:
     """Schema, software versions, command and the digest of each data file in a folder."""
+    from importlib.metadata import version
+
     return {
         "schema": SCHEMA,
         "command": "disting catalog build 1 2 3 4 5",

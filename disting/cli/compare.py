@@ -25,7 +25,6 @@ from disting.cli.compare_words import both_ways, every_way, explained, in_letter
 from disting.cli.output import emitted
 from disting.cli.plain import keep_apart
 from disting.cli.relations import query
-from disting.cli.verdicts import refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import named
@@ -121,6 +120,8 @@ def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | An
         if getattr(options, name, ()):
             raise InputError(f"--{name} belongs to numbered chains: leave it away")
     if all(FILE in text for text in texts):
+        from disting.cli.verdicts import refuse_chain_options
+
         refuse_chain_options(options)
     rest = [text for text in texts if FILE not in text]
     named = iter(chains_named(rest, damped=options.damped, sensor=options.quantity))
