@@ -20,6 +20,7 @@ class Why(StrEnum):
     COEFFICIENT = "coefficient"
     RESULTANT = "resultant"
     EQUATION = "equation"
+    DIMENSION = "dimension"
 
 
 SUPPORTS = frozenset({Why.INSIDE, Why.FULL, Why.MOMENTUM})
@@ -29,8 +30,8 @@ class RowLimits(NamedTuple):
     """What is shown of one row (`part`) in one `split` (see `disting.fibres.ideals.splits`; "whole"
     for a chain without a gap).
 
-    `detail`: the coefficient's name, or the label from which primes and points of an equation are
-    drawn.
+    `detail`: the coefficient's name, both dimensions, or the label from which primes and points of
+    an equation are drawn.
     """
 
     split: str
@@ -126,11 +127,16 @@ _TOLD = {
         "the coefficients of {row} fulfil an equation, a resultant, that would not hold"
     ),
     Why.EQUATION: "a polynomial equation between the coefficients of {row} does not hold",
+    Why.DIMENSION: (
+        "{row} has no more determinable parameters than what it would have to be ({detail}), and is"
+        " something else"
+    ),
 }
 _FORMULAS = {
     Why.COEFFICIENT: "{detail} ≠ 0",
     Why.RESULTANT: "Res(U, V) ≠ 0",
     Why.EQUATION: "F(b, a) ≠ 0",
+    Why.DIMENSION: "{detail}, V₁ ≠ V₂",
 }
 
 

@@ -14,11 +14,20 @@ from disting.evidence.limits import (
     LargerProjection,
     Outside,
     RelativeDegrees,
+    RowLimits,
     RowsInside,
     Why,
 )
-from disting.fibres.ideals import coefficient_map, included_by_rows, refuted_by_rows
+from disting.fibres.ideals import (
+    coefficient_map,
+    decide,
+    included_by_rows,
+    normalised,
+    refuted_by_rows,
+)
 from disting.model.chain import Chain, Sensor
+from disting.model.question import Membership
+from disting.model.row import Row
 from disting.questions.inclusion import (
     Inclusion,
     InclusionFinding,
@@ -31,6 +40,7 @@ from disting.questions.inclusion import (
 )
 from disting.questions.inclusion.decide import CLOSURE_LIMITS
 from disting.questions.inclusion.profiles import by_relative_degrees, row_falls
+from disting.questions.inclusion.row_closures import Wanted, holds, with_mass
 
 ENGINE = Engine()
 
@@ -189,6 +199,44 @@ def test_false_rows_are_refused():
         assert not confirms(false, seven, one)
     assert not confirms(replace(outside, steps=inside.steps), three, two)
     assert not confirms(RowsInside(True, (inside.steps[0]._replace(why=Why.FULL),)), three, two)
+
+
+@pytest.mark.parametrize(
+    ("small", "large", "detail"), [(45, 42, "9 = 9"), (16, 10, "13 = 13, a mass added")]
+)
+def test_a_row_of_no_larger_dimension_holds_nothing_but_itself(small, large, detail):
+    """The wall's row of three masses has the rank 9 with force and sensor at 1 and 3 as with 1 and
+    2; with masses added at force and sensor models 16 have the rank of models 10.
+    """
+    pair = [ENGINE.subject("", Family(5, damped=True)[k]) for k in (small, large)]
+    closure = inclusions(*pair).closure
+    (step,) = closure.evidence.steps
+    assert (closure.inclusion, step.why, step.detail) == (
+        Inclusion.NEITHER,
+        Why.DIMENSION,
+        detail,
+    )
+    assert closure.certainty == "bounded" and closure.safety >= 100
+    assert confirms(closure.evidence, *pair)
+    assert "something else" in closure.evidence.sentence("L", "R")
+    for other in ("9 = 10", "8 = 8", "13 = 13", "9 = 9, a mass added"):
+        false = replace(closure.evidence, steps=(step._replace(detail=other),))
+        assert not confirms(false, *pair)
+
+
+def test_a_row_is_not_told_from_itself():
+    row = Row(3, False, 1, 1, True)
+    itself = Wanted("whole", "whole", *[normalised(row.structure)] * 2, row)
+    assert not holds(RowLimits("whole", "whole", Why.DIMENSION, "7 = 7"), itself)
+
+
+@pytest.mark.parametrize("row", [Row(2, True, 1, 1, True), Row(3, False, 2, 2, True)])
+def test_a_mass_added_at_the_port_of_a_row_makes_no_other_row(row):
+    one = normalised(row.structure)
+    more = with_mass(Wanted("whole", "whole", one, one, row))
+    assert more.is_monic and len(more.parameters) == len(one.parameters) + 1
+    assert decide(more, one, equal_rank=True).membership is Membership.MEMBER
+    assert with_mass(Wanted("whole", "whole", one, one, replace(row, a=1, b=2))) is None
 
 
 def test_false_evidence_is_refused():

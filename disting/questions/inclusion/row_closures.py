@@ -1,0 +1,243 @@
+"""What one row of a larger chain can be in a limit: whether a receptance that is wanted of it is a
+limit of its receptances.
+
+* INSIDE: it is the very same map. FULL: its rank is the number of its coefficients, up to a common
+  factor, that do not vanish identically, so its closure is the linear space of all such. MOMENTUM:
+  a free damped row has a_2 b_1 = a_3 b_0 (see `meeting`), an irreducible quadric; where the rank
+  is one less than in FULL, its closure is this quadric. A rank seen modulo a prime is a lower
+  bound of the rank, so nothing of this is left to chance.
+* COEFFICIENT: one that vanishes identically in the row and not in what is wanted.
+* RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error
+  bound.
+* DIMENSION: what is wanted has the largest rank that the row could have. Then its closure lies in
+  that of the row, both irreducible, only if they are the same; and at random points the ideal of
+  the fibre with its tangent equations (`disting.fibres.ideals`), found with an error bound, shows
+  that they are not. Where force and sensor of the row are on one mass, more is wanted of it: a mass
+  added there maps its pairs (N : D) to pairs (N : D + m s^2 N) of the row, and limits to limits,
+  for the map is linear. So all that becomes of what is wanted is wanted as well, and its rank may
+  be the one that is as large as it can be. With b the coefficient of s^(deg D - 2) in a monic N/D
+  and m = u/(1 - u b) it is ((1 - u b) N : (1 - u b) D + u s^2 N), monic again.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import NamedTuple
+
+from disting.algebra.certainty import LEAST_SAFETY
+from disting.algebra.sampling import prime, residues
+from disting.algebra.symbols import renamed, symbols
+from disting.behaviour.powers import powers
+from disting.evidence.limits import RowLimits, Why
+from disting.fibres.ideals import CoefficientMap, Limits, decide
+from disting.fibres.ideals.fibre_ideal import evaluated, generic_rank
+from disting.fibres.ideals.system import terms
+from disting.model.question import Membership
+from disting.model.row import Row
+from disting.questions.inclusion.end_rows import end_resultant
+from disting.questions.inclusion.inner_rows import inner_resultant
+from disting.questions.inclusion.row_equations import equation_safety, label_of, row_equation
+
+# masses of a row whose equations are looked for: those of larger ones have too many monomials
+LARGEST_ROW = 3
+# label of the points where ranks are seen: they prove what they show, so all pairs may share them
+RANKS = "ranks of rows"
+REMEMBERED = 256  # rows whose rank is kept
+SAFETY = LEAST_SAFETY + 2  # of DIMENSION: three of them, one a split, reach LEAST_SAFETY
+AGAIN = 1  # bits of what is found again, at a point and prime of its own
+DIMENSION_LIMITS = Limits(seconds=120.0, entries=1_000_000)  # of the ideal of one row
+ADDED = "m"  # stands for the mass added; no unknown of `normalised` has this name
+TRIALS = 3  # primes and points at which an equation must not vanish
+Support = tuple[frozenset[int], frozenset[int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A receptance wanted of a row of the larger chain in one split, with the map and the row that
+    are there; `name`: "grounded", "free", "whole".
+    """
+
+    split: str
+    name: str
+    receptance: CoefficientMap
+    there: CoefficientMap
+    row: Row
+
+
+class Shown(NamedTuple):
+    """A step with the bits of its error bound, 0: proven."""
+
+    step: RowLimits
+    safety: int
+
+
+def shown(wanted: Wanted, label: str) -> Shown | None:
+    """What settles a row, the cheapest first; None if nothing does."""
+    named = f"{label}:{label_of(wanted.row)}"
+    found = next(filter(None, (test(wanted, named) for test in _TESTS)), None)
+    if found is None:
+        return None
+    bits = {Why.EQUATION: _safety(wanted.row), Why.DIMENSION: SAFETY}
+    return Shown(RowLimits(wanted.split, wanted.name, *found), bits.get(found[0], 0))
+
+
+def holds(step: RowLimits, wanted: Wanted) -> bool:
+    """Whether a step holds at fresh points; an equation, or that rows differ, is found again."""
+    if step.why is Why.COEFFICIENT:
+        pairs = zip("ba", _support(wanted.receptance), _support(wanted.there), strict=True)
+        return any(
+            step.detail == f"{letter}{i}" for letter, here, there in pairs for i in here - there
+        )
+    if step.why is Why.EQUATION:
+        return _equation(wanted, step.detail) is not None
+    if step.why is Why.DIMENSION:
+        return _dimension(wanted, "verify", AGAIN) == (step.why, step.detail)
+    return _OF[step.why](wanted, "verify") == (step.why, step.detail)
+
+
+def with_mass(wanted: Wanted) -> CoefficientMap | None:
+    """What is wanted with a mass added at the port; None if the row has two ports or that is not
+    monic.
+    """
+    model, power = wanted.receptance, wanted.receptance.degrees[1] - 2
+    if wanted.row.a != wanted.row.b or not model.is_monic or model.degrees[0] > power:
+        return None
+    ring = symbols([*model.parameters, ADDED])
+    num, den = ([renamed(c, ring, {}) for c in p] for p in (model.numerator, model.denominator))
+    zero = ring[ADDED] - ring[ADDED]
+    num = [*num, *[zero] * power][: power + 1]
+    rest = 1 - ring[ADDED] * num[power]
+    shifted = [zero, zero, *(ring[ADDED] * c for c in num)]
+    return CoefficientMap(
+        (*model.parameters, ADDED),
+        tuple(rest * c for c in num),
+        tuple(rest * a + b for a, b in zip(den, shifted, strict=True)),
+    )
+
+
+def _inside(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+    return (Why.INSIDE, "") if wanted.receptance == wanted.there else None
+
+
+def _coefficient(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+    pairs = zip("ba", _support(wanted.receptance), _support(wanted.there), strict=True)
+    more = [f"{letter}{i}" for letter, here, there in pairs for i in sorted(here - there)]
+    return (Why.COEFFICIENT, more[-1]) if more else None
+
+
+def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+    if _coefficient(wanted, label) is not None:
+        return None
+    missing = _coordinates(wanted.there) - generic_rank(wanted.there, RANKS)
+    if missing == 0:
+        return Why.FULL, ""
+    return (Why.MOMENTUM, "") if missing == 1 and _keeps_momentum(wanted) else None
+
+
+def _dimension(wanted: Wanted, label: str, bits: int = SAFETY) -> tuple[Why, str] | None:
+    most = _most_rank(wanted.there)
+    if most != generic_rank(wanted.there, RANKS):
+        return None
+    for more, told in ((wanted.receptance, ""), (with_mass(wanted), ", a mass added")):
+        if more is not None and _rank_of_function(more) == most:
+            limits = replace(DIMENSION_LIMITS, safety=bits)
+            found = decide(more, wanted.there, equal_rank=True, seed=label, limits=limits)
+            sure = found.membership is Membership.EXCLUDED and found.safety >= bits
+            return (Why.DIMENSION, f"{most} = {most}{told}") if sure else None
+    return None
+
+
+def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+    modulus = prime(label)
+    coefficients = _at(wanted.receptance, label, modulus)
+    found = (made(wanted.row, *coefficients, modulus) for made in (end_resultant, inner_resultant))
+    return (Why.RESULTANT, "") if any(found) else None
+
+
+def _equation(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+    if (
+        wanted.row.n_masses > LARGEST_ROW
+        or _coefficient(wanted, label) is not None
+        or _safety(wanted.row) < LEAST_SAFETY
+    ):
+        return None
+    return (
+        (Why.EQUATION, label)
+        if all(_does_not_vanish(wanted, f"{label}:{k}") for k in range(TRIALS))
+        else None
+    )
+
+
+def _support(model: CoefficientMap) -> Support:
+    """Powers of s whose coefficients do not vanish identically."""
+    num, den = (
+        frozenset(i for i, c in enumerate(p) if not c.is_zero())
+        for p in (model.numerator, model.denominator)
+    )
+    return num, den
+
+
+def _most_rank(model: CoefficientMap) -> int:
+    """A bound of the rank that rests on no point."""
+    return min(len(model.parameters), _coordinates(model))
+
+
+def _coordinates(model: CoefficientMap) -> int:
+    """Coefficients up to a common factor that do not vanish identically."""
+    return sum(map(len, _support(model))) - 1
+
+
+def _keeps_momentum(wanted: Wanted) -> bool:
+    """Whether a_0 = a_1 = 0 and a_2 b_1 = a_3 b_0 hold in both identically, none of the four
+    being zero in what is there.
+    """
+    for m in (wanted.receptance, wanted.there):
+        a, b = (*m.denominator, *m.denominator[:1] * 4), (*m.numerator, m.denominator[0])
+        if len(m.denominator) < 4 or not (
+            a[0].is_zero() and a[1].is_zero() and a[2] * b[1] == a[3] * b[0]
+        ):
+            return False
+    num, den = _support(wanted.there)
+    return {0, 1} <= num and {2, 3} <= den
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _rank_of_function(model: CoefficientMap) -> int:
+    """Rank of the coefficients up to a common factor."""
+    return generic_rank(model.with_scale(), RANKS) - 1
+
+
+def _at(model: CoefficientMap, label: str, modulus: int) -> tuple[list[int], list[int]]:
+    """Coefficients of numerator and denominator at the point of a label, modulo a prime."""
+    point = residues(label, len(model.parameters), modulus)
+    num, den = (
+        [evaluated(terms(c), point, modulus) for c in p]
+        for p in (model.numerator, model.denominator)
+    )
+    return num, den
+
+
+def _does_not_vanish(wanted: Wanted, label: str) -> bool:
+    """Whether the row's equation of this label does not hold at a random point of what is
+    wanted.
+    """
+    equation = row_equation(wanted.row, label)
+    if equation is None:
+        return False
+    num, den = _at(wanted.receptance, f"{label}:wanted", equation.modulus)
+    sides = zip((num, den), powers(wanted.row.structure), strict=True)
+    return not equation.holds(
+        tuple(p[i] if i < len(p) else 0 for p, kept in sides for i in sorted(kept))
+    )
+
+
+def _safety(row: Row) -> int:
+    return TRIALS * equation_safety(row)
+
+
+_TESTS = (_inside, _coefficient, _full, _resultant, _equation, _dimension)
+_OF = {
+    Why.INSIDE: _inside,
+    Why.FULL: _full,
+    Why.MOMENTUM: _full,
+    Why.RESULTANT: _resultant,
+}
