@@ -13,7 +13,7 @@ from disting.fit.measured import outside, read_in_words
 from disting.fit.telling import first_lines, suspicions
 from disting.measurement import read
 from disting.model.chain import Chain
-from disting.report.fit import write_fit_report
+from disting.report.fit import fit_page, waterfall
 from tests.cli.process import called
 from tests.fit.drives import OMEGA, response
 
@@ -48,9 +48,8 @@ def test_a_speed_read_as_an_acceleration_is_the_first_suspicion(speed):
     assert not any("no other sensor quantity" in line for line in first_lines(speed))
 
 
-def test_the_page_says_it_too(speed, tmp_path):
-    write_fit_report(speed, tmp_path, speed.task.cost.measured)
-    page = (tmp_path / "fit.html").read_text(encoding="utf-8")
+def test_the_page_says_it_too(speed):
+    page = fit_page(speed, [], [waterfall(speed.described)], speed.task.cost.measured)
     assert page.index("read as velocity, 2:1") < page.index('id="result"')
     assert "frequency in Hz (column 1), real part (column 2)" in page
 
@@ -61,13 +60,14 @@ def test_an_acceleration_that_is_assumed_and_is_one_is_no_suspicion(tmp_path, se
     assert found.quantities == () and found.explanation.explains
 
 
-def test_a_free_mass_is_no_speed_under_a_damper(tmp_path):
+@pytest.mark.parametrize("masses", [(1,), pytest.param((1, 2), marks=pytest.mark.slow)])
+def test_a_free_mass_is_no_speed_under_a_damper(tmp_path, masses):
     chain = Chain(1, damped=True, ground_dampers=(1,), dead_time=True)
     measured = response(chain, VALUES, noise=0.01)
     rows = zip(measured.frequency, measured.G.real, measured.G.imag, strict=True)
     text = "\n".join(["f [Hz],Re,Im", *(f"{f},{a},{b}" for f, a, b in rows)])
     (tmp_path / "a.csv").write_text(text)
-    assert fitted(tmp_path / "a.csv").quantities == ()
+    assert fitted(tmp_path / "a.csv", masses).quantities == ()
 
 
 def test_a_quantity_that_is_said_is_not_doubted(tmp_path):
@@ -167,11 +167,15 @@ def record(path, quantity, header, seed=3):
     return path
 
 
-def test_a_recorded_speed_that_is_taken_as_a_position_is_suspected(tmp_path):
+@pytest.mark.parametrize(
+    ("masses", "lag"), [((2,), False), pytest.param((1, 2), True, marks=pytest.mark.slow)]
+)
+def test_a_recorded_speed_that_is_taken_as_a_position_is_suspected(tmp_path, masses, lag):
     path = record(tmp_path / "a.csv", "velocity", "t [s],u,y")
     measured = read(path, input="u", output="y", period=1000, to="acceleration")
     assert read_in_words(measured).endswith("sensor: acceleration, from a position (assumed)")
-    found = select(measured, chosen_ports((1, 2), "1", "1", 0, measured.sensor))
+    candidates = chosen_ports(masses, "1", "1", 0, measured.sensor)
+    found = select(measured, [c for c in candidates if lag or not c.lag])
     assert "that it is position is assumed; give --quantity velocity" in suspicions(found)[0]
 
 
