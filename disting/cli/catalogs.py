@@ -72,7 +72,7 @@ def build(options: argparse.Namespace) -> int:
 def candidates(options: argparse.Namespace) -> int:
     """Compute the verdicts on the candidates of a fit."""
     from disting.catalogs.candidates import matrix, write
-    from disting.fit.candidates import figure_1
+    from disting.fit.search.candidates import figure_1
 
     with engine_for(options) as (engine, pool, progress):
         found = matrix(figure_1(), engine=engine, executor=pool, progress=progress)

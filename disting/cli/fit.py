@@ -17,16 +17,16 @@ from disting.cli.output import emitted
 from disting.cli.workers import cores, engine_for
 from disting.errors import InputError, listed, printable
 from disting.files import write_whole
-from disting.fit.admissible import Rule
-from disting.fit.candidates import chosen_ports, whole_family
-from disting.fit.cost import Case, lines_by_coherence, lines_by_deviation
-from disting.fit.export import control_script, write_mat
-from disting.fit.loop import controller_named
-from disting.fit.named import Named, named_by
-from disting.fit.practical import Thresholds
+from disting.fit.judge.admissible import Rule
+from disting.fit.judge.practical import Thresholds
+from disting.fit.plan.fit_file import Named, named_by
+from disting.fit.results.export import control_script, write_mat
+from disting.fit.results.loop import controller_named
+from disting.fit.search.candidates import chosen_ports, whole_family
+from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
+from disting.fit.search.swarm import by_swarm
 from disting.fit.select import Selection, select
 from disting.fit.selection_json import selection_to_dict
-from disting.fit.swarm import by_swarm
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family

@@ -10,8 +10,8 @@ from typing import Any
 from disting.cli.plain import complain, keep_apart
 from disting.errors import InputError, shown
 from disting.experiments.changes import GENERIC, read_changes
-from disting.fit.joint import Further
-from disting.fit.setup import Setup
+from disting.fit.search.joint import Further
+from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse, beginnings, in_si, mean_of, read
 from disting.measurement.scaling import scaled, with_constant
 from disting.model.kinds import CHANGES

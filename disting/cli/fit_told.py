@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
-from disting.fit.admissible import FROM_ZERO, UNDETERMINED
-from disting.fit.each import explanations
-from disting.fit.exclusion import LEVEL
-from disting.fit.measured import read_in_words
-from disting.fit.members import Disagreement, Member
-from disting.fit.modes import Result, physical
+from disting.fit.judge.admissible import FROM_ZERO, UNDETERMINED
+from disting.fit.judge.exclusion import LEVEL
+from disting.fit.judge.members import Disagreement, Member
+from disting.fit.judge.modes import Result, physical
+from disting.fit.judge.reading import read_in_words
+from disting.fit.judge.responses import explanations
 from disting.fit.select import Selection
-from disting.fit.telling import (
+from disting.fit.sentences import (
     commands,
     first_lines,
     learned,

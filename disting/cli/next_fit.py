@@ -7,9 +7,9 @@ from pathlib import Path
 from disting.cli.plain import complain
 from disting.errors import InputError
 from disting.experiments.menu import Costs
-from disting.fit.foretold import bench_of, foretold
-from disting.fit.named import Named, named_by
-from disting.fit.standing import stood
+from disting.fit.plan.fit_file import Named, named_by
+from disting.fit.plan.further import bench_of, foretold
+from disting.fit.plan.relations import stood
 from disting.report.fit.left_words import Onward
 from disting.verdict import Engine, Progress
 from disting.verdict.further import further

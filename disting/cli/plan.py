@@ -14,13 +14,13 @@ from disting.cli.plain import complain
 from disting.cli.workers import engine_for
 from disting.equivalence.given import assignments, point_of
 from disting.errors import InputError, printable
-from disting.fit.designed import Designed, designed, designed_to_dict
-from disting.fit.export import predicted
-from disting.fit.named import Named, named_by
-from disting.fit.plan import Answer, Plan, plan, plan_to_dict
-from disting.fit.plant import Real
-from disting.fit.scatter import scatter
+from disting.fit.noise.scatter import scatter
+from disting.fit.plan.design import Designed, designed, designed_to_dict
+from disting.fit.plan.fit_file import Named, named_by
+from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
+from disting.fit.results.export import predicted
 from disting.measurement import read
+from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.names import chains_named, damping_option
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words

@@ -4,7 +4,7 @@ the simplest.
 What the data exclude, and which of the others is selected, is told in `choice`, by the residuals on
 independent test data where there are such; without them cross-validation over the frequency lines
 gives a cost that orders candidates. What comes out is a set, of which one is selected (`members`),
-after the question whether any candidate explains the data at all (`explained`).
+after the question whether any candidate explains the data at all (`explanation`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -16,37 +16,37 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.admissible import Rule, reasons
-from disting.fit.alternatives import (
+from disting.fit.judge.admissible import Rule, reasons
+from disting.fit.judge.alternatives import (
     Alternative,
     Limits,
     alternatives,
     limits_of,
     representatives,
 )
-from disting.fit.candidates import reference
-from disting.fit.choice import akaike_weighted, choice
-from disting.fit.cost import Case, Cost
-from disting.fit.estimate import Method, Task
-from disting.fit.exchange import body, estimates
-from disting.fit.explained import Explanation
-from disting.fit.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
-from disting.fit.judged import FOLDS, Candidate, judged
-from disting.fit.loop import Controller
-from disting.fit.measured import other_quantities
-from disting.fit.members import Member, members
-from disting.fit.plant import Complex, Real
-from disting.fit.practical import Thresholds
-from disting.fit.readings import Reading, readings
-from disting.fit.reliance import Statement, statements
-from disting.fit.signs import pilot, signed
-from disting.fit.together import (
+from disting.fit.judge.candidate import FOLDS, Candidate, judged
+from disting.fit.judge.choice import akaike_weighted, choice
+from disting.fit.judge.explanation import Explanation
+from disting.fit.judge.joint_verdicts import (
     alternatives_under_all,
     learning,
     located,
     representatives_under_all,
 )
+from disting.fit.judge.members import Member, members
+from disting.fit.judge.practical import Thresholds
+from disting.fit.judge.reading import other_quantities
+from disting.fit.judge.readings import Reading, readings
+from disting.fit.judge.signs import pilot, signed
+from disting.fit.results.loop import Controller
+from disting.fit.results.reliance import Statement, statements
+from disting.fit.search.candidates import reference
+from disting.fit.search.cost import Case, Cost
+from disting.fit.search.estimate import Method, Task
+from disting.fit.search.exchange import body, estimates
+from disting.fit.search.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.measurement import FrequencyResponse, are_opposite
+from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.shown import Shown, plural, summary
 from disting.store import Store
@@ -167,7 +167,8 @@ def select(
     vector for all; each counts in units of its own scatter (`joint_cost`). Candidates without their
     places are left out, and a response that is zero in every candidate: nothing is learned from it.
     `home`: the chain whose masses the places of `further` name; of a candidate with other masses,
-    springs or ports every choice of places is fitted, and the best is taken (`together.located`).
+    springs or ports every choice of places is fitted, and the best is taken
+    (`joint_verdicts.located`).
     """
     _check(train, test, further, candidates)
     candidates, further, silent = learning(candidates, further, home)

@@ -9,16 +9,16 @@ import numpy as np
 
 from disting.errors import InputError, shown
 from disting.files import read_json
-from disting.fit.candidates import as_listed, reference
-from disting.fit.each import explanations
-from disting.fit.explained import Explanation
-from disting.fit.fitted import fit_percent
-from disting.fit.judged import Candidate
-from disting.fit.measured import assumed
-from disting.fit.members import Member
-from disting.fit.reliance import Statement
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.explanation import Explanation
+from disting.fit.judge.members import Member
+from disting.fit.judge.reading import assumed
+from disting.fit.judge.responses import explanations
+from disting.fit.results.confidence import fit_percent
+from disting.fit.results.reliance import Statement
+from disting.fit.search.candidates import as_listed, reference
 from disting.fit.select import Selection
-from disting.fit.telling import places, suspicions
+from disting.fit.sentences import places, suspicions
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.schemas import Format

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers
-from disting.fit.candidates import figure_1
+from disting.fit.search.candidates import figure_1
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor

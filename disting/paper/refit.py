@@ -12,12 +12,13 @@ from types import MappingProxyType
 
 import numpy as np
 
-from disting.fit.cost import Cost
-from disting.fit.estimate import Task
-from disting.fit.exchange import estimates
-from disting.fit.modes import oscillating, poles, zeros
-from disting.fit.plant import Plant, Real
+from disting.fit.judge.modes import oscillating, poles, zeros
+from disting.fit.search.cost import Cost
+from disting.fit.search.estimate import Task
+from disting.fit.search.exchange import estimates
+from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.family import Family
 

@@ -6,11 +6,16 @@ from math import pi, sqrt
 
 import numpy as np
 
-from disting.fit.candidates import figure_1
-from disting.fit.cost import Case, Cost
-from disting.fit.plant import Plant
-from disting.fit.practical import collinearity_index, condition_indices, importance, unit_columns
-from disting.fit.sweep import CRITERIA, sweep
+from disting.fit.judge.practical import (
+    collinearity_index,
+    condition_indices,
+    importance,
+    unit_columns,
+)
+from disting.fit.results.sweep import CRITERIA, sweep
+from disting.fit.search.candidates import figure_1
+from disting.fit.search.cost import Case, Cost
+from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.paper.claim import Claim, Found, Outcome, named

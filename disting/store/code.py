@@ -24,7 +24,7 @@ def digest(module: str) -> str:
     """SHA-256 of the source of a module and of all that it imports here, and of the versions of
     Python and the libraries.
 
-    >>> digest("disting.fit.exchange") == digest("disting.verdict.engine")
+    >>> digest("disting.fit.search.exchange") == digest("disting.verdict.engine")
     False
     """
     from importlib.metadata import version

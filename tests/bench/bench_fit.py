@@ -12,13 +12,13 @@ from multiprocessing import get_context
 import numpy as np
 import pytest
 
-from disting.fit.candidates import figure_1
-from disting.fit.cost import Cost
-from disting.fit.descent import WORTHLESS, fine, rough
-from disting.fit.estimate import ITERATIONS, Task
-from disting.fit.exchange import estimates
+from disting.fit.search.candidates import figure_1
+from disting.fit.search.cost import Cost
+from disting.fit.search.descent import WORTHLESS, fine, rough
+from disting.fit.search.estimate import ITERATIONS, Task
+from disting.fit.search.exchange import estimates
+from disting.fit.search.swarm import by_swarm, search_box
 from disting.fit.select import select
-from disting.fit.swarm import by_swarm, search_box
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.simulation import demo

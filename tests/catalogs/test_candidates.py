@@ -23,8 +23,8 @@ from disting import (
 from disting.catalogs import candidates as stored
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
-from disting.fit.alternatives import alternatives, representatives
-from disting.fit.candidates import figure_1, whole_family
+from disting.fit.judge.alternatives import alternatives, representatives
+from disting.fit.search.candidates import figure_1, whole_family
 
 SAME, APART = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE
 FIRST = Chain(2, damped=True)

@@ -7,9 +7,9 @@ import pytest
 
 from disting.cli.fit_data import data
 from disting.cli.parser import parser
-from disting.fit.cost import Cost
-from disting.fit.joint import Further, JointCost
-from disting.fit.setup import Setup
+from disting.fit.search.cost import Cost
+from disting.fit.search.joint import Further, JointCost
+from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from tests.cli.process import called

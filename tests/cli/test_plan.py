@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from disting.fit import select, selection_to_dict
-from disting.fit.export import predicted
-from disting.fit.plan import plan
+from disting.fit.plan.power import plan
+from disting.fit.results.export import predicted
 from disting.measurement import FrequencyResponse, read, write_csv
 from disting.model.chain import Chain
 from tests.cli.process import called

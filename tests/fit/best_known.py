@@ -16,12 +16,12 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from disting.fit.candidates import figure_1
-from disting.fit.cost import Cost
-from disting.fit.descent import fine, rough
-from disting.fit.estimate import Task
-from disting.fit.neighbours import neighbours
-from disting.fit.starts import Scale, Values, merged, scale, split, stacked
+from disting.fit.search.candidates import figure_1
+from disting.fit.search.cost import Cost
+from disting.fit.search.descent import fine, rough
+from disting.fit.search.estimate import Task
+from disting.fit.search.neighbours import neighbours
+from disting.fit.search.starts import Scale, Values, merged, scale, split, stacked
 from disting.model.chain import Chain
 from tests.fit.drives import bench
 

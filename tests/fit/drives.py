@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from disting.fit.plant import Plant
+from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from tests.measurement.bench_data import measured_data

@@ -12,8 +12,8 @@ from itertools import combinations
 import numpy as np
 
 from disting.fit import Selection, select
-from disting.fit.candidates import reference
-from disting.fit.plant import Plant
+from disting.fit.search.candidates import reference
+from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.model.chain import Chain
 from disting.simulation import Bench, Excitation, simulate

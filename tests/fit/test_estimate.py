@@ -11,14 +11,19 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.candidates import figure_1, variants, whole_family
-from disting.fit.cost import Case, Cost
-from disting.fit.estimate import Task
-from disting.fit.exchange import estimate_from_json, estimate_to_json, estimates, with_smaller
-from disting.fit.modes import poles, zeros
-from disting.fit.neighbours import carried, neighbours
-from disting.fit.pairs import conspicuous, paired
-from disting.fit.starts import cauer, extrema, merged, scale, shortened
+from disting.fit.judge.modes import poles, zeros
+from disting.fit.search.candidates import figure_1, variants, whole_family
+from disting.fit.search.cost import Case, Cost
+from disting.fit.search.estimate import Task
+from disting.fit.search.exchange import (
+    estimate_from_json,
+    estimate_to_json,
+    estimates,
+    with_smaller,
+)
+from disting.fit.search.neighbours import carried, neighbours
+from disting.fit.search.pairs import conspicuous, paired
+from disting.fit.search.starts import cauer, extrema, merged, scale, shortened
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.store import Store

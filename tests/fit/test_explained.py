@@ -7,16 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disting.fit.admissible import Rule
-from disting.fit.candidates import figure_1
-from disting.fit.cost import Cost
-from disting.fit.each import yardsticks
-from disting.fit.explained import LARGEST, chi2, explanation
-from disting.fit.scatter import changed, scatter
+from disting.fit.judge.admissible import Rule
+from disting.fit.judge.explanation import LARGEST, chi2, explanation
+from disting.fit.judge.responses import yardsticks
+from disting.fit.noise.scatter import changed, scatter
+from disting.fit.search.candidates import figure_1
+from disting.fit.search.cost import Cost
+from disting.fit.search.whitened import Whitened
 from disting.fit.select import select
 from disting.fit.selection_json import selection_to_dict
-from disting.fit.telling import first_lines, suspicions
-from disting.fit.whitened import Whitened
+from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.model.chain import Chain, Sensor

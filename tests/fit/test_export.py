@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.export import (
+from disting.fit.judge.modes import oscillating, poles, zeros
+from disting.fit.results.export import (
     Exported,
     control_script,
     predicted,
@@ -16,7 +17,6 @@ from disting.fit.export import (
     write_mat,
     zero_pole,
 )
-from disting.fit.modes import oscillating, poles, zeros
 from disting.fit.select import select
 from disting.fit.selection_json import candidate_to_dict, model_from_dict, read_model
 from disting.model.chain import Chain

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from disting.fit import confidence, fit_percent, select
-from disting.fit.cost import Cost
-from disting.fit.descent import fine
-from disting.fit.estimate import Estimate, Task
-from disting.fit.fitted import response_of
-from disting.fit.judged import judged
-from disting.fit.members import QUANTILE
-from disting.fit.practical import covariance
+from disting.fit.judge.candidate import judged
+from disting.fit.judge.members import QUANTILE
+from disting.fit.judge.practical import covariance
+from disting.fit.results.confidence import response_of
+from disting.fit.search.cost import Cost
+from disting.fit.search.descent import fine
+from disting.fit.search.estimate import Estimate, Task
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.settings import Settings

@@ -8,12 +8,12 @@ import pytest
 
 from disting.equivalence import equivalents
 from disting.experiments.menu import Costs, Item
-from disting.fit.export import predicted
-from disting.fit.foretold import MOVES, STILL, Bench, bench_of, foretold, shown, step
-from disting.fit.named import named_by
-from disting.fit.plan import power
+from disting.fit.plan.fit_file import named_by
+from disting.fit.plan.further import MOVES, STILL, Bench, bench_of, foretold, shown, step
+from disting.fit.plan.power import power
+from disting.fit.plan.relations import Standing, stood
+from disting.fit.results.export import predicted
 from disting.fit.selection_json import _named
-from disting.fit.standing import Standing, stood
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR

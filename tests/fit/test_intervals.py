@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disting.fit.cost import Cost
-from disting.fit.descent import fine
-from disting.fit.estimate import Task
-from disting.fit.members import QUANTILE, disagreements
-from disting.fit.noise import Noise, correlation, equal, expected, noise
-from disting.fit.practical import covariance, practical
-from disting.fit.scatter import scatter
+from disting.fit.judge.members import QUANTILE, disagreements
+from disting.fit.judge.practical import covariance, practical
+from disting.fit.noise.covariance import Noise, correlation, equal, expected, noise
+from disting.fit.noise.scatter import scatter
+from disting.fit.search.cost import Cost
+from disting.fit.search.descent import fine
+from disting.fit.search.estimate import Task
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

@@ -11,23 +11,23 @@ from hypothesis import strategies as st
 
 from disting.errors import InputError
 from disting.experiments.machine_model import rank_by
-from disting.fit.alternatives import representatives
-from disting.fit.cost import Case, Cost, lines_by_deviation
-from disting.fit.descent import fine
-from disting.fit.each import JointNoise, noises, scatters, together
-from disting.fit.estimate import Task
-from disting.fit.joint import Further, JointCost, joint_cost
-from disting.fit.members import QUANTILE
-from disting.fit.noise import expected
-from disting.fit.practical import covariance
-from disting.fit.select import select
-from disting.fit.setup import Setup, measured_chain
-from disting.fit.together import (
+from disting.fit.judge.alternatives import representatives
+from disting.fit.judge.joint_verdicts import (
     behaves_alike,
     is_same_under_all,
     representatives_under_all,
     under_all,
 )
+from disting.fit.judge.members import QUANTILE
+from disting.fit.judge.practical import covariance
+from disting.fit.judge.responses import JointNoise, noises, scatters, together
+from disting.fit.noise.covariance import expected
+from disting.fit.search.cost import Case, Cost, lines_by_deviation
+from disting.fit.search.descent import fine
+from disting.fit.search.estimate import Task
+from disting.fit.search.joint import Further, JointCost, joint_cost
+from disting.fit.search.setup import Setup, measured_chain
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.store import Store

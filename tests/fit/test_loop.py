@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.export import state_space
-from disting.fit.loop import Controller, controller_named, margins
+from disting.fit.results.export import state_space
+from disting.fit.results.loop import Controller, controller_named, margins
 from disting.model.chain import Chain, Sensor
 from tests.fit.drives import truth
 

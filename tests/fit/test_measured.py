@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from disting.fit import select
-from disting.fit.candidates import chosen_ports
-from disting.fit.measured import outside, read_in_words
-from disting.fit.telling import first_lines, suspicions
+from disting.fit.judge.reading import outside, read_in_words
+from disting.fit.search.candidates import chosen_ports
+from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import read
 from disting.model.chain import Chain
 from disting.report.fit import fit_page, waterfall

@@ -11,15 +11,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from disting.fit.admissible import Rule, undetermined
-from disting.fit.alternatives import limits_of
-from disting.fit.candidates import as_listed, reference
-from disting.fit.export import predicted
-from disting.fit.members import members, twins
-from disting.fit.practical import Thresholds
+from disting.fit.judge.admissible import Rule, undetermined
+from disting.fit.judge.alternatives import limits_of
+from disting.fit.judge.members import members, twins
+from disting.fit.judge.practical import Thresholds
+from disting.fit.results.export import predicted
+from disting.fit.search.candidates import as_listed, reference
 from disting.fit.select import select
 from disting.fit.selection_json import selection_to_dict
-from disting.fit.telling import commands, first_lines, renamed
+from disting.fit.sentences import commands, first_lines, renamed
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of

@@ -10,13 +10,21 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit import select
-from disting.fit.cost import Cost
-from disting.fit.exclusion import Fitted, basis_of, contains, excluded, limit, statistic, surplus
-from disting.fit.line_variance import coefficients
-from disting.fit.noise import Noise
-from disting.fit.scatter import changed, scatter
-from disting.fit.telling import commands, suspicions
-from disting.fit.whitened import Whitened
+from disting.fit.judge.exclusion import (
+    Fitted,
+    basis_of,
+    contains,
+    excluded,
+    limit,
+    statistic,
+    surplus,
+)
+from disting.fit.noise.covariance import Noise
+from disting.fit.noise.line_variance import coefficients
+from disting.fit.noise.scatter import changed, scatter
+from disting.fit.search.cost import Cost
+from disting.fit.search.whitened import Whitened
+from disting.fit.sentences import commands, suspicions
 from disting.measurement import FrequencyResponse, mean_of
 from disting.model.chain import Chain
 from disting.model.settings import Settings

@@ -8,8 +8,7 @@ from scipy.optimize import minimize
 from scipy.stats import chi2, norm
 
 from disting.errors import InputError
-from disting.fit.export import predicted
-from disting.fit.plan import (
+from disting.fit.plan.power import (
     LEVEL,
     POWER,
     Answer,
@@ -20,7 +19,8 @@ from disting.fit.plan import (
     surplus,
     typical,
 )
-from disting.fit.rival import Trust, fitted_rival, gain
+from disting.fit.plan.rival import Trust, fitted_rival, gain
+from disting.fit.results.export import predicted
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from disting.errors import InputError
-from disting.fit.plant import Plant
+from disting.fit.search.plant import Plant
 from disting.model.chain import Chain
 from tests.fit.drives import CHAINS, OMEGA, dense_response, truth
 

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from disting.errors import InputError
-from disting.fit.noise import equal
-from disting.fit.practical import (
+from disting.fit.judge.practical import (
     Thresholds,
     collinearity_by_subset,
     collinearity_index,
@@ -20,6 +19,7 @@ from disting.fit.practical import (
     standard_errors,
     worst_direction,
 )
+from disting.fit.noise.covariance import equal
 from tests.measurement.bench_data import measured_data
 
 # Longley 1967, J. Am. Stat. Assoc. 62, 819-841: GNP deflator, GNP, unemployment, armed forces,

@@ -7,9 +7,9 @@ import pytest
 
 from disting import Engine, Query, View, compare
 from disting.cli.fit_told import told
-from disting.fit.alternatives import alternatives, representatives, stands_for
-from disting.fit.candidates import figure_1
-from disting.fit.modes import physical
+from disting.fit.judge.alternatives import alternatives, representatives, stands_for
+from disting.fit.judge.modes import physical
+from disting.fit.search.candidates import figure_1
 from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.report.fit import collinearity_dots, fit_page, importance_bars, waterfall

@@ -5,11 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from disting.fit.drawn import Drawn, drawn, draws, with_twins
-from disting.fit.loop import Controller, margins
-from disting.fit.modes import oscillating, poles
-from disting.fit.plant import Plant
-from disting.fit.reliance import BETWEEN, FAMILY, WITHIN, Kind, Statement, total_inertia
+from disting.fit.judge.modes import oscillating, poles
+from disting.fit.results.loop import Controller, margins
+from disting.fit.results.reliance import BETWEEN, FAMILY, WITHIN, Kind, Statement, total_inertia
+from disting.fit.results.samples import Drawn, drawn, draws, with_twins
+from disting.fit.search.plant import Plant
 from disting.fit.select import select
 from disting.fit.selection_json import selection_to_dict
 from disting.model.chain import Chain

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.admissible import Rule
-from disting.fit.candidates import figure_1, variants
-from disting.fit.cost import lines_by_deviation
-from disting.fit.export import predicted
-from disting.fit.modes import oscillating, physical, poles, zeros
-from disting.fit.practical import Thresholds
+from disting.fit.judge.admissible import Rule
+from disting.fit.judge.modes import oscillating, physical, poles, zeros
+from disting.fit.judge.practical import Thresholds
+from disting.fit.results.export import predicted
+from disting.fit.results.sweep import CRITERIA, profile, sweep
+from disting.fit.search.candidates import figure_1, variants
+from disting.fit.search.cost import lines_by_deviation
 from disting.fit.select import select
 from disting.fit.selection_json import model_from_dict, selection_to_dict
-from disting.fit.sweep import CRITERIA, profile, sweep
 from disting.model.chain import Chain
 from disting.verdict import Relation
 from tests.fit.drives import OMEGA, bench, response

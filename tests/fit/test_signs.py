@@ -9,7 +9,7 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit import select
-from disting.fit.candidates import chosen_ports
+from disting.fit.search.candidates import chosen_ports
 from disting.measurement import are_opposite
 from disting.model.chain import Chain
 from tests.fit.drives import response

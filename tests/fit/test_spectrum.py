@@ -5,11 +5,11 @@ single lines.
 import numpy as np
 import pytest
 
-from disting.fit.descent import fine
-from disting.fit.designed import designed
-from disting.fit.plan import plan
-from disting.fit.rival import apart
-from disting.fit.spectrum import CLOSE, KEPT, Adversary, best_band, optimal, runnable
+from disting.fit.plan.design import designed
+from disting.fit.plan.power import plan
+from disting.fit.plan.rival import apart
+from disting.fit.plan.spectrum import CLOSE, KEPT, Adversary, best_band, optimal, runnable
+from disting.fit.search.descent import fine
 from disting.model.chain import Chain
 from tests.fit.test_plan import MODEL, OMEGA, RIVAL, VALUES, alike
 

@@ -5,10 +5,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from disting.fit.cost import Cost
-from disting.fit.estimate import Task
-from disting.fit.exchange import estimates
-from disting.fit.plant import Plant
+from disting.fit.search.cost import Cost
+from disting.fit.search.estimate import Task
+from disting.fit.search.exchange import estimates
+from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 

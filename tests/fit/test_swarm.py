@@ -2,10 +2,10 @@
 
 import pytest
 
-from disting.fit.cost import Cost
-from disting.fit.estimate import Task
-from disting.fit.exchange import estimates
-from disting.fit.swarm import by_swarm, search_box
+from disting.fit.search.cost import Cost
+from disting.fit.search.estimate import Task
+from disting.fit.search.exchange import estimates
+from disting.fit.search.swarm import by_swarm, search_box
 from disting.model.chain import Chain
 from tests.fit.drives import response, truth
 

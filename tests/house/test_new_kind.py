@@ -99,7 +99,7 @@ def test_fit_and_pages(folder):
         "-c",
         """
 from disting.fit import Setup
-from disting.fit.joint import JointCost
+from disting.fit.search.joint import JointCost
 from disting.model.chain import Chain
 from disting.report.experiment_drawing import added, state
 from disting.model.kinds import MAGNET

@@ -7,7 +7,7 @@ from math import pi
 
 import pytest
 
-from disting.fit.candidates import figure_1
+from disting.fit.search.candidates import figure_1
 from disting.paper import CLAIMS, Claim, Findings, Found, Outcome
 from disting.paper.refit import GIVEN, refitted
 

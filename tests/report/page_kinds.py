@@ -9,10 +9,10 @@ from disting.catalogs import catalog
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.parser import parser
-from disting.fit.candidates import figure_1
-from disting.fit.joint import Further
+from disting.fit.search.candidates import figure_1
+from disting.fit.search.joint import Further
+from disting.fit.search.setup import Setup
 from disting.fit.select import Selection, select
-from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report

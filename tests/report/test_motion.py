@@ -15,10 +15,10 @@ from scipy.signal import lsim
 from disting.catalogs import catalog
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
-from disting.fit.cost import Cost
-from disting.fit.estimate import Task
-from disting.fit.exchange import estimates
-from disting.fit.plant import Plant
+from disting.fit.search.cost import Cost
+from disting.fit.search.estimate import Task
+from disting.fit.search.exchange import estimates
+from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family

@@ -13,10 +13,10 @@ from disting.conditions.rule import Stage
 from disting.equivalence.listing import Signs
 from disting.errors import InputError
 from disting.evidence.positive import Share
-from disting.fit.plan import Answer
-from disting.fit.rival import Limit, Trust
-from disting.fit.setup import Setup
-from disting.fit.standing import Standing
+from disting.fit.plan.power import Answer
+from disting.fit.plan.relations import Standing
+from disting.fit.plan.rival import Limit, Trust
+from disting.fit.search.setup import Setup
 from disting.general import read_models
 from disting.measurement import write_csv
 from disting.model.domain import Domain

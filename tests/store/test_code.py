@@ -50,22 +50,24 @@ def closure(name):
 
 
 @pytest.mark.parametrize(
-    "name", ["disting.verdict.engine", "disting.fit.exchange", "disting.algebra.matroid"]
+    "name", ["disting.verdict.engine", "disting.fit.search.exchange", "disting.algebra.matroid"]
 )
 def test_the_modules_are_those_of_the_syntax_trees(name):
     assert set(modules_of(name)) == closure(name)
 
 
 def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions():
-    assert {"disting.model.chain", "disting.fit.plant", "disting.fibres.synthesis.decide"} <= set(
-        modules_of("disting.fit.exchange")
-    )
+    assert {
+        "disting.model.chain",
+        "disting.fit.search.plant",
+        "disting.fibres.synthesis.decide",
+    } <= set(modules_of("disting.fit.search.exchange"))
     assert {"disting.model.chain", "disting.conditions.table", "disting.model.domain"} <= set(
         modules_of("disting.verdict.engine")
     )
     assert not any(
         name.startswith(("disting.report", "disting.cli"))
-        for name in modules_of("disting.fit.exchange")
+        for name in modules_of("disting.fit.search.exchange")
     )
 
 
@@ -77,14 +79,14 @@ def test_a_change_of_the_ports_in_the_chain_model_changes_the_key_of_estimates(t
     shutil.copytree(ROOT / "disting", copy, ignore=shutil.ignore_patterns("__pycache__", "shipped"))
     shutil.copytree(ROOT / "catalog", tmp_path / "catalog")
     before = digest_of(tmp_path)
-    assert before == digest("disting.fit.exchange")
+    assert before == digest("disting.fit.search.exchange")
     chain = copy / "model" / "chain.py"
     chain.write_text(chain.read_text(encoding="utf-8") + "\n# changed\n", encoding="utf-8")
     assert digest_of(tmp_path) != before
 
 
 def digest_of(folder):
-    command = "from disting.store.code import digest; print(digest('disting.fit.exchange'))"
+    command = "from disting.store.code import digest; print(digest('disting.fit.search.exchange'))"
     done = subprocess.run(
         [sys.executable, "-c", command], cwd=folder, capture_output=True, text=True, check=True
     )

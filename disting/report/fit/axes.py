@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.fit.plant import Real
+from disting.measurement.arrays import Real
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.fit.estimate import Task
-from disting.fit.fitted import Confidence, confidence, response_of
-from disting.fit.judged import Candidate
-from disting.fit.members import QUANTILE
-from disting.fit.modes import Result
-from disting.fit.plant import Complex, Real
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.members import QUANTILE
+from disting.fit.judge.modes import Result
+from disting.fit.results.confidence import Confidence, confidence, response_of
+from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.report.fit.axes import degrees, logarithmic, spread
 from disting.report.fit.distorted import beneath

@@ -5,8 +5,8 @@ least determined, who is nearest.
 from dataclasses import dataclass, fields
 from math import isfinite
 
-from disting.fit.judged import Candidate
-from disting.fit.practical import Thresholds
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.practical import Thresholds
 from disting.fit.select import Selection
 from disting.report.fit.thresholds import TITLES
 from disting.report.fit.words import readable

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.fit.plant import Real
+from disting.measurement.arrays import Real
 from disting.report.fit.series import MANY, Series
 from disting.report.fit.style import Tone
 

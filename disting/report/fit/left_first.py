@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from disting.errors import listed
 from disting.experiments.menu import Item
-from disting.fit.exclusion import joined
-from disting.fit.foretold import Foretold
-from disting.fit.plan import POWER
+from disting.fit.judge.exclusion import joined
+from disting.fit.plan.further import Foretold
+from disting.fit.plan.power import POWER
 from disting.report.fit.left_words import Onward, cheapest_first
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent

@@ -6,12 +6,12 @@ from itertools import combinations, permutations
 from typing import Any
 
 from disting.experiments.menu import Costs, Item
-from disting.fit.candidates import as_listed, reference
-from disting.fit.exclusion import LEVEL, joined
-from disting.fit.foretold import Foretold, Step
-from disting.fit.named import Left, Named
-from disting.fit.plan import POWER
-from disting.fit.standing import Standing, Stood
+from disting.fit.judge.exclusion import LEVEL, joined
+from disting.fit.plan.fit_file import Left, Named
+from disting.fit.plan.further import Foretold, Step
+from disting.fit.plan.power import POWER
+from disting.fit.plan.relations import Standing, Stood
+from disting.fit.search.candidates import as_listed, reference
 from disting.model.drawing import LEGEND, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable

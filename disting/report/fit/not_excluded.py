@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from disting.fit.members import Member, Twin
+from disting.fit.judge.members import Member, Twin
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw

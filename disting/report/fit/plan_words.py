@@ -6,12 +6,12 @@ from math import ceil, floor, sqrt
 
 import numpy as np
 
-from disting.fit.candidates import as_listed, reference
-from disting.fit.designed import Designed
-from disting.fit.exclusion import LEVEL, joined
-from disting.fit.named import Named
-from disting.fit.plan import POWER, Answer, Plan, is_trusted, power, typical
-from disting.fit.rival import Limit, Rival
+from disting.fit.judge.exclusion import LEVEL, joined
+from disting.fit.plan.design import Designed
+from disting.fit.plan.fit_file import Named
+from disting.fit.plan.power import POWER, Answer, Plan, is_trusted, power, typical
+from disting.fit.plan.rival import Limit, Rival
+from disting.fit.search.candidates import as_listed, reference
 from disting.model.drawing import text_drawing
 from disting.model.names import damping_option
 from disting.report.fit.words import percent, readable

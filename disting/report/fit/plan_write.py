@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.files import write_whole
-from disting.fit.candidates import as_listed
-from disting.fit.designed import Designed, designed_to_dict
-from disting.fit.plan import Plan, typical
-from disting.fit.plant import Real
+from disting.fit.plan.design import Designed, designed_to_dict
+from disting.fit.plan.power import Plan, typical
+from disting.fit.search.candidates import as_listed
+from disting.measurement.arrays import Real
 from disting.model.names import damping_option
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow

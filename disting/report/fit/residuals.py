@@ -2,8 +2,8 @@
 where the model misses.
 
 With G measured and G_m fitted, ln |G / G_m| and arg (G / G_m) of each line; a line that only
-scatters lies within +-1.96 rho of the model with 95 % (`disting.fit.scatter`), the model itself
-within its band about zero (`disting.fit.fitted`).
+scatters lies within +-1.96 rho of the model with 95 % (`disting.fit.noise.scatter`), the model
+itself within its band about zero (`disting.fit.results.confidence`).
 """
 
 from collections.abc import Callable, Sequence
@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.fit.explained import Miss
-from disting.fit.fitted import Confidence, confidence, response_of
-from disting.fit.members import QUANTILE
-from disting.fit.plant import Real
-from disting.fit.scatter import Scatter
+from disting.fit.judge.explanation import Miss
+from disting.fit.judge.members import QUANTILE
+from disting.fit.noise.scatter import Scatter
+from disting.fit.results.confidence import Confidence, confidence, response_of
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Real
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.distorted import beneath_in_words
 from disting.report.fit.series import Series, band, points, series_of

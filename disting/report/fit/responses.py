@@ -6,10 +6,10 @@ from math import isfinite
 
 from markupsafe import Markup
 
-from disting.fit.fitted import fit_percent
-from disting.fit.judged import Candidate
+from disting.fit.judge.candidate import Candidate
+from disting.fit.results.confidence import fit_percent
+from disting.fit.search.setup import Setup, port
 from disting.fit.select import Selection
-from disting.fit.setup import Setup, port
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.drawing import draw

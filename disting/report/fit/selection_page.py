@@ -5,14 +5,14 @@ sure.
 from collections.abc import Sequence
 
 from disting.files import __version__
-from disting.fit.alternatives import Alternative
-from disting.fit.exclusion import LEVEL
-from disting.fit.explained import allowed
-from disting.fit.judged import Candidate
-from disting.fit.measured import read_in_words
-from disting.fit.modes import Result
+from disting.fit.judge.alternatives import Alternative
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.exclusion import LEVEL
+from disting.fit.judge.explanation import allowed
+from disting.fit.judge.modes import Result
+from disting.fit.judge.reading import read_in_words
 from disting.fit.select import Selection
-from disting.fit.telling import first_lines, suspicions
+from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
 from disting.report.fit.convergence import hits, hits_in_words

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.fit.estimate import Task
-from disting.fit.judged import Candidate
-from disting.fit.plant import Real
-from disting.fit.practical import Thresholds, collinearity_by_subset
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.practical import Thresholds, collinearity_by_subset
+from disting.fit.search.estimate import Task
+from disting.measurement.arrays import Real
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import readable

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.fit.estimate import Task
-from disting.fit.fitted import response_of
-from disting.fit.judged import Candidate
-from disting.fit.plant import Real
-from disting.fit.scatter import Scatter, scatter
+from disting.fit.judge.candidate import Candidate
+from disting.fit.noise.scatter import Scatter, scatter
+from disting.fit.results.confidence import response_of
+from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
-from disting.measurement.arrays import nearest
+from disting.measurement.arrays import Real, nearest
 from disting.report.fit.style import Tone
 
 if TYPE_CHECKING:

@@ -4,10 +4,10 @@ intervals.
 
 from dataclasses import dataclass
 
-from disting.fit.estimate import Task
-from disting.fit.judged import Candidate
-from disting.fit.members import Member
-from disting.fit.modes import Result
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.members import Member
+from disting.fit.judge.modes import Result
+from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.report.fit.words import (
     between,

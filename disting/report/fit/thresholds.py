@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.fit.judged import Candidate
-from disting.fit.plant import Real
-from disting.fit.practical import Thresholds
-from disting.fit.sweep import CRITERIA, Sweep, sweep
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.practical import Thresholds
+from disting.fit.results.sweep import CRITERIA, Sweep, sweep
+from disting.measurement.arrays import Real
 from disting.report.fit.axes import logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 from disting.report.fit.words import readable

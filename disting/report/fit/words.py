@@ -2,11 +2,11 @@
 
 from math import floor, inf, isfinite, log10, pi
 
-from disting.fit.admissible import UNDETERMINED
-from disting.fit.cost import Case
-from disting.fit.fitted import fit_percent
-from disting.fit.joint import AnyCost
-from disting.fit.modes import Result
+from disting.fit.judge.admissible import UNDETERMINED
+from disting.fit.judge.modes import Result
+from disting.fit.results.confidence import fit_percent
+from disting.fit.search.cost import Case
+from disting.fit.search.joint import AnyCost
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.measurement.units import differentiated
@@ -189,7 +189,7 @@ def cost_in_words(cost: AnyCost) -> str:
     """What J adds up.
 
     >>> import numpy as np
-    >>> from disting.fit.cost import Cost
+    >>> from disting.fit.search.cost import Cost
     >>> cost_in_words(Cost(FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex))))
     'the squares of the amplitude errors [decades] and of the phase errors [rad], weighted π : 1'
     """

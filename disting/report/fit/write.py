@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from disting.files import write_whole
-from disting.fit.candidates import reference as name_of
-from disting.fit.export import Exported
-from disting.fit.modes import Result, physical
+from disting.fit.judge.modes import Result, physical
+from disting.fit.results.export import Exported
+from disting.fit.results.sweep import Profile, profile
+from disting.fit.search.candidates import reference as name_of
 from disting.fit.select import Selection
 from disting.fit.selection_json import candidate_to_dict, selection_to_dict
-from disting.fit.sweep import Profile, profile
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall

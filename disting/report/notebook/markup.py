@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from markupsafe import Markup, escape
 
-from disting.fit.plant import Real
+from disting.measurement.arrays import Real
 from disting.report.scene import FILE_PALETTE, Ink, Layer, Path, Scene
 from disting.report.svg import svg
 from disting.report.words import SAID

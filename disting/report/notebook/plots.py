@@ -8,11 +8,11 @@ import numpy as np
 
 from disting.catalogs import Catalog
 from disting.errors import DistingError
-from disting.fit.candidates import reference
-from disting.fit.fitted import response_of
-from disting.fit.plant import Real
+from disting.fit.results.confidence import response_of
+from disting.fit.search.candidates import reference
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Real
 from disting.report.fit.words import response_unit
 from disting.report.notebook.markup import FILLS
 from disting.report.scene import FILE_PALETTE

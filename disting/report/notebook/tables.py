@@ -10,9 +10,9 @@ from markupsafe import Markup
 from disting.catalogs import Catalog
 from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
-from disting.fit.candidates import reference
-from disting.fit.judged import Candidate
-from disting.fit.plan import Plan, is_trusted
+from disting.fit.judge.candidate import Candidate
+from disting.fit.plan.power import Plan, is_trusted
+from disting.fit.search.candidates import reference
 from disting.fit.select import Selection
 from disting.general import MatrixModel, Model, ModelList
 from disting.general.global_identifiability import GlobalIdentifiability

@@ -8,7 +8,7 @@ from itertools import combinations
 
 from disting.catalogs import Catalog
 from disting.catalogs.dampers import DamperTable, spelled
-from disting.fit.modes import physical
+from disting.fit.judge.modes import physical
 from disting.model.family import Family
 from disting.paper import Findings
 from disting.report.fit.bode import bode

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.fit.export import predicted
-from disting.fit.plant import Complex
+from disting.fit.results.export import predicted
+from disting.measurement.arrays import Complex
 from disting.paper import Refit
 from disting.report.fit.axes import degrees, logarithmic
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from disting.fit.admissible import Rule
-from disting.fit.candidates import figure_1
-from disting.fit.export import predicted
-from disting.fit.practical import Thresholds
+from disting.fit.judge.admissible import Rule
+from disting.fit.judge.practical import Thresholds
+from disting.fit.results.export import predicted
+from disting.fit.search.candidates import figure_1
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

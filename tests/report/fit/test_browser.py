@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from disting.fit.members import Twin
+from disting.fit.judge.members import Twin
 from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

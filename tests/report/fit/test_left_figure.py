@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from matplotlib.path import Path
 
-from disting.fit.loop import Controller, loop_gain
-from disting.fit.reliance import position_of_load
+from disting.fit.results.loop import Controller, loop_gain
+from disting.fit.results.reliance import position_of_load
 from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.report.fit.left_figure import ellipse, left_figure

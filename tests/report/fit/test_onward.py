@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from disting.cli import main
-from disting.fit.members import Twin
+from disting.fit.judge.members import Twin
 from disting.fit.select import Selection
 from disting.model.chain import Chain
 from disting.report.fit.onward import Link, Site, beside, next_steps, step_to, steps_of

@@ -11,9 +11,9 @@ import pytest
 
 from disting.errors import InputError
 from disting.files import __version__
-from disting.fit.candidates import chosen_ports
-from disting.fit.modes import physical
-from disting.fit.practical import Thresholds
+from disting.fit.judge.modes import physical
+from disting.fit.judge.practical import Thresholds
+from disting.fit.search.candidates import chosen_ports
 from disting.fit.select import Selection, select
 from disting.fit.selection_json import read_model, selection_to_dict
 from disting.measurement import FrequencyResponse

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from disting.fit.candidates import figure_1
-from disting.fit.export import predicted
-from disting.fit.scatter import Scatter
+from disting.fit.noise.scatter import Scatter
+from disting.fit.results.export import predicted
+from disting.fit.search.candidates import figure_1
 from disting.fit.select import Selection, select
 from disting.fit.selection_json import selection_to_dict
 from disting.measurement import FrequencyResponse, TimeSeries

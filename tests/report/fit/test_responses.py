@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disting.fit.cost import Cost
-from disting.fit.explained import Miss
-from disting.fit.fitted import fit_percent
-from disting.fit.joint import Further, JointCost
-from disting.fit.modes import physical
+from disting.fit.judge.explanation import Miss
+from disting.fit.judge.modes import physical
+from disting.fit.results.confidence import fit_percent
+from disting.fit.search.cost import Cost
+from disting.fit.search.joint import Further, JointCost
+from disting.fit.search.setup import Setup
 from disting.fit.select import select
-from disting.fit.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.report.fit.residuals import missed, misses_of, residuals
 from disting.report.fit.responses import fits_of, responses, seen_alone, seen_together

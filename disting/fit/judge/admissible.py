@@ -1,0 +1,70 @@
+"""Of which fitted candidates the data determine all parameters.
+
+The paper selects among these only, by the three criteria of section 2.4, which do not see the
+noise: a model whose every parameter is known within 1 % may exceed a condition index of 30. By
+default a candidate stays whose parameters are known badly, and that is said of it: it is marked
+unless the criteria hold or the data determine it well in spite of them, every parameter differing
+from zero by three standard errors and every inertia, stiffness, resonance and antiresonance known
+to 10 %. A parameter at its bound is marked too. What no data determine is left out by both rules.
+"""
+
+from enum import StrEnum
+
+from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.modes import Result, physical
+from disting.fit.judge.practical import Thresholds
+from disting.fit.search.estimate import Task
+
+UNDETERMINED = 10.0  # relative standard error above which a value is called not determined
+FROM_ZERO = 1 / 3  # largest relative standard error of a parameter that is known not to be zero
+KNOWN = 0.1  # and of a quantity that a machine is designed with
+DESIGNED = ("inertia", "stiffness", "resonance", "antiresonance")
+
+
+class Rule(StrEnum):
+    """Which candidates may be selected: what the data do not exclude, or of that what the paper's
+    criteria admit.
+    """
+
+    NOT_EXCLUDED = "not-excluded"
+    PAPER = "paper"
+
+
+def reasons(candidate: Candidate, task: Task, limits: Thresholds, rule: Rule) -> tuple[str, ...]:
+    """What the data do not determine of a candidate; nothing if it is admissible."""
+    bound = tuple(f"{n} is at its bound" for n in candidate.at_bound)
+    exceeded = limits.reasons(candidate.practical)
+    if rule is Rule.PAPER or not exceeded or candidate.practical.unidentifiable:
+        return exceeded + bound
+    unknown = undetermined(candidate, task)
+    return (*exceeded, unknown, *bound) if unknown else bound
+
+
+def undetermined(candidate: Candidate, task: Task) -> str:
+    """What the data do not determine well, in one sentence; "" where they determine all."""
+    loose = {n: e for n, e in candidate.practical.relative_errors.items() if not e <= FROM_ZERO}
+    if not loose:
+        loose = {
+            r.name: _share(r)
+            for r in physical(candidate, task)
+            if _is_designed(r) and not _share(r) <= KNOWN
+        }
+    if not loose:
+        return ""
+    name, error = max(loose.items(), key=lambda row: row[1])
+    more = f" and {len(loose) - 1} more" if len(loose) > 1 else ""
+    return (
+        f"{name}{more} known to ± {100 * error:.0f} % only"
+        if error < 10
+        else f"{name}{more} not determined"
+    )
+
+
+def _is_designed(found: Result) -> bool:
+    return any(word in DESIGNED for word in found.name.split()) and not found.name.startswith(
+        "damping"
+    )
+
+
+def _share(found: Result) -> float:
+    return found.standard_error / abs(found.value) if found.value else float("inf")

@@ -1,0 +1,208 @@
+"""What fitted candidates are worth: criteria, standard errors, cost on data that no fit has
+seen, chi2 per line.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from disting.fit.judge.exclusion import Exclusion
+from disting.fit.judge.explanation import chi2
+from disting.fit.judge.practical import Practical, Seen, practical
+from disting.fit.judge.responses import noises, yardsticks
+from disting.fit.judge.structural import with_structure
+from disting.fit.noise.covariance import expected
+from disting.fit.noise.scatter import Scatter
+from disting.fit.search.candidates import reference
+from disting.fit.search.descent import fine
+from disting.fit.search.estimate import Estimate, Task
+from disting.fit.search.joint import AnyCost
+from disting.fit.search.whitened import Whitened
+from disting.measurement.arrays import Complex, Real
+from disting.model.chain import Chain
+from disting.model.settings import Settings
+from disting.model.shown import summary
+
+FOLDS = 5  # of the cross-validation
+FOLD_GAIN = 1e-6  # relative gain of cost at which the fit of a fold ends
+AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
+WITNESSES = 5  # best candidates that help to see how much the data scatter
+
+Scatters = tuple[Scatter, Scatter]
+"""Scatter of the lines of the training data, and of those that candidates are judged by."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A fitted candidate; `reasons` say which of its parameters are not determined, `residual` is
+    that on the test data, shape (n_y,), whitened, and `missed` what it is expected to be.
+
+    `chi2` per line, see `explained`; `noise` = covariance of the residuals on the training data,
+    from which all standard errors follow; `trained` = its whitened residual there; `excluded`: by
+    which other candidate, if by any.
+    """
+
+    chain: Chain
+    estimate: Estimate
+    practical: Practical
+    j_test: float
+    chi2: float
+    at_bound: tuple[str, ...]
+    residual: Real = field(repr=False, compare=False)
+    missed: Real = field(repr=False, compare=False)
+    noise: Seen = field(repr=False, compare=False)
+    trained: Real = field(repr=False, compare=False)
+    reasons: tuple[str, ...] = ()
+    akaike_weight: float = 0.0
+    excluded: Exclusion | None = None
+
+    def __repr__(self) -> str:
+        excluded = f", excluded by {reference(self.excluded.by)}" if self.excluded else ""
+        return summary(
+            self,
+            f"{reference(self.chain)}, N_p = {self.n_parameters}, J = {self.j_test:.4g}{excluded}",
+        )
+
+    @property
+    def admissible(self) -> bool:
+        """Whether all its parameters are determined, by the criteria of the rule."""
+        return not self.reasons
+
+    @property
+    def j_train(self) -> float:
+        """Cost on the training data."""
+        return self.estimate.j
+
+    @property
+    def n_parameters(self) -> int:
+        """N_p: all parameters that the fit was free to choose."""
+        return len(self.practical.names)
+
+    @property
+    def standard_errors(self) -> dict[str, float]:
+        """Standard error of each fitted parameter, in its unit."""
+        return {
+            n: e * self.estimate.parameters[n] for n, e in self.practical.relative_errors.items()
+        }
+
+
+def judged(
+    known: Mapping[Chain, Estimate], task: Task, test_cost: AnyCost | None, settings: Settings
+) -> tuple[list[Candidate], Scatters]:
+    """What each estimate is worth, in the order of the cost on test, and the scatter that it
+    was judged by.
+    """
+    cost = test_cost or task.cost
+    best = sorted(known.values(), key=lambda e: e.j)[:WITNESSES]
+    inside, outside = yardsticks(
+        task.cost,
+        cost,
+        [_response(e, task) for e in best],
+        [_response(e, replace(task, cost=cost)) for e in best],
+    )
+    first = {c: _criteria(found, task, inside) for c, found in known.items()}
+    criteria = with_structure({c: found for c, (found, *_) in first.items()}, task, settings)
+    fitted = [
+        _candidate(found, criteria[c], first[c], task, test_cost, (inside, outside))
+        for c, found in known.items()
+    ]
+    return sorted(fitted, key=lambda c: c.j_test), (inside, outside)
+
+
+def values_of(found: Estimate, task: Task) -> Real:
+    """Parameters as an array, in the order of the task."""
+    return np.array([found.parameters[n] for n in task.names(found.chain)])
+
+
+def _response(found: Estimate, task: Task) -> Complex:
+    return task.plant(found.chain).response(values_of(found, task))
+
+
+Criteria = tuple[Practical, Seen, Real]
+"""Criteria of an estimate, noise of its residuals, and these whitened."""
+
+
+def _criteria(found: Estimate, task: Task, known: Scatter) -> Criteria:
+    """The criteria at the optimum, of the parameters that are free, and what the residuals
+    there are like.
+    """
+    chain, names = found.chain, task.names(found.chain)
+    p = values_of(found, task)
+    free = task.box(names).free
+    residual, columns = task.cost.of(task.plant(chain), p)
+    sigma = task.cost.scatter(known.rho)
+    there = noises(task.cost, residual, sigma, expected(columns[:, free], sigma))
+    return (
+        practical(
+            columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], there
+        ),
+        there,
+        Whitened(task.cost, known).residual(task.plant(chain).response(p)),
+    )
+
+
+def _candidate(
+    found: Estimate,
+    criteria: Practical,
+    first: Criteria,
+    task: Task,
+    test: AnyCost | None,
+    known: Scatters,
+) -> Candidate:
+    """Test cost of one estimate with its criteria."""
+    chain, names = found.chain, task.names(found.chain)
+    p = values_of(found, task)
+    box = task.box(names)
+    cost = test or task.cost
+    response = _cross_validated(found, task, p) if test is None else _at(chain, task, test, p)
+    residual = cost.residual(response)
+    near = (box.high - p <= AT_BOUND * p) | ((box.low > 0) & (p - box.low <= AT_BOUND * p))
+    at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
+    missed = _expected(found, task, cost, *known)
+    whitened = Whitened(cost, known[1]).residual(response)
+    return Candidate(
+        chain,
+        found,
+        criteria,
+        float(residual @ residual),
+        chi2(whitened, missed),
+        at_bound,
+        whitened,
+        missed,
+        *first[1:],
+    )
+
+
+def _expected(
+    found: Estimate, task: Task, judging: AnyCost, inside: Scatter, outside: Scatter
+) -> Real:
+    """What the whitened residuals on the judged data are expected to be, shape (n_y,): 1, and the
+    errors of the parameters.
+    """
+    p, free = values_of(found, task), task.box(task.names(found.chain)).free
+    columns = task.cost.of(task.plant(found.chain), p)[1][:, free]
+    there = replace(task, cost=judging).plant(found.chain)
+    seen = Whitened(judging, outside).of(there, p)[1][:, free]
+    return expected(columns, task.cost.scatter(inside.rho), seen, np.ones(len(seen)))
+
+
+def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:
+    return replace(task, cost=cost).plant(chain).response(p)
+
+
+def _cross_validated(found: Estimate, task: Task, p: Real) -> Complex:
+    """The response at each line of the fit to the other folds, lines dealt out in turn; shape
+    (n_f,).
+    """
+    if not task.box(task.names(found.chain)).free.any():
+        return _at(found.chain, task, task.cost, p)  # no fit sees any line
+    cost, plant = task.cost, task.plant(found.chain)
+    at = np.concatenate([np.arange(len(part.measured)) % FOLDS for part in cost.parts])
+    whole = np.empty(len(at), dtype=np.complex128)
+    for fold in range(FOLDS):
+        kept = replace(task, cost=cost.without(at == fold))
+        box = kept.box(task.names(found.chain))
+        there, _ = fine(kept.plant(found.chain), kept.cost, box, p, FOLD_GAIN)
+        whole[at == fold] = plant.response(there)[at == fold]
+    return whole

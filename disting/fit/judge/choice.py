@@ -1,0 +1,151 @@
+"""Which of the fitted candidates the data do not exclude, and which of these is selected.
+
+A candidate is excluded if it does not explain the data (`explanation`) while others do, or if
+another one shows that it misses more than noise (`exclusion`). Of those that are left the simplest
+one is selected, of equally simple ones that with the lowest cost on test. Under the paper's rule
+only candidates whose criteria hold are asked at all.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import exp, log
+
+import numpy as np
+
+from disting.fit.judge.admissible import Rule
+from disting.fit.judge.candidate import Candidate, Scatters, values_of
+from disting.fit.judge.exclusion import Exclusion, Fitted, basis_of, excluded, limit, statistic
+from disting.fit.judge.explanation import Explanation, allowed
+from disting.fit.judge.responses import explained, noises
+from disting.fit.noise.scatter import Scatter
+from disting.fit.search.cost import Cost
+from disting.fit.search.estimate import Task
+from disting.fit.search.joint import AnyCost
+from disting.fit.search.whitened import Whitened
+from disting.measurement.arrays import Real
+from disting.model.chain import Chain
+from disting.model.settings import Settings
+
+
+def akaike_weighted(candidates: Sequence[Candidate], task: Task) -> list[Candidate]:
+    """Akaike weights among the admissible ones: exp(-AIC/2), AIC = sum n_y ln(J/n_y) + 2 N_p over
+    the responses, each with its own variance; in all 1.
+    """
+    criteria = {
+        c.chain: sum(n_y * log(max(j, 1e-300) / n_y) for j, n_y in _costs(c, task))
+        + 2 * c.n_parameters
+        for c in candidates
+        if c.admissible
+    }
+    lowest = min(criteria.values(), default=0.0)
+    sizes = {chain: exp((lowest - value) / 2) for chain, value in criteria.items()}
+    total = sum(sizes.values())
+    return [
+        replace(c, akaike_weight=sizes[c.chain] / total) if c.chain in sizes else c
+        for c in candidates
+    ]
+
+
+def _costs(candidate: Candidate, task: Task) -> list[tuple[float, int]]:
+    """Cost on the training data and number of residuals of each response."""
+    cost = task.cost
+    if isinstance(cost, Cost):
+        return [(candidate.j_train, cost.n_residuals)]
+    p = values_of(candidate.estimate, task)
+    each = cost.by_residual(cost.residual(task.plant(candidate.chain).response(p)))
+    return [(float(own @ own), own.size) for own in each]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """`candidates` in the order of the cost on test. `left`: those that the data do not exclude,
+    the selected one first, then the simplest; `better` as in `select.Selection`.
+    """
+
+    candidates: tuple[Candidate, ...]
+    explanation: Explanation
+    selected: Candidate | None = None
+    left: tuple[Candidate, ...] = ()
+    better: tuple[Candidate, ...] = ()
+
+
+def choice(
+    fitted: Sequence[Candidate],
+    task: Task,
+    test: AnyCost | None,
+    known: Scatters,
+    rule: Rule,
+    settings: Settings,
+) -> Choice:
+    """Which candidates are left, and which one is selected; `fitted` in the order of J on test,
+    `known` = scatter of training data and of those on test.
+    """
+    judging, seen = test or task.cost, known[1]
+    asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
+    asked = [c for c in asked if not c.practical.unidentifiable] or asked
+    explaining = [c for c in asked if c.chi2 <= allowed(seen)]
+    if not explaining:
+        best = asked[0] if asked else None
+        said = _explained(best or fitted[0], judging, seen)
+        better = _better(best, fitted, task, known) if best and rule is Rule.PAPER else ()
+        return Choice(tuple(fitted), said, best, better=better)
+    out = _excluded(explaining, task, test, known, settings)
+    whole = tuple(replace(c, excluded=out.get(c.chain)) for c in fitted)
+    chains = {c.chain for c in explaining} - out.keys()
+    left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.j_test))
+    selected = left[0]
+    better = _better(selected, fitted, task, known) if rule is Rule.PAPER else ()
+    return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)
+
+
+def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
+    return explained(judging, described.residual, described.missed, seen)
+
+
+def _excluded(
+    candidates: Sequence[Candidate],
+    task: Task,
+    test: AnyCost | None,
+    known: Scatters,
+    settings: Settings,
+) -> Mapping[Chain, Exclusion]:
+    """Those that others exclude: on the data that no fit has seen, where there are such, since a
+    machine that changes leaves traces that a rich candidate fits too; else on those of the fit.
+    """
+    inside, outside = known
+    if test is None:
+        return excluded([trained_as(c, task, inside) for c in candidates], inside.freedom, settings)
+    there = replace(task, cost=test)
+    tested = [_fitted(c, c.residual, there, outside) for c in candidates]
+    return excluded(tested, outside.freedom, settings, seen=False)
+
+
+def trained_as(candidate: Candidate, task: Task, known: Scatter) -> Fitted:
+    """What the test of exclusion asks of a candidate on the data of its fit."""
+    return _fitted(candidate, candidate.trained, task, known)
+
+
+def _fitted(candidate: Candidate, residual: Real, task: Task, known: Scatter) -> Fitted:
+    whitened = Whitened(task.cost, known)
+    p = values_of(candidate.estimate, task)
+    columns = whitened.of(task.plant(candidate.chain), p)[1]
+    free = task.box(task.names(candidate.chain)).free
+    noise = noises(task.cost, residual, np.ones(residual.size))
+    return Fitted(candidate.chain, residual, basis_of(columns[:, free]), noise)
+
+
+def _better(
+    selected: Candidate, fitted: Sequence[Candidate], task: Task, known: Scatters
+) -> tuple[Candidate, ...]:
+    """Candidates that the paper's criteria leave out, and that would exclude the selected one,
+    those with few parameters first.
+    """
+    inside = known[0]
+    own = trained_as(selected, task, inside)
+    lower = [c for c in fitted if not c.admissible and c.j_train < selected.j_train]
+    found = [
+        c
+        for c in lower
+        if statistic(own, trained_as(c, task, inside)) > limit(c.n_parameters, inside.freedom)
+    ]
+    return tuple(sorted(found, key=lambda c: (c.n_parameters, c.j_test)))

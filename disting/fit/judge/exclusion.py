@@ -1,0 +1,178 @@
+"""When data exclude a structure: the one test of fit, next and plan.
+
+A structure with whitened residual r and sensitivities S is tested against another one with residual
+r_B (R. Davidson, J. MacKinnon, Several tests for model specification in the presence of alternative
+hypotheses, 1981):
+
+    T = (r'd)^2 / d'C d,    d = r_B - r, less what S makes up for,
+
+C = covariance of the residuals that the other one leaves (`covariance`). Where the other one
+contains the structure T is the difference of their costs. If the structure is true, T / s is
+distributed as F of s degrees of freedom, what the other one determines beyond it, and those from
+which the scatter is known. It is excluded at the level `LEVEL` by another one that fits better.
+
+What a further mass adds is an element that looks for noise at every line: the level is divided by
+their number. On test data, which the fits have not seen, d is given and s = 1.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import isfinite
+
+import numpy as np
+from scipy.stats import chi2
+from scipy.stats import f as f_distribution
+
+from disting.fit.judge.practical import Seen
+from disting.fit.noise.covariance import VANISHING
+from disting.measurement.arrays import Real
+from disting.model.chain import Chain
+from disting.model.settings import Settings
+from disting.questions.identifiability.tangent import proof_tangents
+
+LEVEL = 0.01  # probability of excluding a structure that is true by another one
+FELT = 0.1  # what a parameter must move, in units of the scatter, when it changes by itself
+REMEMBERED = 1024  # ranks; each pair asks for those of both structures
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fitted:
+    """Whitened residual r, shape (n_y,), of a fitted structure, an orthonormal basis of its
+    sensitivities, shape (n_y, n), and the noise that it leaves, in units of the scatter.
+    """
+
+    chain: Chain
+    residual: Real
+    basis: Real
+    noise: Seen
+
+    @property
+    def cost(self) -> float:
+        """|r|^2."""
+        return float(self.residual @ self.residual)
+
+
+@dataclass(frozen=True, slots=True)
+class Exclusion:
+    """By which structure another one is excluded: T and what it may be by chance."""
+
+    by: Chain
+    statistic: float
+    limit: float
+
+
+def basis_of(columns: Real) -> Real:
+    """Orthonormal basis of the columns S_j p_j, shape (n_y, n_p), that have an effect.
+
+    An element that has gone to zero makes up for nothing: it cannot go below.
+    """
+    length = np.linalg.norm(columns, axis=0)
+    felt = length > FELT
+    scaled = columns[:, felt] / length[felt]
+    if not scaled.shape[1]:
+        return np.asarray(scaled)
+    left, sizes, _ = np.linalg.svd(scaled, full_matrices=False)
+    return np.asarray(left[:, sizes > VANISHING * sizes[0]])
+
+
+def statistic(one: Fitted, other: Fitted) -> float:
+    """T of one structure against another one; 0 where the other one is no step towards the data."""
+
+    def beyond(vector: Real) -> Real:
+        """Less what the parameters make up for."""
+        return np.asarray(vector - one.basis @ (one.basis.T @ vector))
+
+    d, r = beyond(other.residual - one.residual), beyond(one.residual)
+    towards = -float(r @ d)
+    size = float(np.linalg.norm(other.noise.seen(d[:, None])) ** 2)
+    return towards**2 / size if towards > 0 and size > 0 else 0.0
+
+
+def limit(surplus: int, freedom: float, trials: int = 1, level: float = LEVEL) -> float:
+    """What T may be by chance.
+
+    >>> round(limit(1, float("inf")), 2), round(limit(1, 100.0), 2)
+    (6.63, 6.9)
+    """
+    if isfinite(freedom):
+        return surplus * float(f_distribution.isf(level / trials, surplus, freedom))
+    return float(chi2.isf(level / trials, surplus))
+
+
+def trials(chain: Chain, other: Chain, lines: int) -> int:
+    """Among how many places an element of the other structure is looked for."""
+    return max(lines, 1) if other.n_masses > chain.n_masses else 1
+
+
+def excluded(
+    fitted: Sequence[Fitted], freedom: float, settings: Settings, *, seen: bool = True
+) -> dict[Chain, Exclusion]:
+    """The structures that others exclude, each with the one that does so most clearly; `seen`:
+    by the data that all were fitted to.
+    """
+    found: dict[Chain, Exclusion] = {}
+    for one in fitted:
+        for other in fitted:
+            if not other.cost < one.cost:
+                continue
+            size = statistic(one, other)
+            if size <= limit(1, freedom):
+                continue
+            s = surplus(other.chain, one.chain, settings) if seen else 1
+            count = trials(one.chain, other.chain, len(one.residual) // 2) if seen else 1
+            most = limit(s, freedom, count)
+            known = found.get(one.chain)
+            if size > most and (known is None or size / most > known.statistic / known.limit):
+                found[one.chain] = Exclusion(other.chain, size, most)
+    return found
+
+
+def surplus(model: Chain, rival: Chain, settings: Settings | None = None) -> int:
+    """s: the rank of the smallest structure that contains both, less that of the rival.
+
+    What a damper, a lag, a dead time adds to what data determine. Structures that differ in more
+    than these have no such structure; there the ranks of the model and of the rival are compared.
+    s is at least 1.
+
+    >>> surplus(Chain(2, ground_dampers=(1,)), Chain(2, ground_dampers=(2,)))
+    1
+    """
+    settings = settings or Settings()
+    larger = joined(model, rival) or model
+    return max(1, _rank(larger, settings) - _rank(rival, settings))
+
+
+def joined(model: Chain, rival: Chain) -> Chain | None:
+    """The smallest structure that contains both; None where they differ in more than dampers to
+    the ground, lag and dead time.
+    """
+    plain = [replace(c, ground_dampers=(), lag=False, dead_time=False) for c in (model, rival)]
+    if plain[0] != plain[1]:
+        return None
+    return replace(
+        model,
+        ground_dampers=tuple(sorted({*model.ground_dampers, *rival.ground_dampers})),
+        lag=model.lag or rival.lag,
+        dead_time=model.dead_time or rival.dead_time,
+    )
+
+
+def contains(larger: Chain, smaller: Chain) -> bool:
+    """Whether the elements of a structure are among those of a larger one with the same force and
+    sensor at its beginning: a mass more is one behind the last one.
+    """
+    if larger == smaller or larger.indices[1:] != smaller.indices[1:]:
+        return False
+    return (
+        larger.n_masses >= smaller.n_masses
+        and {*smaller.ground_dampers} <= {*larger.ground_dampers}
+        and larger.lag >= smaller.lag
+        and larger.dead_time >= smaller.dead_time
+    )
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _rank(chain: Chain, settings: Settings) -> int:
+    tangents = proof_tangents(chain.structure, settings.seed, settings.points)
+    return max(t.rank for t in tangents)

@@ -1,0 +1,196 @@
+"""What is known of two structures where several responses are fitted together.
+
+More responses never make two structures harder to tell apart: what the first one tells apart stays
+apart, and what behaves the same in it need not do so in the others.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import permutations
+from math import inf
+
+import numpy as np
+
+from disting.errors import InputError, listed
+from disting.experiments import MeasuredChain
+from disting.experiments.polynomials import is_renaming
+from disting.fit.judge.alternatives import Alternative, Limits, is_within
+from disting.fit.search.candidates import reference
+from disting.fit.search.estimate import Task
+from disting.fit.search.exchange import SEARCHED, body, estimates
+from disting.fit.search.joint import AnyCost, Further, JointCost
+from disting.fit.search.setup import Setup, measurable, measured_chain
+from disting.measurement.arrays import Complex
+from disting.model.chain import Chain
+from disting.model.structure import Structure
+from disting.questions.positive import renamings
+from disting.store import Store
+from disting.verdict import Engine, Query, Relation, View
+
+SAME = 1e-6  # largest relative difference of two responses that are one, at all lines
+OPEN = "Whether that holds for positive parameters is not decided."
+RENAMED = "A renaming of the parameters turns all responses of the one into those of the other."
+
+
+def under_all(
+    chain: Chain, other: Chain, cost: AnyCost, engine: Engine, limits: Limits
+) -> Alternative | None:
+    """What another structure that the first response may not tell apart is under all of them, at
+    its places; None where they tell it apart.
+
+    By conditions and the exact decision over complex parameters. That all positive models are the
+    same is known where a renaming of the parameters, within the limits, turns all responses of the
+    one into those of the other.
+    """
+    mine, there = (engine.measured_subject(str(c), _measured(c, cost)) for c in (chain, other))
+    verdict = engine.verdict(mine, there, Query(View.COMBINED))
+    if verdict.relation is Relation.DISTINGUISHABLE:
+        return None
+    if is_same_under_all(chain, other, cost, limits):
+        return Alternative(other, Relation.INDISTINGUISHABLE, RENAMED)
+    return Alternative(other, Relation.UNDECIDED, f"{verdict.sentence} {OPEN}")
+
+
+def is_same_under_all(chain: Chain, other: Chain, cost: AnyCost, limits: Limits) -> bool:
+    """Whether a renaming of the parameters turns all responses of a chain into those of another,
+    and takes every range into that of the parameter that it becomes; both ways.
+    """
+    return chain == other or all(
+        any(
+            is_within(renaming, limits)
+            and is_renaming(_measured(one, cost), _measured(two, cost), renaming)
+            for renaming in renamings(one, two)
+        )
+        for one, two in ((chain, other), (other, chain))
+    )
+
+
+def alternatives_under_all(
+    chain: Chain,
+    found: Iterable[Alternative],
+    cost: AnyCost,
+    engine: Engine,
+    limits: Limits,
+) -> tuple[Alternative, ...]:
+    """What may behave the same as a chain in all responses, from what may in the first one."""
+    if len(cost.setups) == 1:
+        return tuple(found)
+    each = (under_all(chain, one.chain, cost, engine, limits) for one in found)
+    return tuple(one for one in each if one is not None)
+
+
+def representatives_under_all(
+    first: Mapping[Chain, Chain], cost: AnyCost, limits: Limits
+) -> dict[Chain, Chain]:
+    """For each candidate the one that has the same positive models in all responses, from `first`,
+    which has them in the first one.
+    """
+    if len(cost.setups) == 1:
+        return dict(first)
+    return {
+        chain: stands if is_same_under_all(chain, stands, cost, limits) else chain
+        for chain, stands in first.items()
+    }
+
+
+def behaves_alike(
+    chain: Chain, values: Mapping[str, float], other: Chain, there: Mapping[str, float], task: Task
+) -> bool:
+    """Whether another structure with its own values has all responses too, with all sensors and
+    changes at some places.
+
+    One thing is one mass in all responses; which one is not known of the other structure, so that
+    each is tried.
+    """
+    mine = _responses(chain, values, task.cost.setups_of(chain.structure), task)
+    return any(
+        all(
+            _same(one, two)
+            for one, two in zip(mine, _responses(other, there, setups, task), strict=True)
+        )
+        for setups in placements(chain, other, task.cost.setups_of(chain.structure))
+    )
+
+
+def _responses(
+    chain: Chain, values: Mapping[str, float], setups: Sequence[Setup], task: Task
+) -> list[Complex]:
+    """Each response at its lines."""
+    cost = JointCost(task.cost.parts, tuple(setups))
+    given = replace(task, cost=cost)
+    p = np.array([values[name] for name in given.names(chain)])
+    return task.cost.by_line(given.plant(chain).response(p))
+
+
+def _same(one: Complex, other: Complex) -> bool:
+    return bool(np.all(np.abs(one - other) <= SAME * np.abs(one)))
+
+
+def _measured(chain: Chain, cost: AnyCost) -> MeasuredChain:
+    return measured_chain(chain, cost.setups_of(chain.structure))
+
+
+def placements(chain: Chain, other: Chain, setups: Sequence[Setup]) -> Iterator[tuple[Setup, ...]]:
+    """The setups of a chain at every choice of masses of another one where all sensors move."""
+    n = chain.n_masses
+    used = sorted({i for setup in setups for i in setup.experiment(n).masses})
+    for chosen in permutations(range(1, other.n_masses + 1), len(used)):
+        at = dict(zip(used, chosen, strict=True))
+        moved = tuple(setup.moved(n, at.__getitem__) for setup in setups)
+        if all(measurable(other, moved)):
+            yield moved
+
+
+def located(task: Task, candidates: Sequence[Chain], home: Chain, store: Store) -> Task:
+    """The task with the places of further responses in every candidate. Their names are those of
+    `home`, and of chains that differ from it in dampers, lag and dead time alone; which mass is
+    which in another one is not known: every choice is fitted, and the best is taken.
+    """
+    cost = task.cost
+    if not isinstance(cost, JointCost):
+        return task
+    ways = {
+        c: [cost.setups] if body(c) == body(home) else list(placements(home, c, cost.setups))
+        for c in candidates
+    }
+    found = dict[Structure, tuple[Setup, ...]]()
+    least = dict[Chain, float]()
+    few = cost.thinned(SEARCHED)
+    for k in range(max(map(len, ways.values()))):
+        tried = {c: each[k] for c, each in ways.items() if k < len(each)}
+        there = {c.structure: setups for c, setups in tried.items()}
+        fits = estimates(tried, replace(task, cost=replace(few, places=there)), store=store)
+        for c, setups in tried.items():
+            if fits[c].j < least.get(c, inf):
+                least[c], found[c.structure] = fits[c].j, setups
+    return replace(task, cost=replace(cost, places=found))
+
+
+def learning(
+    candidates: Sequence[Chain], further: Sequence[Further], home: Chain | None = None
+) -> tuple[list[Chain], list[Further], list[str]]:
+    """The candidates that have all places, the responses that say something of them, and in words
+    those that do not; raises InputError where no candidate has the places. `home`: as in `located`.
+    """
+    if home is not None:
+        lacking = [one.setup.missing(home.structure) for one in further]
+        if any(lacking):
+            said = listed(list(filter(None, lacking)))
+            raise InputError(f"{reference(home)} cannot be measured like this: {said}")
+        setups = [Setup(), *(one.setup for one in further)]
+        there = [c for c in candidates if body(c) == body(home) or any(placements(home, c, setups))]
+        return there, list(further), []
+    kept, reasons = list(candidates), dict[str, None]()
+    for one in further:
+        missing = {c.n_masses: one.setup.missing(c.structure) for c in kept}
+        reasons |= dict.fromkeys(filter(None, missing.values()))
+        kept = [c for c in kept if not missing[c.n_masses]]
+    if not kept:
+        raise InputError(f"no candidate can be measured like this: {listed(reasons)}")
+    silent = [all(one.setup.is_silent(c.structure) for c in kept) for one in further]
+    heard = [one for one, dead in zip(further, silent, strict=True) if not dead]
+    kept = [c for c in kept if not any(one.setup.is_silent(c.structure) for one in heard)]
+    if not kept:
+        raise InputError("in every candidate one of the responses is zero: check the places")
+    words = [one.setup.text for one, dead in zip(further, silent, strict=True) if dead]
+    return kept, heard, words

@@ -1,0 +1,270 @@
+"""Structures that the data do not exclude, each with all that is known of it.
+
+Which these are, `choice` tells. What contains one of them with elements that the data do not
+determine is not excluded either: it is named, with what these elements are at most. And what
+behaves as one of them does, for exactly these values, is not excluded either, by this or any other
+data of this force and sensor: other structures of as many masses, anywhere in the catalogue, with
+any ground dampers, and other values of its own.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from disting.equivalence import Origin, Signs, equivalents
+from disting.fit.judge.alternatives import Limits
+from disting.fit.judge.candidate import Candidate, Scatters
+from disting.fit.judge.exclusion import contains
+from disting.fit.judge.interval import Interval, intervals
+from disting.fit.judge.joint_verdicts import behaves_alike
+from disting.fit.judge.practical import practical
+from disting.fit.judge.responses import noises, scatters, together
+from disting.fit.noise.covariance import expected
+from disting.fit.search.candidates import as_listed, reference
+from disting.fit.search.descent import fine
+from disting.fit.search.estimate import Task
+from disting.fit.search.joint import AnyCost
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.model.shown import plural, summary
+from disting.verdict.engine import mapped
+
+# masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
+EVERY_SET = 4
+NOTHING = 1e-90  # a value that is smaller, or zero, has no effect; exact numbers are no smaller
+APART = 3.0  # standard errors between training and test from which on a parameter disagrees
+QUANTILE = 1.959964  # of the normal distribution, for bands of 95 %
+STRONGEST = 2  # frequencies that are named, at which two structures differ most
+WIDE = 1.3  # ratio of two such frequencies, at least
+
+
+@dataclass(frozen=True)
+class Twin:
+    """A structure with positive parameters that has the same transfer function; `free_choices`
+    = dimension of its family.
+    """
+
+    chain: Chain
+    parameters: dict[str, float]
+    free_choices: int = 0
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:.4g}" for name, value in self.parameters.items())
+        return summary(self, f"{self.name}, {values}")
+
+    @property
+    def name(self) -> str:
+        """Such as 3:11+b1."""
+        return reference(self.chain)
+
+
+@dataclass(frozen=True)
+class Disagreement:
+    """A parameter that training and test data give differently: values, and their distance in
+    standard errors.
+    """
+
+    name: str
+    train: float
+    test: float
+    distance: float
+
+
+@dataclass(frozen=True)
+class Member:
+    """A structure that the data do not exclude; `open` names those of which it is not known
+    whether they do the same; `intervals` of 95 % of its fitted parameters.
+
+    `contains`: the simpler member whose elements are among its own, where the data do not determine
+    what it has beside; nothing is asked then of what does the same. `differs`: frequencies [Hz] at
+    which it differs most from the first member, and by how much (0.01 = 1 % or 0.01 rad).
+    """
+
+    candidate: Candidate
+    twins: tuple[Twin, ...]
+    open: tuple[str, ...]
+    disagreements: tuple[Disagreement, ...]
+    intervals: dict[str, Interval]
+    contains: Chain | None = None
+    differs: tuple[tuple[float, float], ...] = ()
+
+    def __repr__(self) -> str:
+        return summary(
+            self, f"{self.name}" + f", {plural(len(self.twins), 'twin')}" * bool(self.twins)
+        )
+
+    @property
+    def name(self) -> str:
+        """Such as 2:1+b2+delay, as the commands read it."""
+        return reference(self.candidate.chain)
+
+    @property
+    def unsure(self) -> dict[str, Interval]:
+        """The intervals of what is known badly: those that hold zero or have no end, or are as wide
+        as the value itself.
+        """
+        values = self.candidate.estimate.parameters
+        return {n: (a, b) for n, (a, b) in self.intervals.items() if b - a > values[n] or not a}
+
+
+def members(
+    left: Sequence[Candidate],
+    task: Task,
+    test: AnyCost | None,
+    known: Scatters,
+    limits: Limits,
+    executor: Executor | None,
+    progress: Callable[[str, int, int], object] = lambda what, done, total: None,
+) -> tuple[Member, ...]:
+    """The candidates that are left, in their order, as members of the set."""
+    inside = {c.chain: _contained(c, left) for c in left}
+    chosen = [c for c in left if inside[c.chain] is None]
+    given = [
+        (c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters}, dict(limits))
+        for c in chosen
+    ]
+    found = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
+    for (chain, values, _), both in mapped(twins, given, executor):
+        found[chain] = _in_all(chain, values, *both, task)
+        progress("equivalents", len(found), len(given))
+    return tuple(
+        Member(
+            c,
+            *found.get(c.chain, ((), ())),
+            disagreements=disagreements(c, task, test) if test and c.chain in found else (),
+            intervals=intervals(c, task, known[0]) if c.chain in found else {},
+            contains=inside[c.chain],
+            differs=_differs(left[0], c, test or task.cost, task),
+        )
+        for c in left
+    )
+
+
+def _contained(candidate: Candidate, left: Sequence[Candidate]) -> Chain | None:
+    """The simplest structure left whose elements a candidate has, where it has others that are not
+    determined.
+    """
+    if candidate.admissible:
+        return None
+    return next((c.chain for c in left if contains(candidate.chain, c.chain)), None)
+
+
+def twins(
+    chain: Chain, values: Mapping[str, float], limits: Limits
+) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
+    """Structures with the same behaviour within the limits, and the names of those of which
+    that is not known.
+    """
+    found, unknown, form = list[Twin](), list[str](), as_listed(chain)
+    text = {form.renaming[name]: repr(max(value, NOTHING)) for name, value in values.items()}
+    limits = {form.renaming.get(name, name): both for name, both in limits.items()}
+    for other in _catalogue(chain):
+        for listing in equivalents(form.chain, text, other).listings:
+            positive = [
+                m
+                for m in listing.members
+                if m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN
+            ]
+            real = [
+                (m.free_choices, {n: complex(v).real for n, v in m.values.items()})
+                for m in positive
+            ]
+            found += [Twin(other, p, free) for free, p in real if _inside(p, limits)]
+            if not (listing.complete or positive or other == form.chain):
+                unknown.append(listing.name)
+    found.sort(key=lambda t: (t.free_choices, len(t.chain.ground_dampers)))
+    return tuple(found), tuple(unknown)
+
+
+def _in_all(
+    chain: Chain,
+    values: Mapping[str, float],
+    found: Sequence[Twin],
+    unknown: Sequence[str],
+    task: Task,
+) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
+    """Of the structures that do the same in the first response those that do so in all; of a
+    family, of which one is known, that stays open.
+    """
+    if len(task.cost.setups) == 1:
+        return tuple(found), tuple(unknown)
+    kept = [
+        t
+        for t in found
+        if not t.free_choices and behaves_alike(chain, values, t.chain, t.parameters, task)
+    ]
+    families = [t.name for t in found if t.free_choices]
+    return tuple(kept), tuple(dict.fromkeys([*unknown, *families]))
+
+
+def _catalogue(chain: Chain) -> Iterable[Chain]:
+    """Every chain of as many masses, with every set of ground dampers; lag and dead time as
+    given.
+    """
+    n = chain.n_masses
+    sizes = range(n + 1) if n <= EVERY_SET else [len(chain.ground_dampers)]
+    sets = [chosen for size in sizes for chosen in combinations(range(1, n + 1), size)]
+    for plain in Family(n, chain.damped, chain.sensor):
+        for chosen in sets:
+            yield replace(plain, ground_dampers=chosen, lag=chain.lag, dead_time=chain.dead_time)
+
+
+def _inside(values: Mapping[str, float], limits: Limits) -> bool:
+    return all(
+        low * (1 - 1e-9) <= values.get(name, low) <= high * (1 + 1e-9)
+        for name, (low, high) in limits.items()
+    )
+
+
+def disagreements(candidate: Candidate, task: Task, test: AnyCost) -> tuple[Disagreement, ...]:
+    """Parameters that a fit of the same structure to the test data moves by more than `APART`
+    standard errors of both fits.
+    """
+    names, there = task.names(candidate.chain), replace(task, cost=test)
+    start = np.array([candidate.estimate.parameters[n] for n in names])
+    box, plant = there.box(names), there.plant(candidate.chain)
+    if not box.free.any():
+        return ()
+    p, _ = fine(plant, test, box, start)
+    residual, columns = test.of(plant, p)
+    known = together(scatters(test, [plant.response(p)]))
+    free = [n for n, chosen in zip(names, box.free, strict=True) if chosen]
+    sigma, columns = test.scatter(known.rho), columns[:, box.free]
+    other = practical(
+        columns, free, noises(test, residual, sigma, expected(columns, sigma))
+    ).relative_errors
+    values = dict(zip(names, map(float, p), strict=True))
+    found = []
+    for name, error in candidate.standard_errors.items():
+        both = float(np.hypot(error, other[name] * values[name]))
+        distance = abs(values[name] - candidate.estimate.parameters[name]) / both if both else 0.0
+        if distance > APART:
+            found.append(
+                Disagreement(name, candidate.estimate.parameters[name], values[name], distance)
+            )
+    return tuple(found)
+
+
+def _differs(
+    first: Candidate, other: Candidate, cost: AnyCost, task: Task
+) -> tuple[tuple[float, float], ...]:
+    """Frequencies at which two fitted candidates differ most, largest difference first."""
+    if first is other:
+        return ()
+    there = replace(task, cost=cost)
+    both = [
+        there.plant(c.chain).response(np.array(list(c.estimate.parameters.values())))
+        for c in (first, other)
+    ]
+    size = np.abs(np.log(both[1] / both[0]))
+    hertz = np.concatenate([part.measured.frequency for part in cost.parts])
+    found = list[tuple[float, float]]()
+    for i in np.argsort(-size):
+        if all(max(hertz[i] / f, f / hertz[i]) > WIDE for f, _ in found):
+            found.append((float(hertz[i]), float(size[i])))
+        if len(found) == STRONGEST:
+            break
+    return tuple(found)

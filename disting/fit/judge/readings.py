@@ -1,0 +1,132 @@
+"""What would fit where no candidate does: another sensor quantity, a reversed sensor, phases of
+the other sign, gains in dB, a zero-order hold, other places, one mass more.
+
+A few candidates with a damper, a lag and a dead time, of as many masses as the best one, are
+fitted under each reading. They are compared by J on the training data, which in logarithms does
+not depend on the unit of the quantity.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from disting.errors import ConstraintViolation
+from disting.fit.judge.candidate import Candidate
+from disting.fit.search.estimate import Estimate, Task
+from disting.fit.search.exchange import estimates, explored
+from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Complex
+from disting.measurement.tabular import ASSUMED_LINEAR
+from disting.model.chain import Chain, Sensor
+from disting.store import Store
+
+# of the cost: what helps less than that, or than half as much as the best one, is not named
+FALLS = 0.5
+NOTHING = 1e-6  # a cost that is as good as zero
+SMALL = 3  # masses: readings are tried with no more
+MOST = 5  # masses: one more than this is not tried
+NAMED = 4  # readings that are named
+MOST_DB = 400.0  # of a gain
+HELD = (2.0, 2.5, 4.0)  # rates of a hold, as ratios to the highest frequency
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Another view of the data under which the cost on the training data falls from `before` to
+    `found.j`.
+    """
+
+    words: str
+    found: Estimate
+    before: float
+
+    @property
+    def sentence(self) -> str:
+        """Such as: read as velocity the cost falls from 390 to 1.7."""
+        return f"{self.words} the cost falls from {self.before:.3g} to {self.found.j:.3g}"
+
+
+def readings(
+    candidates: Sequence[Candidate],
+    task: Task,
+    *,
+    store: Store | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[str, int, int], object] = lambda what, done, total: None,
+) -> tuple[Reading, ...]:
+    """Readings under which the data fit much better than the best of the candidates does, small
+    changes first.
+    """
+    task, known = explored((c.estimate for c in candidates), task)
+    lowest = min(fit.j for fit in known)
+    small = [c for c in candidates if c.chain.n_masses <= SMALL] or candidates
+    base = min(small, key=lambda c: c.j_train).chain
+    largest = max((c.chain for c in candidates), key=lambda c: c.n_masses)
+    found, views = list[Reading](), list(_views(base, largest, task))
+    for words, chain, other in views:
+        progress("other readings of the data", len(found), len(views))
+        fitted = estimates([chain], other, store=store, executor=executor)[chain]
+        found.append(Reading(words, fitted, lowest))
+    limit = max(min(r.found.j for r in found) / FALLS, NOTHING)
+    helpful = [r for r in found if r.found.j < FALLS * lowest and r.found.j <= limit]
+    return tuple(helpful[:NAMED])
+
+
+def _views(chain: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chain, Task]]:
+    """Words, a chain and a task for each reading."""
+    first, reversed_sensor = task.cost.parts[0], replace(task, sign=-task.sign)
+    data = first.measured
+    loose = replace(chain, ground_dampers=(1, chain.n_masses), lag=True, dead_time=True)
+    yield "with the sign reversed", loose, reversed_sensor
+    for quantity in Sensor:
+        if quantity is not data.sensor:
+            cost = replace(first, measured=replace(data, sensor=quantity))
+            seen = replace(loose, sensor=quantity)
+            yield f"read as {quantity.value}", seen, replace(task, cost=cost)
+            yield (
+                f"read as {quantity.value} with the sign reversed",
+                seen,
+                replace(reversed_sensor, cost=cost),
+            )
+    for words, response in _misread(data):
+        seen_so = replace(data, G=response, deviation=None)
+        yield words, loose, replace(task, cost=replace(first, measured=seen_so))
+    for words, other in _places(loose):
+        yield words, other, task
+        yield f"{words} and the sign reversed", other, reversed_sensor
+    if largest.n_masses < MOST:
+        yield (
+            "with one mass more",
+            replace(largest, n_masses=largest.n_masses + 1, lag=True, dead_time=True),
+            task,
+        )
+
+
+def _misread(data: FrequencyResponse) -> Iterator[tuple[str, Complex]]:
+    """The response if the phases, the gains or the sampling were others than they are taken for."""
+    yield "with the sign of all phases (of the imaginary parts) turned", data.G.conj()
+    size = np.abs(data.G)
+    if any(ASSUMED_LINEAR in said for said in (*data.notes, *data.doubts)) and size.max() < MOST_DB:
+        yield "with gains in dB (--unit magnitude=dB)", 10.0 ** (size / 20) * data.G / size
+    for ratio in HELD:
+        rate = ratio * data.frequency[-1]
+        held = np.sinc(data.frequency / rate)
+        yield f"with a zero-order hold at {rate:.3g} Hz taken out", data.G / held
+
+
+def _places(chain: Chain) -> Iterator[tuple[str, Chain]]:
+    """Force at one end and the sensor at another mass, or both at one end; ports as they are
+    already are left out.
+    """
+    n = max(chain.n_masses, 2)
+    for place in range(1, n + 1):
+        try:
+            other = replace(
+                chain, n_masses=n, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=place
+            )
+        except ConstraintViolation:
+            continue
+        if other.indices[1:] != chain.indices[1:]:
+            yield f"with the force at mass 1 and the sensor at mass {place} of {n}", other

@@ -1,0 +1,84 @@
+"""The variance of the lines of a bench, as a sum of few sources.
+
+    sigma_k^2 = a^2 |G_k|^2 + b_2^2 + b_1^2 w_k^2 + b_0^2 w_k^4        (of an acceleration)
+
+a: noise of the current; b_n: noise that is white in the acceleration, the speed, the position.
+Coefficients are not negative and maximise the gamma likelihood of observed powers q_i with means
+mu_i = sum_k C_ik sigma_k^2: sum ln mu_i + q_i / mu_i (restricted maximum likelihood, where these
+are contrasts free of the parameters of a model: H. D. Patterson, R. Thompson, 1971).
+"""
+
+from math import exp, log
+
+import numpy as np
+from scipy.optimize import nnls
+
+from disting.measurement.arrays import Real
+
+LARGEST_LEFT_OUT = 0.075  # share of the ratios q / mu: bends of resonances, single bad lines
+FAR = 5.0  # times the mean: what exponential values exceed in 1 of 150
+ROUNDS = 25  # of reweighting
+MOST_STEPS = 1000  # of the search among the sets of sources
+CLOSE = 1e-3  # relative change of all means at which it ends
+SMALLEST = 1e-3  # of the mean of neighbours at which weights stop growing
+
+
+def sources(omega: Real, size: Real, order: int) -> Real:
+    """Shapes of the variances over the lines, shape (n_f, 4), of |G| = `size` of a sensor of this
+    order (2: acceleration), each with mean 1.
+    """
+    x = omega / np.exp(np.mean(np.log(omega)))
+    shapes = np.stack([size**2, *(x ** (2.0 * (order - n)) for n in range(3))], axis=1)
+    return np.asarray(shapes / shapes.mean(axis=0))
+
+
+def quietest(mean: Real, power: Real) -> Real:
+    """The coefficients of most powers: those are left out that are far above what the lower quarter
+    tells, as many as they be, such as where a response bends.
+    """
+    found = coefficients(mean, power)
+    for _ in range(ROUNDS):
+        if not found.any():
+            break
+        ratio = power / np.maximum(mean @ found, np.finfo(float).tiny)
+        near = ratio <= FAR * np.quantile(ratio, 0.25) / -log(0.75)
+        fresh = coefficients(mean[near], power[near], 0.0) / kept_mean(exp(-FAR))
+        if np.allclose(fresh, found, rtol=CLOSE):
+            break
+        found = fresh
+    return found
+
+
+def coefficients(mean: Real, power: Real, trim: float = LARGEST_LEFT_OUT) -> Real:
+    """Coefficients, shape (n,), not negative, of the columns of `mean`, shape (n_i, n), for powers
+    q, shape (n_i,), of which the largest share `trim` of q / mu is left out.
+    """
+    usual = float(np.median(power)) / log(2)
+    if not usual > np.finfo(float).tiny:  # no noise at all
+        return np.zeros(mean.shape[1])
+    expected = np.full(len(power), usual)
+    used, kept = np.ones(len(power), bool), 1.0
+    found = np.zeros(mean.shape[1])
+    for turn in range(ROUNDS):
+        weight = used / expected
+        weighted = mean * weight[:, None]
+        length = np.maximum(np.linalg.norm(weighted, axis=0), np.finfo(float).tiny)
+        found = nnls(weighted / length, power * weight, maxiter=MOST_STEPS)[0] / length / kept
+        fresh = np.maximum(mean @ found, SMALLEST * np.median(mean @ found) + np.finfo(float).tiny)
+        if turn and np.max(np.abs(np.log(fresh / expected))) < CLOSE:
+            break
+        expected = np.sqrt(fresh * expected) if turn else fresh
+        if trim:
+            ratio = power / expected
+            used = ratio <= np.quantile(ratio, 1 - trim)
+            kept = kept_mean(trim)
+    return np.asarray(found)
+
+
+def kept_mean(trim: float) -> float:
+    """Mean of exponential values of mean 1 without the share of the largest.
+
+    >>> round(kept_mean(0.075), 3)
+    0.79
+    """
+    return 1 + trim * log(trim) / (1 - trim)

@@ -1,0 +1,298 @@
+"""How much a measured line scatters: the yardstick of every statement on a fit.
+
+sigma_k^2 = E |noise of G_k|^2, and rho_k = sigma_k / (|G_k| sqrt 2) the standard deviation of
+ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put together so:
+
+- one measurement: the sources of noise that a bench has (`line_variance`), their sizes from what
+  neighbouring lines do not predict of each other (`contrasts`); with a coherence its shape
+  (1 - g^2) / g^2 |G|^2 instead of these sources;
+- with standard deviations s_k of nu degrees of freedom: the sources fitted to s_k^2, and each line
+  shrunk to them,
+
+      sigma_k^2 = (nu_0 m_k + nu s_k^2) / (nu_0 + nu),
+
+  nu_0 = degrees of freedom that the sources count for, from how far s_k^2 are from them beyond
+  their own scatter (G. Smyth, Linear models and empirical Bayes methods, 2004). A file that does
+  not say how many repeats it has tells nu by how much ln s_k^2 jumps from line to line.
+
+Repeats of one excitation do not see what it makes itself: distortion by friction and play, and the
+steps of an encoder, repeat with it, and jump from line to line. Nor do they see that a machine
+changes between two measurements. Both are found where the data scatter more than sigma allows
+(F test), and added as a relative variance tau^2 that makes them agree (R. Paule, J. Mandel,
+Consensus values and weighting factors, 1982), or as the sources of a bench where these describe
+the jumps far better.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import inf, log, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import digamma, polygamma
+from scipy.stats import f as f_distribution
+
+from disting.fit.noise.contrasts import Contrasts, contrasts, freedom, stencil
+from disting.fit.noise.line_variance import (
+    LARGEST_LEFT_OUT,
+    coefficients,
+    kept_mean,
+    quietest,
+    sources,
+)
+from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Complex, Real
+from disting.model.shown import summary
+
+# tau up to which lines that jump are distorted; beyond, the grid may be too coarse for resonances
+DISTORTED = 0.05
+# gain in the logarithm of the likelihood of a line from which on jumps are those of sources: where
+# distortion would do, and where it would be too large
+BETTER, GOOD = 1.0, 0.5
+COMMON = 8  # lines that two measurements must share
+SAME = 1e-6  # relative distance of two frequencies that count as one
+LEAST = 1e-5  # scatter below this is the rounding of a file
+SURE = 1e-3  # level of the tests for tau, and for standard deviations that are wrong
+WRONG = 2.0  # factor by which standard deviations are too large before that is said
+MOST_FREEDOM = 1e4  # of a variance: as good as known
+TINY = 1e-12  # share of a variance that is as good as nothing
+WORSE = 4.0  # ratio of variances from which on no fitted response is near the truth
+CLEAR = 0.2  # rho below which a line carries information
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """rho of every line, shape (n_f,), |G| that it is a share of, and in words where it comes from;
+    `freedom`: degrees of freedom of its level; `doubt`: what contradicts it, in a sentence, or "".
+    """
+
+    rho: Real
+    size: Real
+    source: str
+    freedom: float = inf
+    doubt: str = ""
+
+    def __repr__(self) -> str:
+        return summary(self, f"{100 * self.typical:.3g} %, from {self.source}")
+
+    @property
+    def sigma(self) -> Real:
+        """sqrt(E |noise of G|^2), shape (n_f,)."""
+        return np.asarray(sqrt(2) * self.rho * self.size)
+
+    def at(self, lines: slice) -> "Scatter":
+        """That of some of the lines."""
+        return replace(self, rho=self.rho[lines], size=self.size[lines])
+
+    @property
+    def typical(self) -> float:
+        """Median of rho: 0.01 means 1 % in amplitude, 0.01 rad in phase."""
+        return float(np.median(self.rho))
+
+    @property
+    def clear(self) -> float:
+        """Share of the lines that scatter by less than 20 %."""
+        return float(np.mean(self.rho < CLEAR))
+
+
+def scatter(measured: FrequencyResponse, fitted: Sequence[Complex] = ()) -> Scatter:
+    """Scatter of a measured response; `fitted` = responses of candidates at its lines, shape
+    (n_f,) each.
+    """
+    if measured.deviation is not None and np.any(measured.deviation > 0):
+        return _stated(measured, measured.deviation, fitted)
+    if measured.coherence is not None and np.any(measured.coherence < 1):
+        squared = np.clip(measured.coherence, 1e-6, 1 - 1e-6)
+        shape = ((1 - squared) / squared * np.abs(measured.G) ** 2)[:, None]
+        source = "the coherence, its level from neighbouring lines"
+        return _from_neighbours(measured, fitted, lambda size: shape / shape.mean(), source)
+
+    def shapes(size: Real) -> Real:
+        """The sources of a bench."""
+        return sources(measured.omega, size, measured.sensor.order)
+
+    return _from_neighbours(measured, fitted, shapes, "neighbouring lines")
+
+
+def _from_neighbours(
+    measured: FrequencyResponse,
+    fitted: Sequence[Complex],
+    shapes: Callable[[Real], Real],
+    source: str,
+) -> Scatter:
+    """From contrasts with that fitted response which leaves the least; from those of the logarithm
+    where all that are fitted leave far more, as wrong ones do.
+    """
+    plain = contrasts(measured.omega, measured.G)
+    columns = shapes(plain.size)
+    found = [(columns @ quietest(plain.expected(columns), plain.power), plain.size)]
+    for seen in (contrasts(measured.omega, measured.G, other) for other in fitted):
+        columns = shapes(seen.size)
+        found.append((columns @ coefficients(seen.expected(columns), seen.power), seen.size))
+    levels = [float(np.mean(np.log(np.maximum(v, (LEAST * size) ** 2)))) for v, size in found]
+    variance, size = found[_preferred(levels)]
+    rho = np.sqrt(variance / 2) / size
+    return Scatter(np.maximum(rho, LEAST), size, source, freedom(measured.omega))
+
+
+def _preferred(levels: Sequence[float]) -> int:
+    """Which of the levels counts, logarithms of variances without and with fitted responses: the
+    smallest with one, unless that without is smaller by far.
+    """
+    best = int(np.argmin(levels[1:])) + 1 if len(levels) > 1 else 0
+    return best if levels[best] <= levels[0] + log(WORSE) else 0
+
+
+def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Complex]) -> Scatter:
+    """From standard deviations of the data, against contrasts where candidates are fitted."""
+    each = [contrasts(measured.omega, measured.G, other) for other in (None, *fitted)]
+    seen = each[_preferred([log(max(float(np.median(one.power)), TINY**2)) for one in each])]
+    floor = float(np.median(deviation[deviation > 0])) ** 2
+    power = np.maximum(deviation**2, 1e-6 * floor)
+    nu = measured.freedom or _freedom_by_jumps(measured.omega, power)
+    variance, prior = _shrunk(power, nu, sources(measured.omega, seen.size, measured.sensor.order))
+    own = Scatter(
+        np.maximum(np.sqrt(variance / 2) / seen.size, LEAST),
+        seen.size,
+        "the standard deviations of the data",
+        max(len(power) * nu, prior),
+    )
+    return _checked(own, variance, seen, measured) if fitted else own
+
+
+def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Scatter:
+    """With what neighbouring lines say of standard deviations."""
+    there = freedom(measured.omega)
+    level = _excess(seen, variance) + 1
+    if level > f_distribution.isf(SURE, there, own.freedom):
+        found = _widened(variance, seen, measured)
+        if found is None:
+            return own
+        return replace(
+            own,
+            rho=np.maximum(np.sqrt(found / 2) / seen.size, LEAST),
+            source="neighbouring lines, which jump by more than their standard deviations",
+            freedom=there,
+        )
+    if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, there, own.freedom):
+        return replace(
+            own,
+            doubt=(
+                f"the standard deviations are {1 / sqrt(max(level, TINY)):.2g} times as large as"
+                " what neighbouring lines scatter by: are they those of single repeats, or of"
+                " something else?"
+            ),
+        )
+    return own
+
+
+def _widened(variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Real | None:
+    """Variances with what makes neighbouring lines jump: distortion, a share tau of each line, or
+    what the sources of a bench add, such as the steps of an encoder, which repeat with the
+    excitation too, where these describe the jumps far better. None where neither does.
+    """
+    tau = _balanced(lambda tau: _excess(seen, variance + 2 * (tau * seen.size) ** 2))
+    distorted = variance + 2 * (tau * seen.size) ** 2
+    columns = sources(measured.omega, seen.size, measured.sensor.order)
+    columns = np.column_stack([variance, columns])
+    noisy = np.maximum(columns @ coefficients(seen.expected(columns), seen.power), variance)
+    gain = _deviance(seen, distorted) - _deviance(seen, noisy)
+    if gain > (BETTER if tau <= DISTORTED else GOOD):
+        return noisy
+    return distorted if tau <= DISTORTED else None
+
+
+def _deviance(seen: Contrasts, variance: Real) -> float:
+    """ln mu + q / mu of contrasts q that are expected to be mu, mean of those that are kept."""
+    expected = seen.expected(variance)
+    ratio = seen.power / expected
+    kept = ratio <= np.quantile(ratio, 1 - LARGEST_LEFT_OUT)
+    return float(np.mean(np.log(expected[kept]) + ratio[kept]))
+
+
+def _excess(seen: Contrasts, variance: Real) -> float:
+    """Mean ratio of contrasts to what is expected, less 1."""
+    ratio = seen.power / seen.expected(variance)
+    kept = ratio <= np.quantile(ratio, 1 - LARGEST_LEFT_OUT)
+    return float(ratio[kept].mean()) / kept_mean(LARGEST_LEFT_OUT) - 1
+
+
+def _balanced(excess: Callable[[float], float], most: float = 2.0) -> float:
+    """The tau at which a falling excess is zero."""
+    return most if excess(most) > 0 else float(brentq(excess, 0.0, most, xtol=1e-6))
+
+
+def _shrunk(power: Real, nu: float, shapes: Real) -> tuple[Real, float]:
+    """Variances of the lines from squared deviations of `nu` degrees of freedom, shrunk to the
+    sources, and the degrees of freedom of these.
+    """
+    trend = np.maximum(shapes @ coefficients(shapes, power, trim=0.0), 1e-9 * np.median(power))
+    apart = np.log(power / trend)
+    beyond = float(np.var(apart)) - float(polygamma(1, nu / 2))
+    prior = _inverse_trigamma(beyond) if beyond > 0 else MOST_FREEDOM
+    # the mean of logarithms of a variance of nu degrees lies below the logarithm of its mean
+    trend = trend * np.exp(apart.mean() - _bias(nu) + _bias(prior))
+    whole = nu + prior
+    unsure = whole / (whole - 2) if whole > 4 else 2.0  # mean of r^2 / sigma^2 is to be 1
+    return np.asarray((prior * trend + nu * power) / whole * unsure), prior
+
+
+def _bias(nu: float) -> float:
+    return float(digamma(nu / 2)) - log(nu / 2)
+
+
+def _freedom_by_jumps(omega: Real, power: Real) -> float:
+    """Degrees of freedom of squared deviations, from how much their logarithms jump."""
+    at, h = stencil(omega)
+    values = np.log(power)[at]
+    jump = values[:, 0] - np.einsum("kj,kj->k", h, values[:, 1:])
+    return _inverse_trigamma(float(np.mean(jump**2 / (1 + np.sum(h**2, axis=1)))))
+
+
+def _inverse_trigamma(value: float) -> float:
+    """nu with trigamma(nu / 2) = value, between 0.1 and `MOST_FREEDOM`."""
+    low, high = 0.1, MOST_FREEDOM
+    if value <= polygamma(1, high / 2):
+        return high
+    if value >= polygamma(1, low / 2):
+        return low
+    root = brentq(lambda nu: float(polygamma(1, nu / 2)) - value, low, high)
+    return float(root)
+
+
+def changed(
+    one: FrequencyResponse, other: FrequencyResponse, own: Scatter, there: Scatter
+) -> float:
+    """tau by which a machine changes between two measurements, from lines that both have; 0 where
+    what both scatter accounts for their difference.
+    """
+    at, common = shared(one, other)
+    if one is other or common.sum() < COMMON:
+        return 0.0
+    power = np.abs(np.log(other.G[common] / one.G[at[common]])) ** 2
+    both = 2 * (own.rho[at[common]] ** 2 + there.rho[common] ** 2)
+    sure = f_distribution.isf(SURE, 2 * len(both), min(own.freedom, there.freedom))
+    if np.mean(power / both) <= sure:
+        return 0.0
+    return _balanced(lambda tau: float(np.mean(power / (both + 4 * tau**2))) - 1)
+
+
+def widened(own: Scatter, tau: float) -> Scatter:
+    """The scatter with what a machine changes by between two measurements."""
+    if not tau:
+        return own
+    return replace(
+        own, rho=np.hypot(own.rho, tau), source="the difference of training and test data"
+    )
+
+
+def shared(
+    one: FrequencyResponse, other: FrequencyResponse
+) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """For each line of `other` the nearest one of `one`, and whether they are the same; shape
+    (n_f,) each.
+    """
+    at = np.clip(np.searchsorted(one.omega, other.omega), 1, len(one.omega) - 1)
+    at -= other.omega - one.omega[at - 1] < one.omega[at] - other.omega
+    return at, np.abs(one.omega[at] - other.omega) <= SAME * other.omega

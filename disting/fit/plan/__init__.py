@@ -1,0 +1,1 @@
+"""What further measuring would show: its power against a rival, and which experiment is next."""

@@ -1,0 +1,171 @@
+"""What the file of a fit names: the selected structure, its rivals, and how it was measured.
+
+Rivals are the structures that the data do not exclude and those of which it is not known whether
+they behave the same; none that contains another one with elements that the data do not determine,
+since that is no other machine. What behaves exactly the same for the fitted values stands apart:
+no data with this force and sensor tell it from the selected one.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from disting.errors import InputError
+from disting.files import read_json
+from disting.fit.search.candidates import as_listed, reference
+from disting.fit.selection_json import FIT_FILE, chain_from_dict, model_from_dict, number_of
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.model.names import chain_of
+from disting.verdict import Relation
+
+Values = dict[str, float]
+MOST_COUNTED = 10**7  # such as the lines of a response
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """A structure that the data leave, `fitted` or behaving as one that was: `like` names those
+    whose response it has for their fitted values. `values`: all its parameter vectors that are
+    known to do so, its own fit first; `free`: dimension of the family that some are taken from.
+    """
+
+    chain: Chain
+    fitted: bool
+    values: tuple[Values, ...]
+    like: tuple[Chain, ...] = ()
+    free: int = 0
+
+    @property
+    def name(self) -> str:
+        """Such as 3:11+b1."""
+        return reference(self.chain)
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """`explained`: whether the selected structure explains the data; `same`: names of what behaves
+    the same, with the reason; `rivals` with their fitted values, none of those that were not
+    fitted; `left`: the structures that the data leave, the selected one first; `scatter` of a line;
+    `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell; `responses`:
+    how many were fitted together; `command`: what fits the same data again, "" where it does not
+    tell.
+    """
+
+    model: Chain
+    values: dict[str, float]
+    explained: bool
+    rivals: dict[Chain, dict[str, float]]
+    same: dict[str, str]
+    left: tuple[Left, ...]
+    scatter: float
+    low: float
+    high: float
+    lines: int
+    responses: int
+    command: str = ""
+
+    @property
+    def chains(self) -> tuple[Chain, ...]:
+        """The structures that the data leave."""
+        return tuple(one.chain for one in self.left)
+
+
+def named_by(path: Path) -> Named:
+    """What a JSON file of `disting fit` names; raises InputError."""
+    plain = read_json(path, FIT_FILE)
+    if not isinstance(plain, dict) or not isinstance(plain.get("selected"), dict):
+        raise InputError(f"{path} holds no selected model: name {FIT_FILE}")
+    model, values = model_from_dict(plain["selected"])
+    try:
+        range_of = plain.get("frequencies", {"low": 0.0, "high": 0.0, "lines": 0})
+        same = dict(_same(plain))
+        return Named(
+            model,
+            values,
+            plain["explained"] is True,
+            {c: v for c, v in _rivals(plain) if c != model and reference(c) not in same},
+            same,
+            tuple(_left(plain, model, values)),
+            number_of(plain["scatter"], 0.0),
+            number_of(range_of["low"], 0.0),
+            number_of(range_of["high"], 0.0),
+            _count(range_of["lines"]),
+            len(plain.get("responses", [None])),
+            str(plain.get("command", "")),
+        )
+    except (KeyError, TypeError, ValueError, AttributeError) as reason:
+        raise InputError(
+            f"{path} is no whole file of a fit: {reason} is missing or wrong; fit again"
+        ) from None
+
+
+def _count(value: Any) -> int:
+    return int(number_of(value, 0, MOST_COUNTED))
+
+
+def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, dict[str, float]]]:
+    """In the order of the file, those with values last, which stand."""
+    for found in plain["alternatives"]:
+        if found["relation"] != Relation.INDISTINGUISHABLE:
+            yield chain_from_dict(found), {}
+    members = [m for m in plain["not_excluded"][1:] if not m.get("contains")]
+    yield from map(model_from_dict, members)
+
+
+def _left(plain: dict[str, Any], model: Chain, values: Values) -> Iterator[Left]:
+    """The selected structure, the others that were fitted, then what behaves as one of these;
+    each once.
+    """
+    members = [m for m in plain["not_excluded"] if not m.get("contains")]
+    fitted = {model: values} | dict(map(model_from_dict, members))
+    own = {chain: [its] for chain, its in fitted.items()}
+    like = {chain: dict[Chain, None]() for chain in fitted}
+    named = {reference(chain): chain for chain in fitted}
+    free: dict[Chain, int] = {}
+
+    def add(name: str, chain: Chain) -> Chain:
+        """The structure of this name, which behaves as a fitted one."""
+        other = named.setdefault(name, _listed(name, chain))
+        own.setdefault(other, [])
+        like.setdefault(other, {}).update({chain: None} if other != chain else {})
+        return other
+
+    for member in members:
+        chain, _ = model_from_dict(member)
+        for twin in member["equivalents"]:
+            other = add(twin["name"], chain)
+            own[other].extend(_whole(twin["parameters"], other))
+            free[other] = max(free.get(other, 0), _count(twin.get("free_choices", 0)))
+    for found in plain["alternatives"]:
+        if found["relation"] == Relation.INDISTINGUISHABLE:
+            add(reference(chain_from_dict(found)), model)
+    for chain, all_values in own.items():
+        yield Left(
+            chain, chain in fitted, tuple(all_values), tuple(like[chain]), free.get(chain, 0)
+        )
+
+
+def _listed(name: str, chain: Chain) -> Chain:
+    """The structure of a name, with the damping and the sensor of a chain."""
+    return chain_of(name, Family(chain.n_masses, chain.damped, chain.sensor))
+
+
+def _whole(given: Values, chain: Chain) -> Iterator[Values]:
+    """Values under the names of the listed form, under those of the chain; nothing where some are
+    missing.
+    """
+    there = as_listed(chain).renaming
+    if all(there[name] in given for name in chain.parameters):
+        yield {name: number_of(given[there[name]]) for name in chain.parameters}
+
+
+def _same(plain: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Names and reasons."""
+    for found in plain["alternatives"]:
+        if found["relation"] == Relation.INDISTINGUISHABLE:
+            yield reference(chain_from_dict(found)), found["reason"]
+    for member in plain["not_excluded"][:1]:
+        for twin in member["equivalents"]:
+            yield twin["name"], "the same response for the fitted values"

@@ -1,0 +1,185 @@
+"""What a further experiment would show on the structures that a fit left, each at its values.
+
+The experiment gives the responses G_A, G_B on lines that scatter by rho in ln |G| and in arg G.
+With r_k = |ln(G_A/G_B)|_k / rho_k
+
+    largest = max_k r_k,    lambda = sum_k r_k^2.
+
+lambda is the noncentrality of the test of `rival`, of the further response alone and before a rival
+refits. The smallest one over all parameters of the rival is at most as large, so the power that
+follows from it is an upper bound. Of a structure that is known to have one parameter vector only
+with the response that was measured, it is what a measurement without noise would leave.
+
+Which mass of one structure is which of another one is not known: `least` takes the place that
+differs least. A structure with several parameter vectors that the data leave is as far away as
+the nearest of them.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from math import inf, pi
+
+import numpy as np
+
+from disting.experiments import MeasuredChain
+from disting.experiments.menu import Costs, Gain, Item, gain
+from disting.fit.judge.exclusion import LEVEL, surplus, trials
+from disting.fit.plan.fit_file import Left, Named, Values
+from disting.fit.plan.power import power
+from disting.fit.search.plant import Plant
+from disting.measurement.arrays import Complex, Real
+from disting.model.chain import Chain
+from disting.model.kinds import Kind
+from disting.model.settings import Settings
+
+Spot = tuple[int, int]
+"""(structure, counted from 0; mass)."""
+LINES = 120  # where the file of a fit does not say how many
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bench:
+    """Lines [rad/s] and their scatter, shape (n_f,) each, and the size of the inertia that is
+    added.
+    """
+
+    omega: Real
+    rho: Real
+    inertia: float
+
+    @property
+    def hertz(self) -> Real:
+        """Frequencies, shape (n_f,)."""
+        return self.omega / (2 * pi)
+
+    def size(self, power: int) -> float:
+        """Of what adds size * s^power to a mass: as much as the inertia does in the middle of the
+        lines, w = sqrt(w_1 w_n).
+        """
+        middle = float(np.sqrt(self.omega[0] * self.omega[-1]))
+        return self.inertia * middle ** (2 - power)
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Step:
+    """`noncentrality` lambda, `largest` difference of a line in units of its scatter, at
+    `frequency` [Hz]; infinite, at 0, where the sensor moves in one of the two only.
+    """
+
+    noncentrality: float
+    largest: float
+    frequency: float
+
+    @property
+    def is_motion(self) -> bool:
+        """Whether the one moves and the other does not."""
+        return self.noncentrality == inf
+
+
+STILL = Step(0.0, 0.0, 0.0)
+MOVES = Step(inf, inf, 0.0)
+
+
+def bench_of(named: Named) -> Bench | None:
+    """The lines of the fit with their typical scatter, and an inertia as large as the mean mass of
+    the selected structure; None where the file does not tell the lines.
+    """
+    if not (0 < named.low < named.high and named.scatter > 0):
+        return None
+    count = named.lines or LINES
+    omega = 2 * pi * np.geomspace(named.low, named.high, count)
+    masses = [value for name, value in named.values.items() if name[0] == "m"]
+    return Bench(omega, np.full(count, named.scatter), float(np.mean(masses)))
+
+
+def shown(chain: Chain, values: Values, item: Item, bench: Bench) -> Complex | None:
+    """Response of a chain under an item of the menu, shape (n_f,); None where the sensor does not
+    move.
+    """
+    machine = MeasuredChain(chain, (item.experiment,))
+    if machine.silent:
+        return None
+    structure = replace(chain.structure, ports=machine.entries[0].ports)
+    power = item.kind.power
+    added = () if power is None else ((item.at, power, bench.size(power)),)
+    plant = Plant(structure, bench.omega, 1, item.experiment.still, added)
+    return plant.response(np.array([values[name] for name in chain.parameters]))
+
+
+def step(one: Complex | None, other: Complex | None, bench: Bench) -> Step:
+    """How far two responses are apart."""
+    if one is None or other is None:
+        return STILL if one is other else MOVES
+    ratio = one / other
+    apart = np.hypot(np.log(np.abs(ratio)), np.angle(ratio)) / bench.rho
+    at = int(apart.argmax())
+    return Step(float(np.sum(apart**2)), float(apart[at]), float(bench.hertz[at]))
+
+
+@dataclass(frozen=True, eq=False)
+class Foretold:
+    """The structures `left` under every item of the menu; `responses[item, k]`: those of structure
+    k, one for each of its parameter vectors.
+    """
+
+    left: tuple[Left, ...]
+    bench: Bench
+    responses: Mapping[tuple[Item, int], Sequence[Complex | None]]
+    settings: Settings
+    costs: Costs
+
+    def items(self, structure: int) -> tuple[Item, ...]:
+        """What is worth doing if it is this structure, by kind and mass."""
+        chain = self.left[structure].chain
+        every = _menu(chain, self.costs)
+        return tuple(i for i in every if i.is_worth(gain(chain, i) or Gain.NEW))
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        """Of what the menu adds, by its name."""
+        sized = ((kind.name, kind.power) for kind in self.costs.kinds(2))
+        return {name: self.bench.size(power) for name, power in sized if power is not None}
+
+    def at(self, kind: Kind, here: Spot, there: Spot) -> Step | None:
+        """The difference of two structures at these masses; None where one has no known values."""
+        rows = [self.responses.get((Item(kind, i), k), ()) for k, i in (here, there)]
+        steps = [step(one, other, self.bench) for one, other in product(*rows)]
+        return min(steps, default=None)
+
+    def least(self, structure: int, item: Item, other: int) -> tuple[Step, int] | None:
+        """The difference of a structure from another one wherever the place is in that, and the
+        mass at which it is that small; None as in `at`.
+        """
+        masses = range(1, self.left[other].chain.n_masses + 1)
+        found = [(self.at(item.kind, (structure, item.at), (other, j)), j) for j in masses]
+        return min(((s, j) for s, j in found if s is not None), default=None)
+
+    def power(self, structure: int, other: int, found: Step) -> float:
+        """Probability of excluding the other one by this difference, if it is this structure."""
+        if found.is_motion:
+            return 1.0
+        chains = self.left[structure].chain, self.left[other].chain
+        count = trials(chains[1], chains[0], len(self.bench.omega))
+        return power(found.noncentrality, surplus(*chains, self.settings), LEVEL / count)
+
+
+def foretold(
+    left: Sequence[Left],
+    bench: Bench,
+    settings: Settings | None = None,
+    costs: Costs | None = None,
+) -> Foretold:
+    """Every structure under every item of its menu, of all kinds that have a cost."""
+    costs = costs or Costs()
+    responses = {
+        (item, k): [shown(one.chain, values, item, bench) for values in one.values]
+        for k, one in enumerate(left)
+        for item in _menu(one.chain, costs)
+    }
+    return Foretold(tuple(left), bench, responses, settings or Settings(), costs)
+
+
+def _menu(chain: Chain, costs: Costs) -> list[Item]:
+    masses = range(1, chain.n_masses + 1)
+    return [Item(kind, at) for kind in costs.kinds(chain.n_masses) for at in masses]

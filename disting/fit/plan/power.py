@@ -1,0 +1,217 @@
+"""How much measuring tells two structures apart: power of the test of `rival`, and the effort for
+more of it.
+
+The test excludes the rival at the level 1 % if T exceeds the quantile c of chi2 with s degrees of
+freedom; with the model true it does so with the probability (the power)
+
+    P(chi2_s(lambda) > c),    chi2_s(lambda): noncentral chi2,
+
+95 % for lambda = 17.8 and s = 1. lambda is proportional to 1/rho^2: twice the periods, or amplitude
+times sqrt 2, or twice the lines within the same range, double it.
+
+s is the rank of the smallest structure that contains both, less that of the rival: what a damper,
+a lag, a dead time adds to what data determine. Structures that differ in more than these have no
+such structure; there the ranks of the model and of the rival are compared. s is at least 1.
+
+A design for two structures: G. Hunter, A. Reiner, Designs for discriminating between two rival
+models, 1965; A. Atkinson, V. Fedorov, The design of experiments for discriminating between two
+rival models, 1975.
+"""
+
+from collections.abc import Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from math import inf, sqrt
+from typing import Any
+
+from scipy.optimize import brentq
+from scipy.stats import ncx2
+
+from disting.fit.judge.exclusion import LEVEL, joined, limit, surplus, trials
+from disting.fit.plan.rival import Rival, Trust, fitted_rival
+from disting.fit.search.candidates import reference
+from disting.measurement.arrays import Real
+from disting.model.chain import Chain
+from disting.model.shown import Shown, summary
+from disting.questions.inclusion import Inclusion
+from disting.schemas import Format
+from disting.verdict import Engine, Relation, Verdict
+from disting.verdict.comparison import compare
+from disting.verdict.engine import Progress, silent
+
+POWER = 0.95  # wanted probability of excluding one that is not
+LARGEST = 1e6  # noncentrality that is looked for, at most
+
+
+class Answer(StrEnum):
+    """Whether measuring more helps."""
+
+    ENOUGH = "enough"
+    MORE = "more"
+    SAME = "same"  # the rival fits within rounding
+    IMPOSSIBLE = "impossible"  # the verdict says that the structures are indistinguishable
+
+
+def power(noncentrality: float, surplus: int = 1, level: float = LEVEL) -> float:
+    """Probability of excluding the rival if the model is true.
+
+    >>> round(power(17.8), 3), round(power(0.0), 3)
+    (0.95, 0.01)
+    """
+    most = limit(surplus, inf, level=level)
+    return float(ncx2.sf(most, surplus, noncentrality)) if noncentrality > 0 else level
+
+
+def needed(surplus: int = 1, level: float = LEVEL, wanted: float = POWER) -> float:
+    """Noncentrality for a power.
+
+    >>> round(needed(), 1), round(needed(2), 1)
+    (17.8, 20.6)
+    """
+    return float(brentq(lambda size: power(size, surplus, level) - wanted, 0.0, LARGEST))
+
+
+@dataclass(frozen=True, eq=False)
+class Plan(Shown):
+    """What is planned for one rival; `rival` is None where the verdict makes a fit idle, `verdict`
+    where none was asked for.
+    """
+
+    model: Chain
+    values: Mapping[str, float]
+    chain: Chain
+    verdict: Verdict | None
+    surplus: int
+    rival: Rival | None
+
+    def __repr__(self) -> str:
+        size = f", lambda {self.noncentrality:.3g}" * (self.noncentrality > 0)
+        return summary(self, f"{self.names[0]} against {self.names[1]}: {self.answer}{size}")
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """Model and rival, as the commands read them."""
+        return reference(self.model), reference(self.chain)
+
+    @property
+    def answer(self) -> Answer:
+        """Whether measuring more helps."""
+        if self.rival is None:
+            return Answer.IMPOSSIBLE
+        if self.rival.is_same:
+            return Answer.SAME
+        return Answer.ENOUGH if self.power >= POWER else Answer.MORE
+
+    @property
+    def is_contained(self) -> bool:
+        """Whether the rival contains the model, as elements or the verdict on inclusion tell."""
+        both = None if self.verdict is None else self.verdict.inclusions
+        known = both is not None and both.closure.inclusion is Inclusion.LEFT_IN_RIGHT
+        return known or joined(self.model, self.chain) == self.chain
+
+    @property
+    def noncentrality(self) -> float:
+        """lambda; 0 where the rival does the same."""
+        return 0.0 if self.rival is None or self.rival.is_same else self.rival.noncentrality
+
+    @property
+    def power(self) -> float:
+        """With the effort at hand."""
+        return power(self.noncentrality, self.surplus, self.level)
+
+    @property
+    def level(self) -> float:
+        """Of the test: divided by the places where an element of the model is looked for."""
+        lines = 1 if self.rival is None else len(self.rival.rho)
+        return LEVEL / trials(self.chain, self.model, lines)
+
+    @property
+    def needed(self) -> float:
+        """Noncentrality for a power of 95 %."""
+        return needed(self.surplus, self.level)
+
+    @property
+    def factor(self) -> float:
+        """Multiple of the effort at hand (periods, lines, square of the amplitude) that is needed;
+        infinite where no effort is enough.
+        """
+        size = self.noncentrality
+        return self.needed / size if size > 0 else inf
+
+
+def plan(
+    model: Chain,
+    values: Mapping[str, float],
+    rival: Chain,
+    omega: Real,
+    rho: Real,
+    *,
+    engine: Engine | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> Plan:
+    """Power of data of `model` with these parameters against `rival`, at angular frequencies
+    [rad/s] whose lines scatter by `rho`, shape (n_f,) each. Raises InputError.
+    """
+    engine = engine or Engine()
+    rival = replace(rival, sensor=model.sensor)
+    verdict = compare(model, rival, engine=engine) if model != rival else None
+    if verdict is not None and verdict.relation is Relation.INDISTINGUISHABLE:
+        return Plan(model, values, rival, verdict, 1, None)
+    fit = fitted_rival(
+        model,
+        dict(values),
+        rival,
+        omega,
+        rho,
+        store=engine.store,
+        executor=executor,
+        progress=progress,
+    )
+    return Plan(model, values, rival, verdict, surplus(model, rival, engine.settings), fit)
+
+
+def plan_to_dict(found: Plan) -> dict[str, Any]:
+    """Plain data; `noncentrality` 0 and `factor` null where no effort is enough."""
+    rival, name = found.rival, found.names
+    plain: dict[str, Any] = {
+        "format": Format.PLAN.value,
+        "model": name[0],
+        "parameters": dict(found.values),
+        "rival": name[1],
+        "answer": found.answer.value,
+        "relation": found.verdict.relation.value if found.verdict is not None else None,
+        "reason": found.verdict.sentence if found.verdict is not None else None,
+        "level": found.level,
+        "wanted_power": POWER,
+        "noncentrality": found.noncentrality,
+        "power": found.power,
+    }
+    if rival is None:
+        return plain
+    more = found.noncentrality > 0
+    return plain | {
+        "surplus_parameters": found.surplus,
+        "needed_noncentrality": found.needed,
+        "factor": found.factor if more else None,
+        "noise": typical(rival.rho),
+        "largest_noise": typical(rival.rho) / sqrt(found.factor) if more else None,
+        "best_fit": rival.estimate.parameters,
+        "trust": rival.trust.value,
+        "starts": [rival.reached, len(rival.estimate.costs)],
+        "contains": found.is_contained,
+        "limits": {name: limit.value for name, limit in rival.limits.items()},
+    }
+
+
+def typical(rho: Real) -> float:
+    """The equal scatter of all lines that counts as much: 1/rho^2 is the mean of that of the
+    lines.
+    """
+    return float((rho**-2.0).mean() ** -0.5)
+
+
+def is_trusted(found: Plan) -> bool:
+    """Whether the rival's best fit is one that several starts reached."""
+    return found.rival is None or found.rival.trust is Trust.AGREED

@@ -1,0 +1,211 @@
+"""Where the power of an excitation has to go, for a rival to be excluded with the least of it.
+
+Shares w_k >= 0 of the power, in all 1, of n_f lines: a line of amplitude a_k scatters by rho_k
+proportional to 1/a_k, so that
+
+    lambda(w) = min over p of sum_k w_k psi_k(p),    psi_k(p) = n_f |ln(G_A/G_B(p))|_k^2 / rho_k^2
+
+with rho_k of a spectrum whose lines are all alike. It is concave in w. The T-optimal spectrum
+(Atkinson and Fedorov, 1975) has the largest one, and there all psi_k(p) are at most lambda. Every p
+cuts: lambda(w) <= sum_k w_k psi_k(p) for all w. The spectrum that is best under the cuts found so
+far (a linear programme, by HiGHS), the rival's best fit to it, which is a new cut, and so on in
+turn (J. Kelley, The cutting-plane method for solving convex programs, 1960), taken half way to
+the best spectrum so far (W. Ben-Ameur, J. Neto, Acceleration of cutting-plane and column
+generation algorithms, 2007), until the upper bound is met.
+
+The bound holds whatever the search of the rival's parameters misses; what it misses makes the
+spectrum found look better than it is, so the rival is searched anew, from all starts, at the end.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+
+import numpy as np
+from scipy.optimize import linprog
+
+from disting.fit.plan.rival import Rival, apart
+from disting.fit.search.descent import fine
+from disting.fit.search.estimate import Task, estimate
+from disting.measurement.arrays import Real
+
+CLOSE = 1e-3  # relative distance of the bound at which a spectrum is optimal
+STEPS = 200  # cuts, at most
+BASINS = 3  # of the rival's earlier fits, from which the next one begins
+EDGES = 11  # of the bands that are tried, evenly on a logarithmic scale
+ANEW = 3  # searches from all starts, at most
+VANISHING = 1e-3  # of the power: what a line is not given
+KEPT = 0.1  # of the power, which all lines share alike in a spectrum to be run
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spectrum:
+    """Shares of the power, shape (n_f,), in all 1, and lambda of them; `bound` = what no spectrum
+    of this power exceeds.
+    """
+
+    shares: Real
+    noncentrality: float
+    bound: float
+
+    @property
+    def lines(self) -> int:
+        """Number of lines that have power."""
+        return int(np.count_nonzero(self.shares))
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """Frequencies [Hz] whose lines share the power alike, and lambda of them."""
+
+    low: float
+    high: float
+    noncentrality: float
+
+
+@dataclass(frozen=True, eq=False)
+class Adversary:
+    """The rival's best fits to weighted lines. `cuts` are psi_k of all fits, and `points` their
+    parameters, which later fits begin from.
+    """
+
+    rival: Rival
+    points: list[Real] = field(default_factory=list)
+    cuts: list[Real] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if not self.points:
+            self.add(self.rival.p)
+
+    def add(self, p: Real) -> None:
+        """One more fit."""
+        found = len(self.rival.rho) * (apart(self.rival, p) / self.rival.rho) ** 2
+        self.points.append(p)
+        self.cuts.append(found)
+
+    def bound(self, shares: Real) -> float:
+        """What lambda of these shares is at most, from the fits so far."""
+        return float(min(cut @ shares for cut in self.cuts))
+
+    def noncentrality(self, shares: Real) -> float:
+        """lambda, from the nearest fits so far."""
+        task = self._task(shares)
+        plant, box = task.plant(self.rival.chain), task.box(self.rival.chain.parameters)
+        sizes = np.array([cut @ shares for cut in self.cuts])
+        ends = [fine(plant, task.cost, box, self.points[i]) for i in _distinct(sizes)]
+        self.add(min(ends, key=lambda end: end[1])[0])
+        return self.bound(shares)
+
+    def searched(self, shares: Real) -> float:
+        """lambda, from all starts."""
+        found = estimate(self.rival.chain, self._task(shares), self.rival.known)
+        self.add(np.array([found.parameters[n] for n in self.rival.chain.parameters]))
+        return self.bound(shares)
+
+    def _task(self, shares: Real) -> Task:
+        cost = self.rival.task.cost
+        weights = np.sqrt(len(shares) * np.maximum(shares, 0.0)) / self.rival.rho
+        return replace(self.rival.task, cost=replace(cost, lines=weights))
+
+
+def _distinct(sizes: Real) -> list[int]:
+    """The best few fits, one of each valley as far as costs tell."""
+    chosen = list[int]()
+    for i in np.argsort(sizes, kind="stable"):
+        if len(chosen) < BASINS and all(sizes[i] > sizes[k] * (1 + CLOSE) for k in chosen):
+            chosen.append(int(i))
+    return chosen
+
+
+def optimal(adversary: Adversary) -> Spectrum:
+    """The T-optimal spectrum."""
+    count = len(adversary.rival.rho)
+    best, size, bound = np.full(count, 1.0 / count), 0.0, np.inf
+    for _ in range(ANEW):
+        size = adversary.searched(best)
+        best, size, bound = _improved(adversary, best, size)
+        best = _cleaned(best)
+        size = adversary.searched(best)
+        if size * (1 + 2 * CLOSE) >= bound:
+            break
+    return Spectrum(best, size, max(bound, size))
+
+
+def runnable(adversary: Adversary, best: Spectrum) -> Spectrum:
+    """The optimal spectrum with a tenth of the power on all lines alike: as lambda is concave, it
+    has nine tenths of the optimal one at least, and shows what neither structure foresees.
+    """
+    count = len(best.shares)
+    shares = (1 - KEPT) * best.shares + KEPT / count
+    return Spectrum(shares, adversary.searched(shares), best.bound)
+
+
+def _improved(adversary: Adversary, best: Real, size: float) -> tuple[Real, float, float]:
+    """Spectrum, its lambda and the bound, after cuts until both meet."""
+    bound = np.inf
+    for _ in range(STEPS):
+        corner, bound = _programme(np.array(adversary.cuts))
+        size = adversary.bound(best)  # later fits may have lowered it
+        if bound <= size * (1 + CLOSE):
+            break
+        tried = (corner + best) / 2
+        reached = adversary.noncentrality(tried)
+        if reached > size:
+            best, size = tried, reached
+    return best, size, bound
+
+
+def _programme(cuts: Real) -> tuple[Real, float]:
+    """The shares w that are best under the cuts, shape (n_c, n_f): max t with t <= cuts w."""
+    n_c, n_f = cuts.shape
+    scale = float(cuts.mean())
+    found = linprog(
+        np.append(np.zeros(n_f), -1.0),
+        A_ub=np.hstack([-cuts / scale, np.ones((n_c, 1))]),
+        b_ub=np.zeros(n_c),
+        A_eq=np.append(np.ones(n_f), 0.0)[None, :],
+        b_eq=[1.0],
+        bounds=(0, None),
+        method="highs",
+    )
+    return np.maximum(found.x[:-1], 0.0), float(-found.fun) * scale
+
+
+def _cleaned(shares: Real) -> Real:
+    """Without lines that have next to nothing."""
+    kept = np.where(shares >= VANISHING, shares, 0.0)
+    return np.asarray(kept / kept.sum())
+
+
+def best_band(adversary: Adversary) -> Band:
+    """The band, of those between a few frequencies of the lines, whose lines share the power
+    best.
+
+    One that an earlier fit of the rival already bounds below the best one is not fitted.
+    """
+    hertz = adversary.rival.hertz
+    every = [(band, _alike(hertz, band)) for band in _bands(hertz)]
+    every.sort(key=lambda pair: -adversary.bound(pair[1]))
+    best, size = every[0][0], -1.0
+    for band, shares in every:
+        if adversary.bound(shares) > size:
+            found = adversary.noncentrality(shares)
+            if found > size:
+                best, size = band, found
+    size = adversary.searched(_alike(hertz, best))
+    return Band(*best, size)
+
+
+def _bands(hertz: Real) -> Iterator[tuple[float, float]]:
+    """Lowest and highest line of bands of at least eight lines."""
+    edges = np.unique(np.searchsorted(hertz, np.geomspace(hertz[0], hertz[-1], EDGES)))
+    last = np.minimum(edges, len(hertz) - 1)
+    for i, j in combinations(last, 2):
+        if j - i >= 7:
+            yield float(hertz[i]), float(hertz[j])
+
+
+def _alike(hertz: Real, band: tuple[float, float]) -> Real:
+    """Equal shares of the lines of a band."""
+    inside = (hertz >= band[0]) & (hertz <= band[1])
+    return np.asarray(inside / inside.sum())

@@ -1,0 +1,221 @@
+"""Models with numbers for other programs: state space (20) to (23), zeros and poles, MATLAB,
+python-control. As JSON: `selection_json`.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.files import write_whole
+from disting.fit.judge.modes import poles, zeros
+from disting.fit.search.plant import Plant
+from disting.measurement.arrays import Complex, Real
+from disting.model.chain import Chain
+from disting.model.shown import plural, summary
+from disting.simulation import matrices, port_vectors
+
+if TYPE_CHECKING:
+    import control
+
+
+# where SciPy writes the time of day
+MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)
+
+
+@dataclass(frozen=True, eq=False)
+class StateSpace:
+    """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force;
+    `delay` of the input [s].
+    """
+
+    A: Real
+    B: Real
+    C: Real
+    D: Real
+    delay: float
+
+    def __repr__(self) -> str:
+        return summary(
+            self, plural(len(self.A), "state") + f", dead time {self.delay:g} s" * bool(self.delay)
+        )
+
+
+def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateSpace:
+    """State space (20) to (23) with numbers, one input, one output; the torque lag adds a state.
+
+    >>> ss = state_space(Chain(1, damped=False), {"m1": 2.0})
+    >>> ss.A.tolist(), ss.B.tolist(), ss.D.tolist()
+    ([[0.0, 1.0], [-0.0, -0.0]], [[0.0], [0.5]], [[0.5]])
+    """
+    n = chain.n_masses
+    mass, damping, stiffness = matrices(chain, values)
+    force, shown = port_vectors(chain)
+    inverse = 1.0 / np.diag(mass)[:, None]
+    a = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse * stiffness, -inverse * damping]])
+    b = np.concatenate([np.zeros(n), inverse[:, 0] * force])[:, None]
+    c = np.concatenate([sign * shown, np.zeros(n)])[None, :]
+    d = np.zeros((1, 1))
+    # differentiation: c (A x + B u), with D = 0 until the acceleration
+    for _ in range(chain.sensor.order):
+        c, d = c @ a, c @ b
+    if chain.lag:
+        a, b, c, d = _lagged(a, b, c, d, values["T1"])
+    return StateSpace(a, b, c, d, values.get("Td", 0.0))
+
+
+def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real, Real, Real]:
+    """The force follows the input through 1/(1 + s T1)."""
+    n = len(a)
+    whole = np.block([[a, b], [np.zeros((1, n)), np.full((1, 1), -1.0 / time)]])
+    return (
+        whole,
+        np.concatenate([np.zeros((n, 1)), [[1.0 / time]]]),
+        np.hstack([c, d]),
+        np.zeros((1, 1)),
+    )
+
+
+def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.StateSpace":
+    """A python-control StateSpace, without the dead time, which no finite state space has;
+    needs disting[control].
+    """
+    ss = state_space(chain, values, sign)
+    return _control().StateSpace(ss.A, ss.B, ss.C, ss.D)
+
+
+def to_control_transfer_function(
+    chain: Chain, values: dict[str, float], sign: int = 1
+) -> "control.TransferFunction":
+    """A python-control TransferFunction, without the dead time, from poles, zeros and gain;
+    needs disting[control].
+    """
+    found = zero_pole(chain, values, sign)
+    top, bottom = (np.atleast_1d(np.poly(roots)).real for roots in (found.zeros, found.poles))
+    return _control().TransferFunction(found.gain * top, bottom)
+
+
+@dataclass(frozen=True, eq=False)
+class ZeroPole:
+    """gain prod(s - z) / prod(s - p), roots in rad/s."""
+
+    zeros: Complex
+    poles: Complex
+    gain: float
+
+
+def zero_pole(chain: Chain, values: dict[str, float], sign: int = 1) -> ZeroPole:
+    """Zeros, poles and gain of a chain with numbers, without the dead time.
+
+    >>> found = zero_pole(Chain(1), {"m1": 2.0})
+    >>> len(found.zeros), len(found.poles), found.gain
+    (2, 2, 0.5)
+    """
+    structure = chain.structure
+    p = np.array([values[name] for name in structure.parameters])
+    bottom, top = poles(structure, p), zeros(structure, p)
+    at = 2.0 * np.abs(bottom).max() + 1.0  # a real point away from all of them
+    ratio = np.prod(at - bottom) / np.prod(at - top)
+    gain = sign * _real_response(chain, values, at) * float(np.real(ratio))
+    top = np.append(top, np.zeros(chain.sensor.order))
+    if chain.lag:
+        bottom, gain = np.append(bottom, -1 / values["T1"]), gain / values["T1"]
+    return ZeroPole(top, bottom, gain)
+
+
+def _real_response(chain: Chain, values: dict[str, float], s: float) -> float:
+    """The receptance at a real s."""
+    mass, damping, stiffness = matrices(chain, values)
+    force, shown = port_vectors(chain)
+    return float(shown @ np.linalg.solve(mass * s * s + damping * s + stiffness, force))
+
+
+def _control() -> Any:
+    try:
+        import control
+    except ImportError:
+        raise InputError(
+            'python-control is not installed: pip install "disting[control]"'
+        ) from None
+    return control
+
+
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """A structure with numbers under its name, such as 3:11+b1, and the units of its parameters,
+    "" where the data do not tell.
+    """
+
+    name: str
+    chain: Chain
+    values: dict[str, float]
+    units: dict[str, str]
+
+
+def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
+    """A MATLAB v5 file: A, B, C, D and delay of the first model, and the struct array `models` with
+    name, A, B, C, D, delay, z, p, k, parameters and units of each. The same models give the same
+    bytes.
+    """
+    from scipy.io import savemat
+
+    whole = np.empty(len(models), dtype=object)
+    whole[:] = [_plain(model, sign) for model in models]
+    content = BytesIO()
+    savemat(content, {n: whole[0][n] for n in (*"ABCD", "delay")} | {"models": whole})
+    write_whole(path, MAT_HEAD + content.getvalue()[len(MAT_HEAD) :])
+
+
+def _plain(model: Exported, sign: int) -> dict[str, Any]:
+    """What the fields of a MATLAB struct are."""
+    ss = state_space(model.chain, model.values, sign)
+    zpk = zero_pole(model.chain, model.values, sign)
+    return {
+        "name": model.name,
+        **{n: getattr(ss, n) for n in (*"ABCD", "delay")},
+        **{"z": zpk.zeros[:, None], "p": zpk.poles[:, None], "k": zpk.gain},
+        "parameters": model.values,
+        "units": model.units,
+    }
+
+
+def control_script(models: Sequence[Exported], sign: int = 1) -> str:
+    """A Python program that makes a python-control StateSpace of each model, by name."""
+    return "".join([_HEAD, *(_entry(model, sign) for model in models), "}\n", _DELAYS, *(
+        f"    {model.name!r}: {model.values.get('Td', 0.0)!r},\n" for model in models
+    ), "}\n"])  # fmt: skip
+
+
+_HEAD = """\"\"\"Structures that a measurement leaves, for python-control.\"\"\"
+
+import control
+
+models = {
+"""
+_DELAYS = "dead_times = {  # [s], no part of a state space\n"
+
+
+def _entry(model: Exported, sign: int) -> str:
+    """The matrices, with the parameters as a comment."""
+    ss = state_space(model.chain, model.values, sign)
+    known = ", ".join(
+        f"{n} = {v:.6g}{f' {model.units[n]}' if model.units.get(n) else ''}"
+        for n, v in model.values.items()
+    )
+    matrices_of = (f"        {getattr(ss, n).tolist()!r},\n" for n in "ABCD")
+    return f"    # {known}\n    {model.name!r}: control.StateSpace(\n{''.join(matrices_of)}    ),\n"
+
+
+def predicted(
+    chain: Chain, values: dict[str, float], omega: Real, sign: int = 1
+) -> np.ndarray[Any, np.dtype[np.complex128]]:
+    """Response of a fitted chain, or of the same chain with other ports, at angular frequencies
+    [rad/s].
+    """
+    return Plant(chain.structure, omega, sign).response(
+        np.array([values[name] for name in chain.parameters])
+    )

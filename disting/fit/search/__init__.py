@@ -1,0 +1,1 @@
+"""The best parameters of each candidate: responses, costs, starts, local search."""

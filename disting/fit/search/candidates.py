@@ -1,0 +1,108 @@
+"""Candidate models of a fit: Fig. 1 of the paper, and wider classes."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import combinations, product
+
+from disting.errors import ConstraintViolation, InputError
+from disting.fit.search.setup import port
+from disting.model.chain import Chain, Sensor
+from disting.model.family import Family
+from disting.model.names import name_of
+from disting.model.symmetry import Form, forms
+
+
+def figure_1(
+    sizes: Sequence[int] = (1, 2, 3, 4), sensor: Sensor = Sensor.ACCELERATION
+) -> tuple[Chain, ...]:
+    """Chains driven and seen at mass 1, every set of ground dampers, with and without lag and dead
+    time.
+
+    >>> len(figure_1())
+    120
+    """
+    return tuple(
+        variant for n in sizes for variant in variants(Chain(n, sensor=sensor, damped=True))
+    )
+
+
+def variants(chain: Chain) -> Iterator[Chain]:
+    """Yield a chain with every set of ground dampers, with and without lag and dead time: 4
+    times 2^N models.
+    """
+    masses = range(1, chain.n_masses + 1)
+    sets = [chosen for size in range(chain.n_masses + 1) for chosen in combinations(masses, size)]
+    for chosen, lag, dead_time in product(sets, (False, True), (False, True)):
+        yield replace(chain, ground_dampers=chosen, lag=lag, dead_time=dead_time)
+
+
+def whole_family(sizes: Sequence[int], sensor: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
+    """Every chain under (36)-(38) of these sizes, with its variants."""
+    return tuple(
+        v for n in sizes for chain in Family(n, damped=True, sensor=sensor) for v in variants(chain)
+    )
+
+
+def chosen_ports(
+    sizes: Sequence[int],
+    actuator: str,
+    shown: str,
+    gap: int = 0,
+    sensor: Sensor = Sensor.ACCELERATION,
+) -> tuple[Chain, ...]:
+    """Chains of several sizes with force and sensor at the same ports, with their variants.
+
+    A port is the number of a mass, the word last, or minus:plus such as 1:3; sizes in which it
+    does not exist are left out, and those in which the last mass is that of the other port: with
+    one mass, force 1 and sensor last are not the two ends that were asked for. Raises InputError
+    where none is left.
+
+    >>> [str(c) for c in chosen_ports([2], "1", "last")][:1]
+    ['2 masses, gap 0, force 1-0, sensor 2-0, damped']
+    """
+    found, refused = list[Chain](), ""
+    for n in sizes:
+        (act_minus, act_plus), (meas_minus, meas_plus) = ports = tuple(
+            port(text, n) for text in (actuator, shown)
+        )
+        if (actuator == "last") != (shown == "last") and ports[0] == ports[1]:
+            refused = f"force {actuator} and sensor {shown} are the same mass"
+            continue
+        try:
+            found.append(
+                Chain(n, gap, act_minus, act_plus, meas_minus, meas_plus, sensor, damped=True)
+            )
+        except ConstraintViolation as reason:
+            refused = str(reason)
+    if not found:
+        raise InputError(
+            f"no chain of {', '.join(map(str, sizes))} masses has these ports: {refused}"
+        )
+    return tuple(variant for chain in found for variant in variants(chain))
+
+
+def as_listed(chain: Chain) -> Form:
+    """The form of a chain that is in the family of its size, with the names that its parameters
+    have there.
+
+    A chain with masses counted from the other end, or with force and sensor exchanged, is no model
+    under (38): the model that behaves as it does for renamed parameters is. The chain itself where
+    no form is in the family.
+
+    >>> form = as_listed(Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,)))
+    >>> reference(form.chain), form.renaming["m1"]
+    ('2:1+b2', 'm2')
+    """
+    family = Family(chain.n_masses, chain.damped, chain.sensor)
+    both = list(forms(chain))
+    return next((form for form in both if _is_in(family, form.chain)), both[0])
+
+
+def reference(chain: Chain) -> str:
+    """Such as 2:1+b2+delay, as the commands read it; of the form that is listed."""
+    return name_of(as_listed(chain).chain)
+
+
+def _is_in(family: Family, chain: Chain) -> bool:
+    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False)
+    return plain in family

@@ -1,0 +1,277 @@
+"""The best parameters of one candidate: structured starts, a rough search of all, the last digits
+of the best.
+
+Starts come from the data, from the fits of smaller candidates and from those of neighbours (which
+of them there are: `exchange`). Within one size a candidate that contains another one is never
+worse: the smaller one's fit, the additional elements hardly felt, is a start.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from hashlib import sha256
+from math import inf
+
+import numpy as np
+from threadpoolctl import ThreadpoolController
+
+from disting.errors import InputError
+from disting.fit.search.descent import Box, fine, rough
+from disting.fit.search.joint import AnyCost, AnyPlant
+from disting.fit.search.neighbours import carried, neighbours
+from disting.fit.search.pairs import conspicuous, paired
+from disting.fit.search.plant import Plant
+from disting.fit.search.starts import (
+    UNFELT,
+    Values,
+    extended,
+    from_extrema,
+    merged,
+    random,
+    scale,
+    shortened,
+    split,
+    stacked,
+)
+from disting.measurement.arrays import Real
+from disting.model.chain import Chain
+from disting.model.shown import summary
+
+ITERATIONS = 30  # of the rough search, and again from the best that it found
+FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
+FINISHED = 4  # starts that are searched on, the best of which is brought to the last digit
+REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
+NOTHING = 1e-6  # or a cost that is as good as zero
+GAIN = 1e-4  # relative gain of cost from which on a neighbour's fit helps
+DAMPERS = "db"  # first letters of what may be fixed to zero
+NESTED = 1e-9  # relative excess of cost that a candidate may have over one that it contains
+
+
+@dataclass(frozen=True)
+class Task:
+    """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1:
+    sensor reversed.
+
+    `divided`: each candidate takes one of so many parts of its starts. Where candidates exchange
+    their fits, what one of them finds helps all, and together they try every kind of start.
+    """
+
+    cost: AnyCost
+    sign: int = 1
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    seed: str = "disting"
+    divided: int = 1
+
+    def __post_init__(self) -> None:
+        for name, (low, high) in self.bounds.items():
+            if not 0 <= low < high:
+                raise InputError(f"bounds of {name} are 0 <= low < high, not {low:g}..{high:g}")
+        for name, value in self.fixed.items():
+            if not (0 < value < inf or (value == 0 and name[0] in DAMPERS)):
+                zero = ", or a damper to 0" * (name[0] in DAMPERS)
+                raise InputError(f"{name} is fixed to a positive number{zero}, not {value:g}")
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.cost!r}, sign {self.sign}")
+
+    def plant(self, chain: Chain) -> AnyPlant:
+        """The chain at the frequencies of the data."""
+        return self.cost.plant(chain.structure, self.sign)
+
+    def names(self, chain: Chain) -> tuple[str, ...]:
+        """What is fitted, in the order of parameter vectors: the chain's parameters, then dead
+        times of single responses.
+        """
+        return (*chain.parameters, *(self.cost.delays if chain.dead_time else ()))
+
+    def on(self, chain: Chain) -> "Task":
+        """The task of a chain that may have fewer places: of the responses that it has."""
+        return replace(self, cost=self.cost.on(chain))
+
+    def thinned(self, count: int) -> "Task":
+        """The task of at most so many lines of each response; itself if there are no more."""
+        cost = self.cost.thinned(count)
+        return self if cost is self.cost else replace(self, cost=cost)
+
+    def box(self, names: Sequence[str]) -> Box:
+        """Bounds as arrays."""
+        limits = [
+            (self.fixed[n],) * 2 if n in self.fixed else self.bounds.get(n, (0.0, inf))
+            for n in names
+        ]
+        low, high = np.array(limits, dtype=float).reshape(-1, 2).T
+        return Box(low, high)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A candidate's best parameters and their cost J; `costs` of all starts after the rough
+    search, in rising order.
+
+    Among the starts are those from the data and from smaller fits, then the fits of neighbours,
+    once for each change.
+    """
+
+    chain: Chain
+    parameters: dict[str, float]
+    j: float
+    costs: tuple[float, ...] = ()
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:.4g}" for name, value in self.parameters.items())
+        return summary(self, f"J = {self.j:.4g}, {values}")
+
+    @property
+    def hit_rate(self) -> float:
+        """Share of the starts whose rough search came within 0.1 % of the best cost."""
+        return sum(c <= self.j * (1 + REACHED) + NOTHING for c in self.costs) / max(
+            len(self.costs), 1
+        )
+
+
+Method = Callable[[Chain, Task, Mapping[Chain, Estimate]], Estimate]
+"""Finds the best parameters of one candidate, with the fits of others that help."""
+
+
+def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+    """Best parameters of one candidate, from the data and from the fits of smaller candidates
+    in `known`.
+    """
+    task = task.on(chain)
+    first = sha256(str(chain).encode()).digest()[0] % task.divided
+    starts = _stacked(list(_starts(chain, task, known))[first :: task.divided], chain, task)
+    with _libraries().limit(limits=1):
+        return _best(chain, task, known, starts)
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    """The libraries of linear algebra of this process, looked up once, which takes as long as many
+    a search. They get one thread: matrices are small, and workers share the processors.
+    """
+    return ThreadpoolController()
+
+
+def evaluated(chain: Chain, task: Task) -> Estimate:
+    """The cost of a candidate whose parameters are all given: there is nothing to search."""
+    task = task.on(chain)
+    names = task.names(chain)
+    values = [task.fixed[name] for name in names]
+    j = float(task.cost.total(task.plant(chain).response(np.array(values))))
+    return Estimate(chain, dict(zip(names, values, strict=True)), j, (j,))
+
+
+def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+    """The candidate's estimate in `known`, or a better one that the fits of its neighbours
+    there lead to.
+    """
+    task = task.on(chain)
+    own, names, size = known[chain], task.names(chain), scale(task.cost.measured)
+    offered = [_common(known[c]) for c in neighbours(chain) if c in known]
+    starts = _stacked(
+        [start for fit in offered for start in carried(chain, fit, size)], chain, task
+    )
+    plant, box = task.plant(chain), task.box(names)
+    with _libraries().limit(limits=1):
+        points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
+        i = int(np.argmin(costs))
+        p, j = np.array([own.parameters[name] for name in names]), own.j
+        if costs[i] < j * (1 - GAIN):
+            p, j = fine(plant, task.cost, box, points[i])
+        p, j = _nested(chain, task, known, p, j)
+    tried = tuple(sorted([*own.costs, *map(float, costs)]))
+    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried)
+
+
+def refined(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+    """The candidate's estimate in `known`, found on other lines, on those of the task; no worse
+    than what it contains.
+    """
+    task = task.on(chain)
+    own, names = known[chain], task.names(chain)
+    start = np.array([own.parameters[name] for name in names])
+    with _libraries().limit(limits=1):
+        p, j = fine(task.plant(chain), task.cost, task.box(names), start)
+        p, j = _nested(chain, task, known, p, j)
+    share = j / own.j if own.j else 1.0
+    costs = tuple(share * cost for cost in own.costs)
+    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, costs)
+
+
+def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
+    names = task.names(chain)
+    plant, box = task.plant(chain), task.box(names)
+    points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
+    ends, reached = rough(plant, task.cost, box, points[_different(costs)], ITERATIONS)
+    p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
+    p, j = _nested(chain, task, known, p, j)
+    return Estimate(
+        chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs)))
+    )
+
+
+def _nested(
+    chain: Chain, task: Task, known: Mapping[Chain, Estimate], p: Real, j: float
+) -> tuple[Real, float]:
+    """Parameters and cost that are no worse than those of a candidate which this one contains."""
+    contained = min(
+        (known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None
+    )
+    if contained is None or contained.j * (1 + NESTED) >= j:
+        return p, j
+    plant, box = task.plant(chain), task.box(task.names(chain))
+    felt = extended(chain, _common(contained), scale(task.cost.measured), UNFELT)
+    slight = _stacked([_own(contained) | dict(start) for start in felt], chain, task)
+    unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
+    return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda found: found[1])
+
+
+def _stacked(starts: Sequence[Values], chain: Chain, task: Task) -> Real:
+    """Starts as an array; a dead time of a single response is that of all where a start has
+    none.
+    """
+    own = task.names(chain)[len(chain.parameters) :]
+    whole = [dict.fromkeys(own, start["Td"]) | dict(start) for start in starts] if own else starts
+    return stacked(whole, task.names(chain))
+
+
+def _common(found: Estimate) -> Values:
+    """The parameters of the chain alone."""
+    return {name: found.parameters[name] for name in found.chain.parameters}
+
+
+def _own(found: Estimate) -> dict[str, float]:
+    """Dead times of single responses."""
+    chain = found.chain.parameters
+    return {name: value for name, value in found.parameters.items() if name not in chain}
+
+
+def _different(costs: Real) -> list[int]:
+    """The best starts, one of each valley as far as costs tell."""
+    chosen = list[int]()
+    for i in np.argsort(costs, kind="stable"):
+        if len(chosen) < FINISHED and all(costs[i] > costs[k] * (1 + REACHED) for k in chosen):
+            chosen.append(int(i))
+    return chosen
+
+
+def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterator[Values]:
+    """All starts of one candidate."""
+    size = scale(task.cost.measured)
+    seen = list(from_extrema(chain, task.cost.measured))
+    yield from seen
+    for joint, fewer in merged(chain):
+        if fewer in known:
+            yield from split(chain, joint, _common(known[fewer]), size)
+    for fewer, joint in {fewer: joint for joint, fewer in merged(chain)}.items():
+        if fewer in known:
+            response = Plant(fewer.structure, task.cost.measured.omega, task.sign).response(
+                np.array(list(_common(known[fewer]).values()))
+            )
+            missed = conspicuous(task.cost.measured, response)
+            yield from paired(chain, joint, _common(known[fewer]), size, missed)
+    for fewer in shortened(chain):
+        if fewer in known:
+            yield from extended(chain, _common(known[fewer]), size)
+    yield from random(chain, size, task.seed, FEW if seen else MANY)

@@ -1,0 +1,235 @@
+"""The best parameters of all candidates of one fit: in an order in which they help each other, with
+a store, by workers.
+
+Candidates are taken in the order of masses and elements, so that each finds the fits of smaller
+ones ready. Those with the same masses, springs and ports then exchange their fits: what neighbours
+found is a start, round by round until no candidate gets better. A valley that one of them enters
+is thereby open to all, so that each needs to try a part of the starts only.
+"""
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import Executor
+from dataclasses import replace
+from hashlib import sha256
+from itertools import groupby
+
+import numpy as np
+
+from disting.algebra.content import written
+from disting.fit.search.estimate import (
+    Estimate,
+    Method,
+    Task,
+    estimate,
+    evaluated,
+    improved,
+    refined,
+)
+from disting.fit.search.neighbours import neighbours
+from disting.fit.search.starts import merged, shortened
+from disting.model.chain import Chain
+from disting.store import Store
+from disting.store.code import digest
+from disting.verdict.engine import mapped
+
+# every so many candidates that exchange divide their starts into one part more, up to so many parts
+FELLOWS, PARTS = 8, 6
+SEARCHED = 2000  # lines of a response on which a search is made
+ROUNDS = 20  # of the exchange between neighbours, at most: it stands still after fewer
+
+
+def estimates(
+    candidates: Iterable[Chain],
+    task: Task,
+    *,
+    method: Method | None = None,
+    store: Store | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[str, int, int], object] = lambda what, done, total: None,
+) -> dict[Chain, Estimate]:
+    """Best parameters of every candidate and of the smaller ones that lead to them; what `store`
+    holds is not fitted again.
+
+    The search is on `SEARCHED` lines of each response, where there are more; what it finds is
+    brought to the last digit on all. Another `method` than structured starts, such as
+    `swarm.by_swarm`, gets no fits of smaller candidates.
+    """
+    store, run = store or Store.none(), method or estimate
+    few = task.thinned(SEARCHED)
+    if few is not task:
+        rough = estimates(
+            candidates, few, method=method, store=store, executor=executor, progress=progress
+        )
+        return _polished(rough, task, store, executor, progress)
+    wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
+    known: dict[Chain, Estimate] = {}
+    for _, variants in groupby(wanted, key=body):
+        fellows = list(variants)
+        part = (
+            replace(task, divided=min(1 + (len(fellows) - 1) // FELLOWS, PARTS))
+            if method is None
+            else task
+        )
+        for _, stage in groupby(fellows, key=_stage):
+            whole = list(stage)
+            known |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+            helpful = {c: _helpful(c, known) for c in whole if c not in known}
+            progress("fit", len(known), len(wanted))
+            for found in _results(run, helpful, part, store, executor):
+                known[found.chain] = found
+                progress("fit", len(known), len(wanted))
+        if method is None:
+            for found in _exchanged({c: known[c] for c in fellows}, task, store, executor):
+                known[found.chain] = found
+                progress("fit", len(known), len(wanted))
+    return known
+
+
+def _polished(
+    rough: Mapping[Chain, Estimate],
+    task: Task,
+    store: Store,
+    executor: Executor | None,
+    progress: Callable[[str, int, int], object],
+) -> dict[Chain, Estimate]:
+    """The estimates of a search on few lines, on those of the task; what a candidate contains comes
+    before it.
+    """
+    found: dict[Chain, Estimate] = {}
+    for _, stage in groupby(sorted(rough, key=_stage), key=_stage):
+        whole = list(stage)
+        found |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+        helpful = {c: _helpful(c, found) | {c: rough[c]} for c in whole if c not in found}
+        for one in _results(refined, helpful, task, store, executor):
+            found[one.chain] = one
+            progress("fit on all lines", len(found), len(rough))
+    return found
+
+
+def explored(known: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:
+    """The task on few lines, on which much can be tried, and estimates of the whole one there."""
+    few = task.thinned(SEARCHED)
+    if few is task:
+        return task, list(known)
+    return few, [refined(one.chain, few, {one.chain: one}) for one in known]
+
+
+def _exchanged(
+    known: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None
+) -> Iterator[Estimate]:
+    """Better estimates of variants of one chain, from the fits of neighbours that have changed,
+    until none changes.
+
+    All candidates of a round start from the estimates before it: their order and the number of
+    workers do not matter.
+    """
+    changed, left = set(known), ROUNDS
+    while changed and left:
+        offers = {c: changed.intersection(neighbours(c)) for c in known if not _is_given(c, task)}
+        helpful = {
+            c: {o: known[o] for o in known if o in near or o == c}
+            for c, near in offers.items()
+            if near
+        }
+        left -= 1
+        after = dict(known)
+        for found in _results(improved, helpful, task, store, executor):
+            after[found.chain] = found
+            yield found
+        changed = {c for c in known if after[c].j < known[c].j}
+        known = after
+
+
+def _results(
+    run: Method,
+    helpful: Mapping[Chain, Mapping[Chain, Estimate]],
+    task: Task,
+    store: Store,
+    executor: Executor | None,
+) -> Iterator[Estimate]:
+    """The estimates that `run` finds of chains, each with what helps it, as they come; from
+    `store` where it holds them.
+    """
+    keys = {c: _key(c, task, near, run.__name__) for c, near in helpful.items()}
+    stored = store.get_many(keys.values())
+    yield from (estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored)
+    for _, found in mapped(
+        run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor
+    ):
+        text = estimate_to_json(found)
+        store.put_many({keys[found.chain]: text})
+        yield estimate_from_json(found.chain, text)  # as it is read the next time
+
+
+def estimate_to_json(found: Estimate) -> str:
+    """Text that `estimate_from_json` reads back bit-equal."""
+    return json.dumps({"parameters": found.parameters, "j": found.j, "costs": found.costs})
+
+
+def estimate_from_json(chain: Chain, text: str) -> Estimate:
+    """Inverse of `estimate_to_json`."""
+    plain = json.loads(text)
+    return Estimate(chain, plain["parameters"], plain["j"], tuple(plain["costs"]))
+
+
+def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: str) -> str:
+    """Content address of an estimate: the data, the choices, the chain and what its starts come
+    from.
+    """
+    cost, first = task.cost, task.cost.parts[0]
+    arrays = [
+        array
+        for part in cost.parts
+        for array in (
+            part.measured.omega,
+            part.measured.G,
+            np.zeros(0) if part.lines is None else part.lines,
+        )
+    ]
+    texts = [
+        digest(__name__),
+        method,
+        written(chain),
+        *(part.measured.sensor.value for part in cost.parts),
+        *(
+            written((setup, len(p.measured)))
+            for setup, p in zip(cost.setups_of(chain.structure), cost.parts, strict=True)
+        ),
+        written((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
+    ]
+    texts += [written(sorted(task.bounds.items())), written(sorted(task.fixed.items()))]
+    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=written)]
+    return sha256(
+        b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])
+    ).hexdigest()
+
+
+def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:
+    """The candidates and, repeatedly, those with two neighbouring masses merged."""
+    found, new = set[Chain](), set(candidates)
+    while new:
+        found |= new
+        new = {fewer for chain in new for _, fewer in merged(chain)} - found
+    return found
+
+
+def _is_given(chain: Chain, task: Task) -> bool:
+    """Whether there is nothing to search."""
+    return set(task.names(chain)) <= set(task.fixed)
+
+
+def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:
+    """What one candidate's starts come from; a worker needs no more."""
+    near = {*(c for _, c in merged(chain)), *shortened(chain)}
+    return {c: known[c] for c in known if c in near}
+
+
+def body(chain: Chain) -> tuple[int, str]:
+    """Masses, springs and ports: what candidates that exchange their fits have in common."""
+    return chain.n_masses, written(replace(chain, ground_dampers=(), lag=False, dead_time=False))
+
+
+def _stage(chain: Chain) -> tuple[int, str, int]:
+    """Order of work: what a candidate contains and what leads to it comes before it."""
+    return *body(chain), len(chain.ground_dampers) + chain.lag + chain.dead_time

@@ -1,0 +1,301 @@
+"""Several responses of one machine, fitted with one parameter vector.
+
+The stacked response is that of each setup, one after the other, shape (..., n_f) with n_f the lines
+of all; stacked residuals are those of each response, shape (..., 2 n_f). So the cost is the sum of
+the costs, and whatever looks at neighbouring lines takes the responses one by one (`responses`).
+
+A machine in one state is eliminated once for all its sensors. A dead time of its own, `Td2` of the
+second response, stands behind the parameters of the chain.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import compress
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.fit.noise.scatter import LEAST, changed, scatter, widened
+from disting.fit.search.cost import Case, Cost, SquaredCost
+from disting.fit.search.plant import Motion, Plant
+from disting.fit.search.setup import Setup, measurable
+from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Complex, Real
+from disting.model.chain import Chain
+from disting.model.shown import plural, summary
+from disting.model.structure import Structure
+
+Lines = Callable[[FrequencyResponse], Real]
+
+
+@dataclass(frozen=True, slots=True)
+class Further:
+    """A further response of the machine, how it was measured, and independent data of it."""
+
+    measured: FrequencyResponse
+    setup: Setup
+    test: FrequencyResponse | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class JointPlant:
+    """The plants of all responses; `delays`: names of the dead times that are not common, also of
+    responses that are not here.
+    """
+
+    parts: tuple[Plant, ...]
+    setups: tuple[Setup, ...]
+    delays: tuple[str, ...] = ()
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Those of the chain, then the dead times of their own."""
+        return (*self.parts[0].parameters, *self._own)
+
+    def at(self, omega: Real, which: int = 0) -> "JointPlant":
+        """One of the responses at angular frequencies [rad/s], with the parameters of all."""
+        alone = self.parts[which].at(omega)
+        return JointPlant((alone,), (self.setups[which],), self.delays)
+
+    def response(self, p: Real) -> Complex:
+        """Stacked response, shape (..., n_f)."""
+        return np.concatenate(
+            [part.response(own, motion) for part, own, _, motion in self._with_motion(p)], axis=-1
+        )
+
+    def logarithmic_gradient(self, p: Real) -> tuple[Complex, Complex]:
+        """Stacked G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
+        responses, gradients = list[Complex](), list[Complex]()
+        for part, own, at, motion in self._with_motion(p):
+            response, gradient = part.logarithmic_gradient(own, motion)
+            whole = np.zeros((*p.shape, len(part.omega)), dtype=np.complex128)
+            whole[..., at, :] = gradient
+            responses.append(response)
+            gradients.append(whole)
+        return np.concatenate(responses, axis=-1), np.concatenate(gradients, axis=-1)
+
+    def _with_motion(self, p: Real) -> list[tuple[Plant, Real, NDArray[np.intp], Motion]]:
+        """Each part with its own parameters, where these stand in `p`, and the motion of its
+        machine, computed once a state.
+        """
+        known: dict[tuple[object, ...], Motion] = {}
+        found = []
+        for part, at in zip(self.parts, self._places, strict=True):
+            force = part.structure.ports[:2]
+            state, own = (force, part.still, part.added, part.omega.tobytes()), p[..., at]
+            if state not in known:
+                known[state] = part.motion(own)
+            found.append((part, own, at, known[state]))
+        return found
+
+    @cached_property
+    def _own(self) -> tuple[str, ...]:
+        return self.delays if self.parts[0].structure.dead_time else ()
+
+    @cached_property
+    def _places(self) -> list[NDArray[np.intp]]:
+        """Where the parameters of each part stand."""
+        n = len(self.parts[0].parameters)
+        found = []
+        for setup in self.setups:
+            at = np.arange(n)
+            if self._own and setup.delay:
+                at[-1] = n + self._own.index(setup.delay)
+            found.append(at)
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class JointCost(SquaredCost):
+    """The sum of the costs of several responses, each with its setup; `delays` as in
+    `JointPlant`; `places`: the setups at the masses of each structure, where these are not those
+    that `setups` names.
+    """
+
+    parts: tuple[Cost, ...]
+    setups: tuple[Setup, ...]
+    delays: tuple[str, ...] = ()
+    places: Mapping[Structure, tuple[Setup, ...]] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return summary(self, plural(len(self.parts), "response"))
+
+    @property
+    def measured(self) -> FrequencyResponse:
+        """The first response, which starts are taken from."""
+        return self.parts[0].measured
+
+    @property
+    def case(self) -> Case:
+        """Which residuals."""
+        return self.parts[0].case
+
+    @property
+    def n_residuals(self) -> int:
+        """Of all responses."""
+        return sum(part.n_residuals for part in self.parts)
+
+    def residual(self, response: Complex) -> Real:
+        """Stacked residuals, shape (..., 2 n_f), of stacked responses."""
+        each = zip(self.parts, self.by_line(response), strict=True)
+        return np.concatenate([part.residual(own) for part, own in each], axis=-1)
+
+    def sensitivity(self, response: Complex, gradient: Complex) -> Real:
+        """S, shape (..., 2 n_f, n_p), from stacked G and d ln G / d p."""
+        each = zip(self.parts, self.by_line(response), self.by_line(gradient), strict=True)
+        return np.concatenate([part.sensitivity(*own) for part, *own in each], axis=-2)
+
+    def scatter(self, rho: Real) -> Real:
+        """Standard deviation of the residuals, shape (2 n_f,), for a relative deviation of the
+        data, shape (n_f,).
+        """
+        each = zip(self.parts, self.by_line(rho), strict=True)
+        return np.concatenate([part.scatter(own) for part, own in each])
+
+    def plant(self, structure: Structure, sign: int) -> JointPlant:
+        """The structure under each setup at the lines of the data."""
+        n, setups = structure.n_masses, self.setups_of(structure)
+        plants = [
+            Plant(
+                setup.seen(structure, part.measured.sensor),
+                part.measured.omega,
+                sign * setup.sign,
+                setup.still(n),
+                setup.added(n),
+            )
+            for part, setup in zip(self.parts, setups, strict=True)
+        ]
+        return JointPlant(tuple(plants), setups, self.delays)
+
+    def setups_of(self, structure: Structure) -> tuple[Setup, ...]:
+        """The setups, at the masses of a structure."""
+        return self.places.get(structure, self.setups)
+
+    def on(self, chain: Chain) -> "AnyCost":
+        """Of the responses that a chain has, such as one with fewer masses, where a place is
+        missing, or of which it is not known which mass is which: it has the first one.
+        """
+        setups = self.setups_of(chain.structure)
+        there = measurable(chain, setups)
+        if self.places and chain.structure not in self.places:
+            there = (True, *(False for _ in setups[1:]))
+        if all(there):
+            return self
+        kept = [(p, s) for p, s, has in zip(self.parts, setups, there, strict=True) if has]
+        parts, setups = zip(*kept, strict=True)
+        return JointCost(parts, setups, self.delays)
+
+    def without(self, out: NDArray[np.bool_]) -> "JointCost":
+        """The cost with weight zero for some lines, shape (n_f,)."""
+        each = zip(self.parts, self.by_line(out), strict=True)
+        return replace(self, parts=tuple(part.without(own) for part, own in each))
+
+    def thinned(self, count: int) -> "JointCost":
+        """The cost of at most so many lines of each response; itself if there are no more."""
+        parts = tuple(part.thinned(count) for part in self.parts)
+        fewer = any(few is not part for few, part in zip(parts, self.parts, strict=True))
+        return replace(self, parts=parts) if fewer else self
+
+    def by_line(self, values: NDArray[np.generic]) -> list[NDArray]:  # type: ignore[type-arg]
+        """Stacked values of lines, shape (..., n_f), for each response."""
+        ends = np.cumsum([len(part.measured) for part in self.parts])[:-1]
+        return np.split(values, ends, axis=-1)
+
+    def by_residual(self, values: Real) -> list[Real]:
+        """Stacked values of residuals, shape (2 n_f, ...), for each response."""
+        ends = np.cumsum([part.n_residuals for part in self.parts])[:-1]
+        return np.split(values, ends)
+
+
+AnyCost = Cost | JointCost
+AnyPlant = Plant | JointPlant
+
+
+def joint_cost(
+    first: Cost,
+    further: Sequence[Further],
+    lines: Lines | None,
+    alike: bool,
+    test: FrequencyResponse | None = None,
+    fitted: Sequence[Complex] = (),
+) -> AnyCost:
+    """The cost of all responses on the training data, each in units of its own scatter.
+
+    Weights 1/rho of each line, rho as `scatter` tells it with the stacked responses `fitted` of
+    candidates, what the machine changes by until its test data included; or those by `lines`, of
+    each response divided by what its weighted residuals scatter by, lambda^2 = mean (w rho)^2. Then
+    those of all are scaled to a mean square of 1. `alike`: all lines of all responses count alike.
+    """
+    whole = (Further(first.measured, Setup(), test), *further)
+    ends = np.cumsum([len(one.measured) for one in whole])[:-1]
+    known = [np.split(response, ends) for response in fitted]
+    own = [
+        np.ones(len(one.measured))
+        if alike
+        else _weights(one.measured, one.test, lines, [each[k] for each in known])
+        for k, one in enumerate(whole)
+    ]
+    size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))
+    parts = [
+        replace(first, measured=one.measured, lines=None if alike and not further else w / size)
+        for one, w in zip(whole, own, strict=True)
+    ]
+    setups = tuple(one.setup for one in whole)
+    if not further:
+        return parts[0]
+    return JointCost(tuple(parts), setups, tuple(s.delay for s in setups if s.delay))
+
+
+def _weights(
+    measured: FrequencyResponse,
+    other: FrequencyResponse | None,
+    lines: Lines | None,
+    fitted: Sequence[Complex],
+) -> Real:
+    """Weights of the lines of a response that was measured another time too."""
+    own = scatter(measured, fitted)
+    if lines is not None:
+        weights = lines(measured)
+        return weights / max(float(np.sqrt(np.mean((weights * own.rho) ** 2))), LEAST)
+    tau = changed(measured, other, own, scatter(other)) if other is not None else 0.0
+    return np.asarray(1.0 / widened(own, tau).rho)
+
+
+def judging_cost(
+    cost: AnyCost,
+    test: FrequencyResponse,
+    further: Sequence[Further],
+    lines: Lines | None,
+    alike: bool,
+    fitted: Callable[[AnyCost], Sequence[Complex]],
+) -> AnyCost:
+    """The cost on independent data, of the responses that have some; a response counts there as
+    much as on the training data. `fitted`: responses of candidates at the lines of a cost.
+    """
+    tests = [test, *(one.test for one in further)]
+    kept = [
+        (replace(part, measured=data, lines=None), part)
+        for part, data in zip(cost.parts, tests, strict=True)
+        if data is not None
+    ]
+    tested = [data is not None for data in tests]
+    places = cost.places if isinstance(cost, JointCost) else {}
+    plain = JointCost(
+        tuple(part for part, _ in kept),
+        tuple(compress(cost.setups, tested)),
+        cost.delays,
+        {of: tuple(compress(setups, tested)) for of, setups in places.items()},
+    )
+    each = [plain.by_line(response) for response in fitted(plain)]
+    parts = []
+    for k, (part, trained) in enumerate(kept):
+        own = [responses[k] for responses in each]
+        data = part.measured
+        weights = np.ones(len(data)) if alike else _weights(data, trained.measured, lines, own)
+        parts.append(replace(part, lines=weights * _size(trained.lines) / _size(weights)))
+    return parts[0] if isinstance(cost, Cost) else replace(plain, parts=tuple(parts))
+
+
+def _size(weights: Real | None) -> float:
+    return 1.0 if weights is None else float(np.sqrt(np.mean(weights**2)))

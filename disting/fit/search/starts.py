@@ -1,0 +1,277 @@
+"""Structured starting points: what random ones, swarms and evolution strategies miss from three
+masses on.
+
+(a) Resonances and antiresonances of the data, mapped to masses and springs by the Cauer continued
+fraction (force and sensor at the free end). (b) The growth ladder: the best fit with one mass
+fewer, one mass split in two by a spring tuned to each frequency of a grid; or with one more pair
+of pole and zero, see `pairs`. (c) The best fits of candidates with one element fewer. (d) A few
+random points.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from hashlib import blake2b
+from itertools import combinations
+from math import log, sqrt
+
+import numpy as np
+from scipy.signal import find_peaks
+
+from disting.errors import ConstraintViolation
+from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Real
+from disting.model.chain import Chain
+
+Values = Mapping[str, float]
+DAMPING_RATIO = 0.02  # of a spring's damper in a start
+SHARES = (0.5, 0.15, 0.85)  # of the mass that is split off
+GRID = 12  # frequencies of the ladder and of resonances that the data do not show
+EXTRA = (1e-6, 0.1, 1.0)  # of its natural size, for an element that is added
+# likewise: what is small depends on parameters that may have run far away
+UNFELT = [10.0**-k for k in range(6, 97, 10)]
+SPREAD = 1.0  # standard deviation of the logarithms of random starts
+PROMINENCE = 0.05  # of an extremum, in decades of the amplitude
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Natural sizes: mass = amplitude of inertia at low frequencies, band [rad/s], dead time
+    [s].
+    """
+
+    mass: float
+    low: float
+    high: float
+    delay: float
+
+    def of(self, name: str, size: float) -> float:
+        """Typical value of an element that is no mass; `size` is that of the spring beside a
+        damper, else the mass.
+        """
+        match name[0]:
+            case "d":
+                return 2 * DAMPING_RATIO * size / sqrt(self.low * self.high)
+            case "b":
+                return 0.1 * size * self.low
+        return self.delay if name == "Td" else 0.2 / self.high
+
+
+def scale(measured: FrequencyResponse) -> Scale:
+    """Natural sizes of a measured response."""
+    omega, order = measured.omega, measured.sensor.order
+    inertia = omega ** (order - 2) / np.abs(measured.G)
+    slope = -np.polyfit(omega, np.unwrap(np.angle(measured.G)), 1)[0]
+    delay = float(np.clip(slope, 0.01 / omega[-1], 1.0 / omega[-1]))
+    return Scale(
+        float(np.median(inertia[: max(3, len(omega) // 8)])),
+        float(omega[0]),
+        float(omega[-1]),
+        delay,
+    )
+
+
+def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Values]:
+    """Starts (a): N - 1 pairs of antiresonance and resonance, seen or supposed; none where the
+    ports are elsewhere.
+    """
+    if not is_seen_at_one_end(chain):
+        return
+    size = scale(measured)
+    seen, wanted = extrema(measured), chain.n_masses - 1
+    supposed = [(w, 1.1 * w) for w in np.geomspace(0.6 * size.low, 1.5 * size.high, GRID)]
+    for kept in range(min(len(seen), wanted), max(min(len(seen), wanted) - 2, -1), -1):
+        for more in (
+            combinations(supposed, wanted - kept)
+            if wanted - kept <= 2
+            else [tuple(supposed[-(wanted - kept) :])]
+        ):
+            masses, springs = cauer(size.mass, sorted([*seen[:kept], *more]))
+            if chain.act_plus != 1:
+                masses, springs = masses[::-1], springs[::-1]
+            if min([*masses, *springs], default=0.0) > 0:
+                yield _filled(chain, size, masses, springs)
+
+
+def is_seen_at_one_end(chain: Chain) -> bool:
+    """Whether force and sensor are the same end of a free chain: then poles and zeros fix
+    masses and springs.
+    """
+    return (
+        chain.collocated
+        and chain.gap == 0
+        and chain.act_minus == 0
+        and chain.act_plus in (1, chain.n_masses)
+    )
+
+
+def extrema(measured: FrequencyResponse) -> list[tuple[float, float]]:
+    """Pairs (antiresonance, next resonance) [rad/s] of the apparent inertia, the most prominent
+    first.
+    """
+    level = np.log10(np.abs(measured.G)) + (2 - measured.sensor.order) * np.log10(measured.omega)
+    (highs, high), (lows, low) = (
+        find_peaks(sign * level, prominence=PROMINENCE) for sign in (1, -1)
+    )
+    pairs = []
+    for at, size in zip(highs, high["prominences"], strict=True):
+        before = [(i, p) for i, p in zip(lows, low["prominences"], strict=True) if i < at]
+        if before:
+            pairs.append((size + before[-1][1], measured.omega[before[-1][0]], measured.omega[at]))
+    return [(float(z), float(p)) for _, z, p in sorted(pairs, reverse=True)]
+
+
+def cauer(total: float, pairs: Sequence[tuple[float, float]]) -> tuple[list[float], list[float]]:
+    """Masses and springs of the undamped free chain, driven and seen at mass 1, from its total
+    mass and (z_i, p_i) [rad/s].
+
+    With x = s^2: 1/H = total x prod(1 + x/p_i^2) / prod(1 + x/z_i^2) = m1 x + 1/(1/k12 + 1/(m2 x +
+    ...)); elements are positive exactly if z_1 < p_1 < z_2 < ..., which other pairs violate.
+    """
+    denominator, numerator = np.array([total, 0.0]), np.array([1.0])
+    for zero, pole in pairs:
+        denominator = np.convolve(denominator, [1 / pole**2, 1.0])
+        numerator = np.convolve(numerator, [1 / zero**2, 1.0])
+    masses, springs = [denominator[0] / numerator[0]], []
+    while len(numerator) > 1:
+        rest = (denominator - masses[-1] * np.append(numerator, 0.0))[1:]
+        springs.append(rest[0] / numerator[0])
+        numerator, denominator = (numerator - rest / springs[-1])[1:], rest
+        masses.append(denominator[0] / numerator[0])
+    return masses, springs
+
+
+def merged(chain: Chain) -> Iterator[tuple[int, Chain]]:
+    """Yield every chain with one mass fewer, and the joint j whose masses j, j+1 it has as one."""
+    for joint in range(1, chain.n_masses):
+        if joint != chain.gap:
+
+            def moved(i: int, joint: int = joint) -> int:
+                """Number of a mass after the joint became rigid."""
+                return i - (i > joint)
+
+            dampers = tuple(sorted({moved(i) for i in chain.ground_dampers}))
+            try:
+                other = replace(
+                    chain,
+                    n_masses=chain.n_masses - 1,
+                    gap=moved(chain.gap),
+                    act_minus=moved(chain.act_minus),
+                    act_plus=moved(chain.act_plus),
+                    meas_minus=moved(chain.meas_minus),
+                    meas_plus=moved(chain.meas_plus),
+                    ground_dampers=dampers,
+                )
+            except ConstraintViolation:
+                continue
+            yield joint, other
+
+
+def split(chain: Chain, joint: int, fewer: Values, size: Scale) -> Iterator[Values]:
+    """Starts (b): mass `joint` of the fit `fewer` split by a spring tuned to each frequency of
+    a grid.
+    """
+    names, whole = chain.parameters, fewer[f"m{joint}"]
+    kept = {_renumbered(name, joint): value for name, value in fewer.items()}
+    spring = next(n for n in names if n[0] == "k" and _left(n) == joint)
+    for share in SHARES:
+        parts = {f"m{joint}": (1 - share) * whole, f"m{joint + 1}": share * whole}
+        reduced = share * (1 - share) * whole
+        for omega in np.geomspace(0.7 * size.low, 1.3 * size.high, GRID):
+            start = kept | parts | {spring: reduced * float(omega) ** 2}
+            both = [n for n in (f"b{joint}", f"b{joint + 1}") if n in names]
+            damper = fewer.get(f"b{joint}", 0.0)
+            start |= {name: damper / len(both) for name in both}
+            yield _completed(names, start, size)
+
+
+def _renumbered(name: str, joint: int) -> str:
+    """Name of an element behind the joint after the split: numbers grow by one; joints are
+    named by both neighbours.
+    """
+    if name[0] == "T":
+        return name
+    left = _left(name)
+    if name[0] in "mb":
+        return f"{name[0]}{left + (left > joint)}"
+    left += left >= joint
+    return f"{name[0]}{left}{left + 1}" if left < 9 else f"{name[0]}{left}_{left + 1}"
+
+
+def _left(name: str) -> int:
+    """Number of a mass or of a joint's left neighbour."""
+    digits = name[1:].split("_")[0]
+    return int(digits) if name[0] in "mb" or "_" in name else int(digits[0])
+
+
+def extended(
+    chain: Chain, fewer: Values, size: Scale, factors: Iterable[float] = EXTRA
+) -> Iterator[Values]:
+    """Starts (c): the fit of a candidate with elements fewer, the missing ones at several
+    shares of their natural sizes.
+    """
+    missing = [n for n in chain.parameters if n not in fewer]
+    natural = _completed(chain.parameters, fewer, size)
+    for factor in factors:
+        yield natural | {name: factor * natural[name] for name in missing}
+
+
+def shortened(chain: Chain) -> Iterator[Chain]:
+    """Yield every candidate with one ground damper, the lag or the dead time fewer."""
+    for at in chain.ground_dampers:
+        yield replace(chain, ground_dampers=tuple(i for i in chain.ground_dampers if i != at))
+    if chain.lag:
+        yield replace(chain, lag=False)
+    if chain.dead_time:
+        yield replace(chain, dead_time=False)
+
+
+def random(chain: Chain, size: Scale, seed: str, count: int) -> Iterator[Values]:
+    """Starts (d): logarithms spread around natural sizes; determined by the seed and the chain."""
+    source = np.random.default_rng(
+        int.from_bytes(blake2b(f"{seed}:{chain}".encode(), digest_size=8).digest())
+    )
+    n = chain.n_masses
+    for _ in range(count):
+        omegas = np.exp(source.uniform(log(size.low), log(size.high), n))
+        shares = source.dirichlet(np.ones(n))
+        natural = _filled(
+            chain, size, size.mass * shares, (size.mass * omegas**2 / n)[: n - (chain.gap == 0)]
+        )
+        yield {
+            name: value * float(np.exp(SPREAD * source.normal())) for name, value in natural.items()
+        }
+
+
+def _filled(
+    chain: Chain, size: Scale, masses: Sequence[float] | Real, springs: Sequence[float] | Real
+) -> Values:
+    """A start from masses and springs in their order, the rest at natural sizes."""
+    kinds = {kind: [n for n in chain.parameters if n[0] == kind] for kind in "mk"}
+    known = dict(zip(kinds["m"], map(float, masses), strict=True)) | dict(
+        zip(kinds["k"], map(float, springs), strict=False)
+    )
+    return _completed(chain.parameters, known, size)
+
+
+def _completed(names: Sequence[str], known: Values, size: Scale) -> dict[str, float]:
+    """All parameters; dampers beside springs follow the springs."""
+    values = dict(known)
+    for name in names:
+        if name not in values:
+            values[name] = size.of(name, values["k" + name[1:]] if name[0] == "d" else size.mass)
+    return {name: values[name] for name in names}
+
+
+def stacked(starts: Sequence[Values], names: Sequence[str]) -> Real:
+    """Array of shape (n_s, n_p)."""
+    return np.array([[start[name] for name in names] for start in starts]).reshape(
+        len(starts), len(names)
+    )
+
+
+def natural(chain: Chain, size: Scale) -> Values:
+    """Natural sizes of all parameters: equal masses, resonances in the middle of the band."""
+    share = size.mass / chain.n_masses
+    return _filled(
+        chain, size, [share] * chain.n_masses, [share * size.low * size.high] * chain.n_masses
+    )
