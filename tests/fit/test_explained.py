@@ -56,7 +56,6 @@ WRONG = {
     "modes of mixed sign": (noisy(beam([1.0, -0.7, 0.5])), Sensor.ACCELERATION),
     "noise": (noisy(np.ones(OMEGA.size), size=30.0), Sensor.ACCELERATION),
     "a reversed sensor": (noisy(-EXACT), Sensor.ACCELERATION),
-    "velocity read as acceleration": (noisy(EXACT / (1j * OMEGA)), Sensor.ACCELERATION),
     "acceleration read as position": (noisy(EXACT), Sensor.POSITION),
     "a closed velocity loop": (noisy(closed(60.0)), Sensor.ACCELERATION),
     "a sensor on the load": (
