@@ -44,7 +44,8 @@ RANKS = "ranks of rows"
 REMEMBERED = 256  # rows whose rank is kept
 SAFETY = LEAST_SAFETY + 2  # of DIMENSION: three of them, one a split, reach LEAST_SAFETY
 AGAIN = 1  # bits of what is found again, at a point and prime of its own
-DIMENSION_LIMITS = Limits(seconds=120.0, entries=1_000_000)  # of the ideal of one row
+# of the ideal of one row; work ends long before: runs repeat
+DIMENSION_LIMITS = Limits(seconds=3600.0, entries=900_000)
 ADDED = "m"  # stands for the mass added; no unknown of `normalised` has this name
 TRIALS = 3  # primes and points at which an equation must not vanish
 Support = tuple[frozenset[int], frozenset[int]]
