@@ -22,13 +22,13 @@ from disting.cli.output import emitted, written_file
 from disting.cli.plain import keep_apart
 from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
 from disting.cli.workers import engine_for
+from disting.conditions.side import AnySide
 from disting.errors import InputError
 from disting.general import ModelList, read_models
 from disting.model.chain import Sensor
 from disting.model.names import damping_option
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict import Decisions, Relation, family_safety, joint_in_words
-from disting.verdict.compared import Compared
 from disting.verdict.comparison import refuse_ports
 from disting.verdict.engine import Engine
 from disting.verdict.proof import prove_all
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
     if not file:
         announced(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
     with engine_for(options) as (engine, pool, progress):
-        subjects: Sequence[Compared] = (
+        subjects: Sequence[AnySide] = (
             [engine.general_subject(model.name, model) for model in models]
             if models
             else _of_sizes(options, engine)
@@ -115,7 +115,7 @@ def list_of(path: Path) -> ModelList:
     return found
 
 
-def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[Compared]:
+def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[AnySide]:
     """Numbered chains, N:I."""
     named = combined_family(
         options.masses, damped=is_damped(options), sensor=Sensor(options.quantity)

@@ -14,14 +14,14 @@ from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import SUBMODEL, SUPERMODEL
-from disting.conditions.side import Side
+from disting.conditions.side import AnySide
 from disting.evidence.conditions import Embedding, Supermodel
 
 NO_ELEMENTS = "of general models no elements are left out"
 NO_THIRD = f"{NO_ELEMENTS}, and under several experiments no third model is measured"
 
 
-def condition_8(left: Side, right: Side) -> Finding:
+def condition_8(left: AnySide, right: AnySide) -> Finding:
     """Cond. 8: "One model is a submodel of the other and both have the same number of determinable
     parameters. Submodel means that model structures are identical except for missing elements such
     as springs, dampers and masses."
@@ -50,7 +50,7 @@ def condition_8(left: Side, right: Side) -> Finding:
     return Finding(SUBMODEL, Outcome.HOLDS, *_grade(profiles), evidence)
 
 
-def condition_9(left: Side, right: Side) -> Finding:
+def condition_9(left: AnySide, right: AnySide) -> Finding:
     """Cond. 9: "The two models are submodels of a third model and all three models have the same
     number of determinable parameters." The third model has the elements of both; force and sensor
     must be at the same places.

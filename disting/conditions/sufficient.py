@@ -9,14 +9,14 @@ from disting.algebra.colouring import renamings
 from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import FREE_CHOICE, RENAMING
-from disting.conditions.side import Side
+from disting.conditions.side import AnySide
 from disting.evidence.conditions import FreeChoice, Renaming
 
 INCOMPLETE = "fewer than N_S1 + N_S2 Markov parameters are not exhaustive"
 CANDIDATES = 50  # of a renaming that are verified; a colouring leaves one or two in practice
 
 
-def condition_6(left: Side, right: Side, exhaustive: bool) -> Finding:
+def condition_6(left: AnySide, right: AnySide, exhaustive: bool) -> Finding:
     """Cond. 6: "A renaming and permutation scheme for the parameters of the first model exists so
     that the moment invariants are identical to those of the second model in symbolic form and vice
     versa."
@@ -64,7 +64,7 @@ def condition_7(left: Profile, right: Profile) -> Finding:
     )
 
 
-def _searched(left: Side, right: Side) -> Finding:
+def _searched(left: AnySide, right: AnySide) -> Finding:
     names = left.parameters, right.parameters
     candidates = list(islice(renamings(left.columns, right.columns, len(names[0])), CANDIDATES + 1))
     for images in candidates[:CANDIDATES]:

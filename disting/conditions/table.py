@@ -25,7 +25,7 @@ from disting.conditions.rule import (
     SUPERMODEL,
     Rule,
 )
-from disting.conditions.side import Side
+from disting.conditions.side import AnySide
 from disting.model.shown import summary
 
 
@@ -56,7 +56,7 @@ class Sufficient:
     """
 
     rule: Rule
-    check: Callable[[Side, Side, Representation, int], Finding]
+    check: Callable[[AnySide, AnySide, Representation, int], Finding]
 
     def __repr__(self) -> str:
         return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
@@ -67,18 +67,20 @@ class Structural:
     """A sufficient condition on the model structure, in no representation."""
 
     rule: Rule
-    check: Callable[[Side, Side], Finding]
+    check: Callable[[AnySide, AnySide], Finding]
 
     def __repr__(self) -> str:
         return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
 
 
-def _renaming(left: Side, right: Side, representation: Representation, count: int) -> Finding:
+def _renaming(left: AnySide, right: AnySide, representation: Representation, count: int) -> Finding:
     whole = left.profile(representation, count).describes_all(right.profile(representation, count))
     return sufficient.condition_6(left, right, whole)
 
 
-def _free_choice(left: Side, right: Side, representation: Representation, count: int) -> Finding:
+def _free_choice(
+    left: AnySide, right: AnySide, representation: Representation, count: int
+) -> Finding:
     return sufficient.condition_7(
         left.profile(representation, count), right.profile(representation, count)
     )

@@ -8,19 +8,15 @@ its third model, with the elements of both, is no chain of the class: it has no 
 differ, so it cannot be measured as chains are, and what it would say the exact decision finds.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import weakest
-from disting.algebra.colouring import Colouring, colouring
-from disting.algebra.content import written
-from disting.algebra.sampling import prime
-from disting.behaviour.profile import Profile, profile
+from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
@@ -33,8 +29,7 @@ from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import positive_finding
 from disting.model.chain import Premise
 from disting.model.domain import Domain
-from disting.model.question import Answerer, Question, computed
-from disting.model.settings import Settings
+from disting.model.question import Question
 from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 from disting.questions.same.real_and_positive import positive_ways
@@ -50,57 +45,32 @@ POSITIVELY = Question(
     PositiveFinding.to_json,
     PositiveFinding.from_json,
 )
-Profiles = Callable[[MachineModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedMachine", "ComparedMachine"]
 
 
 @dataclass(frozen=True)
-class ComparedMachine:
-    """`source` yields profiles, `answerer` answers about pairs; a cache may stand in for both."""
+class ComparedMachine(Side[MeasuredChain]):
+    """A chain under several experiments."""
 
-    name: str
-    measured: MeasuredChain
-    settings: Settings = field(default_factory=Settings)
-    source: Profiles = profile
-    answerer: Answerer = computed
-    _known: dict[tuple[Representation, int], Profile] = field(
-        default_factory=dict, init=False, repr=False, compare=False
-    )
+    @property
+    def model(self) -> MachineModel:
+        """All transfer functions."""
+        return MachineModel(self.measured)
+
+    @property
+    def measured(self) -> MeasuredChain:
+        """The chain and its experiments."""
+        return self.subject
+
+    @property
+    def has_dear_dependences(self) -> bool:
+        """Yes: a stacked summary has many more rows than parameters."""
+        return True
 
     @property
     def premise(self) -> Premise:
         """Damping, sensor quantity, and all experiments."""
         return replace(self.measured.chain.premise, experiments=self.measured.text)
-
-    def profile(self, representation: Representation, count: int) -> Profile:
-        """What all experiments together reveal."""
-        if (representation, count) not in self._known:
-            found = self.source(self.profiled, representation, count, self.settings)
-            self._known[representation, count] = found
-        return self._known[representation, count]
-
-    def sketch(self, representation: Representation, count: int) -> Profile:
-        """What they reveal but for dependences, unless these are known: a stacked summary has many
-        more rows than parameters, so their search costs more than all else.
-        """
-        if (representation, count) in self._known:
-            return self._known[representation, count]
-        return self._sketch_of(self.profiled, representation, count)
-
-    def _sketch_of(
-        self, model: MachineModel, representation: Representation, count: int
-    ) -> Profile:
-        return self.source(model, representation, count, replace(self.settings, subset_limit=0))
-
-    @property
-    def parameters(self) -> tuple[str, ...]:
-        """Names of the parameters."""
-        return self.measured.chain.parameters
-
-    @property
-    def structure(self) -> None:
-        """None of which condition 9 could make a third one."""
-        return
 
     @property
     def n_elements(self) -> int:
@@ -113,50 +83,16 @@ class ComparedMachine:
         """
         return numbering(self.measured, other.measured)
 
-    @property
-    def n_states(self) -> int:
-        """Order of each transfer function, at most."""
-        return self.measured.chain.structure.n_states
-
-    @property
-    def content(self) -> tuple[str, ...]:
-        """All that verdicts on it depend on."""
-        return self.name, written(self.measured)
-
-    @property
-    def profiled(self) -> MachineModel:
-        """All transfer functions."""
-        return MachineModel(self.measured)
-
-    @property
-    def rank(self) -> int:
-        """Number of parameters that all experiments together determine."""
-        return self.sketch(Representation.TF, 0).rank
-
-    @cached_property
-    def colouring(self) -> Colouring:
-        """Stable colours of the parameters in all coefficients."""
-        return colouring(self.columns, ("",) * len(self.parameters))
-
-    def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        """Values and Jacobian columns of all coefficients."""
-        return self.profiled.columns(point, prime("renaming"))
-
-    def symmetry_with(self, other: "ComparedMachine") -> Renaming | None:
-        """None: symmetries of a chain may move a sensor."""
-        return None
-
     def is_renamed(self, other: "ComparedMachine", renaming: dict[str, str]) -> bool:
         """Whether renaming the parameters turns all transfer functions into the others: exact."""
         return is_renaming(self.measured, other.measured, renaming)
 
     def exact(self, other: "ComparedMachine") -> Finding:
         """The exact decision, for equal ranks and degrees."""
-        one, there = (side.sketch(Representation.TF, 0) for side in (self, other))
         if not comparable(self, other):
             return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
         found = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
-        return resting_on_ranks(found, one, there)
+        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
 
     def confirms(self, other: "ComparedMachine", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both."""
@@ -166,17 +102,13 @@ class ComparedMachine:
         """Whether evidence of an inclusion is true of both."""
         return confirms_inclusion(evidence, self.measured, other.measured)
 
-    def proves(self, other: "ComparedMachine", found: PositiveFinding) -> bool:
-        """No: it is not told."""
-        return False
-
     def exact_again(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
         """What `exact` finds with evidence of this kind."""
         if not comparable(self, other):
             return None
         found = exact_again(evidence, self.measured, other.measured, self.settings)
-        sketches = (side.sketch(Representation.TF, 0) for side in (self, other))
-        return None if found is None else resting_on_ranks(found, *sketches)
+        profiles = self.transfer_profile, other.transfer_profile
+        return None if found is None else resting_on_ranks(found, *profiles)
 
     def admissible(
         self, other: "ComparedMachine", domain: Domain, why: Evidence | None = None
@@ -199,13 +131,10 @@ class ComparedMachine:
 
         def profile_of(measured: MeasuredChain) -> Profile:
             """That of the coefficients, without dependences."""
-            return self._sketch_of(MachineModel(measured), Representation.TF, 0)
+            settings = replace(self.settings, subset_limit=0)
+            return self.source(MachineModel(measured), Representation.TF, 0, settings)
 
         return inclusions_under(self.measured, other.measured, profile_of)
-
-    def tells_shares(self, other: "ComparedMachine") -> bool:
-        """No."""
-        return False
 
     def positive(self, other: "ComparedMachine") -> PositiveFinding:
         """Which positive models of the one have a positive equivalent in the other, where generic
@@ -213,27 +142,14 @@ class ComparedMachine:
         """
         return self.answerer(POSITIVELY, (self.measured, other.measured), self.settings)
 
-    @staticmethod
-    def prepare_exact(pairs: Sequence[Pair], ask: Callable[..., Any]) -> None:
+    @classmethod
+    def prepare_exact(cls, pairs: Sequence[Pair], ask: Ask) -> None:
         """Have the exact decisions on pairs of equal rank and degrees computed."""
         ask(EXACTLY, [(a.measured, b.measured) for a, b in pairs if comparable(a, b)])
-
-    @staticmethod
-    def prepare_positive(ways: Sequence[Pair], ask: Callable[..., Any]) -> None:
-        """Nothing is needed."""
-
-    @staticmethod
-    def prepare_admissible(pairs: Sequence[Pair], domain: Domain, ask: Callable[..., Any]) -> None:
-        """Nothing is needed."""
-
-    @staticmethod
-    def all_inclusions(pairs: Sequence[Pair], ask: Callable[..., Any]) -> list[Inclusions]:
-        """One after the other: they cost little."""
-        return [a.inclusions(b) for a, b in pairs]
 
 
 def comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
     """Whether the exact decision is asked: ranks, degrees and dead times are equal."""
-    one, other = (side.sketch(Representation.TF, 0) for side in (left, right))
+    one, other = left.transfer_profile, right.transfer_profile
     times = (side.measured.chain.dead_time for side in (left, right))
     return one.rank == other.rank > 0 and one.degrees == other.degrees and len(set(times)) == 1

@@ -100,7 +100,7 @@ def judged(
         )
         for view in VIEWS
     }
-    asked = [(subject.profiled.model,) for subject in subjects]
+    asked = [(subject.model.model,) for subject in subjects]
     engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
     known = tuple(engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked)
     return JudgedList(models, decided, known)

@@ -16,6 +16,7 @@ from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Role, Stage
+from disting.conditions.side import AnySide
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
 from disting.evidence.kind import Carrier
@@ -25,7 +26,6 @@ from disting.model.domain import Domain
 from disting.model.shown import summary
 from disting.questions.inclusion import Inclusion, Inclusions
 from disting.questions.same.real_and_positive import resting_on
-from disting.verdict.compared import Compared
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 
@@ -65,7 +65,7 @@ class Step:
         return PROVES[self.finding.rule.role].get(self.finding.outcome, Relation.UNDECIDED)
 
 
-def steps(left: Compared, right: Compared, query: Query) -> Iterator[Step]:
+def steps(left: AnySide, right: AnySide, query: Query) -> Iterator[Step]:
     """Yield every condition's finding lazily, in order: representation by representation,
     condition by condition.
     """
@@ -78,7 +78,7 @@ def steps(left: Compared, right: Compared, query: Query) -> Iterator[Step]:
             yield Step(Stage.FIBRE, left.exact(right))
 
 
-def decide(left: Compared, right: Compared, query: Query) -> Verdict:
+def decide(left: AnySide, right: AnySide, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it
     goes on to admissible ones.
     """
@@ -98,7 +98,7 @@ def decide(left: Compared, right: Compared, query: Query) -> Verdict:
     return replace(said, left_positive=found.left_positive, right_positive=found.right_positive)
 
 
-def over_domain(left: Compared, right: Compared, domain: Domain, equal: Verdict | None) -> Finding:
+def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | None) -> Finding:
     """What is found over real or positive parameters, as sure as the verdict over complex ones that
     it rests on; without one, what rests on none.
     """
@@ -129,7 +129,7 @@ def follows(v: Verdict, evidence: Evidence, query: Query) -> bool:
     return at in STAGES[rule.role] and proves and over and at in query.view.representations
 
 
-def _with_shares(verdict: Verdict, left: Compared, right: Compared) -> Verdict:
+def _with_shares(verdict: Verdict, left: AnySide, right: AnySide) -> Verdict:
     """With the positive equivalents of each side whose generic models are models of the other
     side, or limits of them.
     """
@@ -169,7 +169,7 @@ def with_inclusion(
     )
 
 
-def first(left: Compared, right: Compared, found: Iterable[Step]) -> Verdict:
+def first(left: AnySide, right: AnySide, found: Iterable[Step]) -> Verdict:
     """The verdict over complex parameters of the first step that decides; undecided, it names
     what was abandoned.
     """
@@ -191,7 +191,7 @@ def _rule(step: Step) -> str:
     )
 
 
-def audit(left: Compared, right: Compared, query: Query) -> Verdict:
+def audit(left: AnySide, right: AnySide, query: Query) -> Verdict:
     """Run every condition in every representation; raise ContradictionError where two decide
     differently.
     """
@@ -210,7 +210,7 @@ def agreed(left: str, right: str, found: Iterable[Step]) -> None:
 
 
 def undecided(
-    left: Compared, right: Compared, notes: tuple[str, ...], domain: Domain = Domain.COMPLEX
+    left: AnySide, right: AnySide, notes: tuple[str, ...], domain: Domain = Domain.COMPLEX
 ) -> Verdict:
     """The verdict that nothing gives."""
     return Verdict(
@@ -224,7 +224,7 @@ def undecided(
 
 
 def verdict_of(
-    left: Compared, right: Compared, step: Step, domain: Domain = Domain.COMPLEX
+    left: AnySide, right: AnySide, step: Step, domain: Domain = Domain.COMPLEX
 ) -> Verdict:
     """The verdict that a deciding step gives."""
     f = step.finding
@@ -244,8 +244,8 @@ def verdict_of(
 
 def _step(
     condition: Necessary | Sufficient | Structural,
-    left: Compared,
-    right: Compared,
+    left: AnySide,
+    right: AnySide,
     representation: Stage,
     count: int,
 ) -> Iterator[Step]:

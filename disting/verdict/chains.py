@@ -2,27 +2,22 @@
 questions about pairs, each computed once.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
-from disting.algebra.colouring import Colouring, colouring
-from disting.algebra.content import written
-from disting.algebra.sampling import prime
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
-from disting.behaviour.profile import Profile, profile
-from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.model.chain import Chain, Premise
 from disting.model.domain import Domain
 from disting.model.minors import embeddings
-from disting.model.question import Answerer, Question, computed
-from disting.model.settings import Settings
+from disting.model.question import Question
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
@@ -53,46 +48,29 @@ from disting.questions.same.real_and_positive import (
     real_finding,
     witness_ways,
 )
-from disting.verdict.compared import Ask
 
 EXACTLY = Question("exact decisions", exact_finding, Finding.to_json, Finding.from_json)
-Profiles = Callable[[ChainModel, Representation, int, Settings], Profile]
 Pair = tuple["ComparedChain", "ComparedChain"]
 
 
 @dataclass(frozen=True)
-class ComparedChain:
-    """`source` yields profiles, `answerer` answers about pairs; a cache may stand in for both."""
-
-    name: str
-    chain: Chain
-    settings: Settings = field(default_factory=Settings)
-    source: Profiles = profile
-    answerer: Answerer = computed
-    _known: dict[tuple[Representation, int], Profile] = field(
-        default_factory=dict, init=False, repr=False, compare=False
-    )
-
-    def profile(self, representation: Representation, count: int) -> Profile:
-        """Profile of the canonical form, which all symmetric chains share."""
-        if (representation, count) not in self._known:
-            found = self.source(self.profiled, representation, count, self.settings)
-            self._known[representation, count] = found
-        return self._known[representation, count]
-
-    def sketch(self, representation: Representation, count: int) -> Profile:
-        """The profile: it costs little."""
-        return self.profile(representation, count)
+class ComparedChain(Side[Chain]):
+    """A chain; profiles are those of the canonical form, which all symmetric chains share."""
 
     @property
-    def transfer_profile(self) -> Profile:
-        """That of the transfer function."""
-        return self.profile(Representation.TF, 0)
+    def model(self) -> ChainModel:
+        """The chain as it is."""
+        return ChainModel(self.chain.structure)
 
     @property
-    def parameters(self) -> tuple[str, ...]:
-        """Names of the parameters."""
-        return self.chain.parameters
+    def profiled(self) -> ChainModel:
+        """The canonical structure."""
+        return ChainModel(self.canonical.chain.structure)
+
+    @property
+    def chain(self) -> Chain:
+        """The chain."""
+        return self.subject
 
     @property
     def structure(self) -> Structure:
@@ -113,39 +91,10 @@ class ComparedChain:
         """Damping and sensor quantity."""
         return self.chain.premise
 
-    @property
-    def n_states(self) -> int:
-        """Order of the transfer function."""
-        return self.chain.structure.n_states
-
-    @property
-    def content(self) -> tuple[str, ...]:
-        """All that verdicts on this chain depend on."""
-        return self.name, written(self.chain)
-
-    @property
-    def profiled(self) -> ChainModel:
-        """The canonical structure."""
-        return ChainModel(self.canonical.chain.structure)
-
-    @property
-    def rank(self) -> int:
-        """Number of determinable parameters."""
-        return self.transfer_profile.rank
-
     @cached_property
     def canonical(self) -> Form:
         """Canonical form under the symmetries of the class."""
         return canonical(self.chain)
-
-    @cached_property
-    def colouring(self) -> Colouring:
-        """Stable colours of the parameters in the transfer-function coefficients."""
-        return colouring(self.columns, ("",) * len(self.chain.parameters))
-
-    def columns(self, point: list[int]) -> tuple[tuple[int, ...], list[tuple[int, ...]]]:
-        """Values and Jacobian columns of the transfer-function coefficients."""
-        return ChainModel(self.chain.structure).columns(point, prime("renaming"))
 
     def symmetry_with(self, other: "ComparedChain") -> Renaming | None:
         """Left to the common canonical form, then back to the right model."""
@@ -234,18 +183,18 @@ class ComparedChain:
         )
         return here, there
 
-    @staticmethod
-    def prepare_exact(pairs: Sequence[Pair], ask: Ask) -> None:
+    @classmethod
+    def prepare_exact(cls, pairs: Sequence[Pair], ask: Ask) -> None:
         """Have the exact decisions on pairs of equal rank computed."""
         ask(EXACTLY, [a.in_order(b) for a, b in pairs if a.rank == b.rank])
 
-    @staticmethod
-    def prepare_positive(ways: Sequence[Pair], ask: Ask) -> None:
+    @classmethod
+    def prepare_positive(cls, ways: Sequence[Pair], ask: Ask) -> None:
         """Have the positive equivalents of the first ones of each pair looked for."""
         ask(POSITIVELY, [_canonical(*way) for way in ways])
 
-    @staticmethod
-    def prepare_admissible(pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
+    @classmethod
+    def prepare_admissible(cls, pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
         """Over real parameters: counts of solutions, and real models without real equivalents,
         the second way where the first finds none.
         """
@@ -260,8 +209,8 @@ class ComparedChain:
             none = {chains for s, chains in asked if not s.answerer(LACKING, chains, s.settings)}
             ways = [(s, way) for s, way in ways if len(way) > k and way[k] in none]
 
-    @staticmethod
-    def all_inclusions(pairs: Sequence[Pair], ask: Ask) -> list[Inclusions]:
+    @classmethod
+    def all_inclusions(cls, pairs: Sequence[Pair], ask: Ask) -> list[Inclusions]:
         """What profiles settle at once, then what has to be asked; each pair of canonical forms
         is looked at once.
         """

@@ -3,13 +3,13 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, shown
 from disting.experiments import Experiment, MeasuredChain
 from disting.general import AnyModel, Model, as_chain
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named, name_of
 from disting.verdict.cascade import Step, steps
-from disting.verdict.compared import Compared
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
@@ -112,8 +112,8 @@ class Sides:
     be known of experiments that tell nothing.
     """
 
-    left: Compared
-    right: Compared
+    left: AnySide
+    right: AnySide
     notes: tuple[str, ...] = ()
 
 
@@ -156,7 +156,7 @@ def both_places(
 
 def _sides(
     left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
-) -> tuple[Compared, Compared]:
+) -> tuple[AnySide, AnySide]:
     """Two chains as chains, whoever names them, whatever else as two general models; by two
     names.
     """

@@ -14,22 +14,22 @@ from numpy.typing import NDArray
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.rule import Rule, Stage
+from disting.conditions.side import AnySide, Ask
 from disting.conditions.table import NECESSARY, STRUCTURAL, SUFFICIENT
 from disting.model.domain import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.cascade import Step, said_of
-from disting.verdict.compared import Ask, Compared
 from disting.verdict.decisions import NUMBERS, STAGES, Decisions, markov_count
 from disting.verdict.query import Query
 from disting.verdict.result import Relation
 
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
-Prefetch = Callable[[Sequence[Compared], Representation, int], None]
+Prefetch = Callable[[Sequence[AnySide], Representation, int], None]
 
 
 def decisions(
-    subjects: Sequence[Compared],
+    subjects: Sequence[AnySide],
     query: Query,
     prefetch: Prefetch,
     ask: Ask,
@@ -66,7 +66,7 @@ def decisions(
     return result
 
 
-def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[Compared, Compared]]:
+def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[AnySide, AnySide]]:
     return [
         (result.subjects[int(i)], result.subjects[int(j)])
         for i, j in zip(*np.nonzero(where), strict=True)

@@ -16,6 +16,7 @@ from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, RULES, Stage
+from disting.conditions.side import AnySide
 from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError
 from disting.evidence.positive import PositiveFinding
@@ -23,8 +24,6 @@ from disting.model.chain import Chain
 from disting.model.shown import Shown, plural, summary
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
 from disting.verdict.cascade import Step, decide, verdict_of
-from disting.verdict.chains import ComparedChain
-from disting.verdict.compared import Compared
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 
@@ -67,7 +66,7 @@ class Decisions(Shown):
     chains, decided as chains; of their pairs all else here is a copy.
     """
 
-    subjects: tuple[Compared, ...]
+    subjects: tuple[AnySide, ...]
     query: Query
     decided_by: Numbers
     representation: Numbers
@@ -112,7 +111,7 @@ class Decisions(Shown):
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
         """The chains that were compared, none where they are general models."""
-        return tuple(s.chain for s in self.subjects if isinstance(s, ComparedChain))
+        return tuple(s.chain for s in self.subjects if s.chain is s.subject)
 
     @property
     def sizes(self) -> list[int]:
@@ -245,7 +244,7 @@ class Decisions(Shown):
         return {NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
 
 
-def markov_count(r: Representation, query: Query, subjects: Sequence[Compared]) -> int:
+def markov_count(r: Representation, query: Query, subjects: Sequence[AnySide]) -> int:
     """Markov parameters after G_0: as asked, or twice the number of states of the largest
     model, enough for every pair.
     """

@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 from disting.algebra.content import written
 from disting.behaviour.profile import Profile, profile, profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
+from disting.conditions.side import AnySide
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.general import AnyModel, ComparedModel
 from disting.model.chain import Chain
@@ -32,7 +33,6 @@ from disting.store.code import digest
 from disting.store.store import Store
 from disting.verdict.cascade import audit, decide
 from disting.verdict.chains import ComparedChain
-from disting.verdict.compared import Compared
 from disting.verdict.deciding import decisions
 from disting.verdict.decisions import Decisions, Part
 from disting.verdict.query import Query
@@ -65,23 +65,11 @@ class Engine:
 
     def subject(self, name: str, chain: Chain) -> ComparedChain:
         """A side of a comparison whose profiles come from this engine."""
-        return ComparedChain(
-            name=name,
-            chain=chain,
-            settings=self.settings,
-            source=self.profile,
-            answerer=self.answer,
-        )
+        return ComparedChain(name, chain, self.settings, self.profile, self.answer)
 
     def general_subject(self, name: str, model: AnyModel) -> ComparedModel:
         """The same for a general model."""
-        return ComparedModel(
-            name=name,
-            model=model,
-            settings=self.settings,
-            source=self.profile,
-            answerer=self.answer,
-        )
+        return ComparedModel(name, model, self.settings, self.profile, self.answer)
 
     def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
         """The same for a chain under several experiments."""
@@ -114,7 +102,7 @@ class Engine:
         self.answers[question_key(question, models, self.settings)] = answer
 
     def verdict(
-        self, left: Compared, right: Compared, query: Query, *, audited: bool = False
+        self, left: AnySide, right: AnySide, query: Query, *, audited: bool = False
     ) -> Verdict:
         """The verdict on a pair, from the store or decided and stored; an audited one is always
         computed.
@@ -131,7 +119,7 @@ class Engine:
 
     def decisions(
         self,
-        subjects: Sequence[Compared],
+        subjects: Sequence[AnySide],
         query: Query,
         *,
         executor: Executor | None = None,
@@ -141,7 +129,7 @@ class Engine:
         asked for. Models that are chains are compared as chains with each other.
         """
 
-        def prefetch(wanted: Sequence[Compared], r: Representation, count: int) -> None:
+        def prefetch(wanted: Sequence[AnySide], r: Representation, count: int) -> None:
             """Have the profiles of these models computed, many at a time."""
             self.prefetch({s.profiled for s in wanted}, r, count, executor, progress)
 
@@ -152,7 +140,7 @@ class Engine:
         chains = {
             place: self.subject(s.name, s.chain)
             for place, s in enumerate(subjects)
-            if isinstance(s, ComparedModel) and s.chain is not None
+            if s.chain is not None and s.chain is not s.subject
         }
         if len(chains) < 2:
             return decisions(subjects, query, prefetch, ask)

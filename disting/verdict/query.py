@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.conditions.rule import RULES, Rule, Stage
+from disting.conditions.side import AnySide
 from disting.errors import InputError
 from disting.model.domain import Domain
-from disting.verdict.compared import Compared
 
 ALL_CONDITIONS = tuple(name for name, rule in RULES.items() if rule.is_condition)
 
@@ -92,7 +92,7 @@ class Query:
         """
         return self.inclusion and Stage.FIBRE in self.view.representations
 
-    def count(self, left: Compared, right: Compared) -> int:
+    def count(self, left: AnySide, right: AnySide) -> int:
         """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are
         exhaustive.
         """

@@ -5,6 +5,13 @@ one of larger rank.
 `finding` holds what is found and its text form, `confirmation` checks it again.
 """
 
+from disting.conditions.inclusion import ONE_SIDED as ONE_SIDED
+from disting.conditions.inclusion import Inclusion as Inclusion
+from disting.conditions.inclusion import InclusionFinding as InclusionFinding
+from disting.conditions.inclusion import Inclusions as Inclusions
+from disting.conditions.inclusion import Sense as Sense
+from disting.conditions.inclusion import inclusions_from_dict as inclusions_from_dict
+from disting.conditions.inclusion import inclusions_to_dict as inclusions_to_dict
 from disting.questions.inclusion.confirmation import confirms as confirms
 from disting.questions.inclusion.decide import CLOSURE as CLOSURE
 from disting.questions.inclusion.decide import IDEALS as IDEALS
@@ -18,10 +25,3 @@ from disting.questions.inclusion.decide import joined as joined
 from disting.questions.inclusion.decide import needs_ideals as needs_ideals
 from disting.questions.inclusion.decide import quick_closure as quick_closure
 from disting.questions.inclusion.decide import turned as turned
-from disting.questions.inclusion.finding import ONE_SIDED as ONE_SIDED
-from disting.questions.inclusion.finding import Inclusion as Inclusion
-from disting.questions.inclusion.finding import InclusionFinding as InclusionFinding
-from disting.questions.inclusion.finding import Inclusions as Inclusions
-from disting.questions.inclusion.finding import Sense as Sense
-from disting.questions.inclusion.finding import inclusions_from_dict as inclusions_from_dict
-from disting.questions.inclusion.finding import inclusions_to_dict as inclusions_to_dict

@@ -28,6 +28,7 @@ from disting.algebra.certainty import Certainty
 from disting.algebra.sampling import about
 from disting.behaviour.powers import degrees
 from disting.behaviour.sample import Representation
+from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
@@ -42,7 +43,6 @@ from disting.model.family import Family
 from disting.model.row import Row, canonical_rows
 from disting.model.settings import Settings
 from disting.model.symmetry import canonical
-from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 from disting.questions.inclusion.limit_fibre import contained
 from disting.questions.inclusion.limits import follows, reached
 from disting.questions.inclusion.meeting import room

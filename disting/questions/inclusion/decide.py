@@ -23,6 +23,15 @@ from dataclasses import replace
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
+from disting.conditions.inclusion import (
+    Inclusion,
+    InclusionFinding,
+    Inclusions,
+    inclusion_from_json,
+    inclusion_to_json,
+    inclusions_from_json,
+    inclusions_to_json,
+)
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import RowsInside
@@ -38,15 +47,6 @@ from disting.model.question import Membership, Question
 from disting.model.settings import Settings
 from disting.questions.inclusion.across_sizes import by_computing, by_sizes
 from disting.questions.inclusion.closures import of_closure
-from disting.questions.inclusion.finding import (
-    Inclusion,
-    InclusionFinding,
-    Inclusions,
-    inclusion_from_json,
-    inclusion_to_json,
-    inclusions_from_json,
-    inclusions_to_json,
-)
 from disting.questions.inclusion.image import of_image
 from disting.questions.inclusion.missing_elements import by_elements
 from disting.questions.inclusion.profiles import by_profiles

@@ -21,6 +21,7 @@ from math import ceil, log2
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.behaviour.powers import powers
+from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.ideals import Refuted
 from disting.fibres.ideals import Limits, decide, normalised, refuted_by_rows
 from disting.fibres.synthesis.decide import (
@@ -32,7 +33,6 @@ from disting.fibres.synthesis.decide import (
 from disting.model.chain import Chain
 from disting.model.question import Membership
 from disting.model.settings import Settings
-from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 from disting.questions.inclusion.profiles import by_relative_degrees
 from disting.questions.same.exact import rational_part
 

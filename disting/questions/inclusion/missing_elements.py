@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from itertools import product
 
 from disting.algebra.certainty import Certainty
+from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.limits import LargerProjection, MissingElements
 from disting.model.chain import Chain
 from disting.model.minors import is_minor, minors
-from disting.questions.inclusion.finding import Inclusion, InclusionFinding
 
 Ports = tuple[tuple[int, int], ...]
 """(node of the whole, node of the part)."""

@@ -9,6 +9,7 @@ from itertools import product
 import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
+from disting.conditions.inclusion import inclusion_from_json, inclusion_to_json
 from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
@@ -22,7 +23,6 @@ from disting.evidence.ideals import Solved
 from disting.model.symmetry import canonical
 from disting.questions.inclusion import Sense, confirms, inclusions
 from disting.questions.inclusion.across_sizes import by_sizes, exceeds, included, twins
-from disting.questions.inclusion.finding import inclusion_from_json, inclusion_to_json
 from disting.questions.inclusion.limit_fibre import tells
 from disting.questions.inclusion.limits import is_limit
 from disting.questions.inclusion.meeting import least_rank, most_rank
