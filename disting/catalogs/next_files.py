@@ -31,8 +31,9 @@ from disting.model.family import Family
 from disting.model.kinds import KINDS, Kind
 from disting.model.shown import plural, summary
 from disting.verdict import Engine, Progress, View, silent
+from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.further import Further, further
-from disting.verdict.placed import NOT_KNOWN, TESTS, Placed
+from disting.verdict.placed import TESTS, Placed
 
 SCHEMA = 1
 SHIPPED_SIZES = (2, 3, 4, 5)

@@ -23,6 +23,7 @@ from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
 from disting.model.shown import Shown, plural, summary
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
+from disting.verdict.buckets import Buckets
 from disting.verdict.cascade import Step, decide, verdict_of
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
@@ -224,12 +225,11 @@ class Decisions(Shown):
         That is transitive over every domain (see `catalogs.catalog`), so an undecided pair of one
         group is none; raises ContradictionError where the verdicts contradict it.
         """
-        import networkx as nx
-
-        graph: nx.Graph[int] = nx.Graph()
-        pairs = list(combinations(range(len(self.subjects)), 2))
-        graph.add_edges_from(p for p in pairs if self.relation(*p) is Relation.INDISTINGUISHABLE)
-        groups = sorted(tuple(sorted(members)) for members in nx.connected_components(graph))
+        known = Buckets.of(self.subjects, tests=0)
+        for i, j in combinations(range(len(self.subjects)), 2):
+            if self.relation(i, j) is Relation.INDISTINGUISHABLE:
+                known.unite(i, j)
+        groups = [members for members in known.classes() if len(members) > 1]
         for i, j in (pair for members in groups for pair in combinations(members, 2)):
             if self.relation(i, j) in (Relation.DISTINGUISHABLE, Relation.SOMETIMES):
                 names = self.subjects[i].name, self.subjects[j].name

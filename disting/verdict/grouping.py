@@ -18,7 +18,6 @@ a pair rests on as many steps as link its two models to their representatives, a
 error is bounded by that many times 2^-LEAST_SAFETY.
 """
 
-from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
@@ -31,13 +30,13 @@ from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
-from disting.conditions.sufficient import condition_6
-from disting.conditions.table import NECESSARY, Necessary
+from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
 from disting.model.protocol import Model
 from disting.model.question import Question
 from disting.questions.same.limited import INVERSELY, QUICKLY
+from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.chains import ComparedChain
 from disting.verdict.classes import Classes, without_dampers
 from disting.verdict.engine import Engine, Progress, silent
@@ -73,15 +72,15 @@ def classes(
     count = 2 * max(s.chain.structure.n_states for s in work.subjects)
     everyone = range(len(work.subjects))
     profiles = work.profiles(everyone, Representation.TF, 0, executor, progress)
-    work.split_by(profiles, NECESSARY, 0)
+    work.known.split(profiles, NECESSARY, 0)
     work.link(profiles)
     several = [
         i
-        for bucket in work.buckets(everyone)
+        for bucket in work.known.shared(everyone)
         for i in bucket
         if len(bucket) > 1 and work.free[i] < 0
     ]
-    work.split_by(
+    work.known.split(
         work.profiles(several, Representation.MARKOV, count, executor, progress),
         OF_MARKOV,
         len(NECESSARY),
@@ -95,19 +94,16 @@ def classes(
 
 @dataclass
 class _Work:
-    """Canonical subjects, what is known of each, and the classes found so far (a forest of
-    parents).
-    """
+    """Canonical subjects in buckets and classes, and what else is known of each."""
 
     engine: Engine
     subjects: list[ComparedChain]
     place: list[int]
-    columns: list[list[int]]
-    parent: list[int]
+    known: Buckets
     renamed: list[int]
     free: list[int]
+    unions: dict[tuple[Chain, frozenset[int]], int]
     refuted: set[tuple[int, int]] = field(default_factory=set)
-    unions: dict[tuple[Chain, frozenset[int]], int] = field(default_factory=dict)
 
     @staticmethod
     def of(chains: Sequence[Chain], engine: Engine) -> "_Work":
@@ -121,10 +117,10 @@ class _Work:
             (without_dampers(c), frozenset(c.ground_dampers)): i
             for c, i in zip(chains, place, strict=True)
         }
-        empty = [[-1] * len(TESTS) for _ in range(n)]
-        return _Work(
-            engine, subjects, place, empty, list(range(n)), list(range(n)), [-1] * n, unions=unions
-        )
+        # the model with the fewest dampers represents a class
+        order = [(len(c.ground_dampers), c.indices, i) for c, i in numbers.items()]
+        known = Buckets.of(subjects, len(TESTS), order.__getitem__)
+        return _Work(engine, subjects, place, known, list(range(n)), [NOT_KNOWN] * n, unions)
 
     def profiles(
         self,
@@ -140,88 +136,46 @@ class _Work:
         self.engine.prefetch(models, r, count, executor, progress)
         return {i: self.subjects[i].profile(r, count) for i in chosen}
 
-    def split_by(
-        self, profiles: dict[int, Profile], conditions: Iterable[Necessary], first: int
-    ) -> None:
-        """Columns of necessary conditions, from the `first` one on."""
-        for column, condition in enumerate(conditions, first):
-            self.fill(column, {i: condition.key(p) for i, p in profiles.items()})
-
-    def fill(self, column: int, values: dict[int, Hashable]) -> None:
-        """Bucket numbers in one column; a bucket in which a value is not known is not split."""
-        numbers: dict[Hashable, int] = {}
-        for bucket in self.buckets(values):
-            if not any(isinstance(values[i], Unsearched) for i in bucket):
-                for i in bucket:
-                    self.columns[i][column] = numbers.setdefault(values[i], len(numbers))
-
-    def buckets(self, chosen: Iterable[int]) -> list[list[int]]:
-        """The chosen subjects by all columns."""
-        found: dict[tuple[int, ...], list[int]] = defaultdict(list)
-        for i in chosen:
-            found[tuple(self.columns[i])].append(i)
-        return list(found.values())
-
     def link(self, profiles: dict[int, Profile]) -> None:
         """Free choice, and sets of ground dampers in one another."""
-        for number, bucket in enumerate(self.buckets(profiles)):
+        for number, bucket in enumerate(self.known.shared(profiles)):
             first = profiles[bucket[0]]
             if first.rank == len(first.form) and len({profiles[i].constants for i in bucket}) == 1:
                 for i in bucket:
                     self.free[i] = number
-                    self.unite(bucket[0], i)
+                    self.known.unite(bucket[0], i)
         for (base, masses), i in self.unions.items():
             for more in range(1, base.n_masses + 1):
                 j = self.unions.get((base, masses | {more}), i)
                 if profiles[i].rank == profiles[j].rank:
-                    self.unite(i, j)
+                    self.known.unite(i, j)
 
     def rename(self) -> None:
         """Renamings inside buckets: those by symmetry are one canonical form already."""
-        for bucket in self.buckets(range(len(self.subjects))):
-            prints: dict[str, int] = {}
-            for i in bucket if len(bucket) > 1 else []:
-                first = prints.setdefault(self.subjects[i].colouring.fingerprint, i)
-                if (
-                    first != i
-                    and condition_6(self.subjects[first], self.subjects[i], True).outcome
-                    is Outcome.HOLDS
-                ):
-                    self.renamed[i] = first
-                    self.unite(first, i)
-
-    def root(self, i: int) -> int:
-        """Representative of a class."""
-        while self.parent[i] != i:
-            self.parent[i] = self.parent[self.parent[i]]
-            i = self.parent[i]
-        return i
-
-    def unite(self, i: int, j: int) -> None:
-        """Make one class of two; the model with the fewest dampers represents it."""
-        a, b = self.root(i), self.root(j)
-        keys = {
-            k: (len(self.subjects[k].chain.ground_dampers), self.subjects[k].chain.indices, k)
-            for k in (a, b)
-        }
-        low, high = sorted((a, b), key=keys.__getitem__)
-        self.parent[high] = low
+        for bucket in self.known.shared(range(len(self.subjects))):
+            for first, i in self.known.renamed(bucket):
+                self.renamed[i] = first
+                self.known.unite(first, i)
 
     def open_pairs(self) -> list[tuple[int, int]]:
         """Pairs of representatives that share all columns and are not refuted."""
-        roots = [i for i in range(len(self.subjects)) if self.root(i) == i]
-        apart = {_sorted(self.root(a), self.root(b)) for a, b in self.refuted}
+        roots = [i for i in range(len(self.subjects)) if self.known.root(i) == i]
+        apart = {_sorted(self.known.root(a), self.known.root(b)) for a, b in self.refuted}
         pairs = (
-            _sorted(i, j) for bucket in self.buckets(roots) for i, j in combinations(bucket, 2)
+            _sorted(i, j) for bucket in self.known.shared(roots) for i, j in combinations(bucket, 2)
         )
         return [pair for pair in pairs if pair not in apart]
 
     def finished(self, chains: Sequence[Chain]) -> Classes:
         """What was found, for the chains as given."""
-        told = {i: self.columns[i][:-1] for i in range(len(self.subjects))}
-        apart = [*self.refuted, *((i, self.root(i)) for i in told if told[i] != told[self.root(i)])]
+        columns, root = self.known.columns, self.known.root
+        told = {i: columns[i][:-1] for i in range(len(self.subjects))}
+        apart = [
+            *self.refuted,
+            *((i, root(i)) for i in told if told[i] != told[root(i)]),
+        ]
         for a, b in apart:
-            if self.root(a) == self.root(b):
+            if root(a) == root(b):
                 raise ContradictionError(
                     f"one class holds {self.subjects[a].chain} and {self.subjects[b].chain}"
                 )
@@ -229,8 +183,8 @@ class _Work:
         return Classes(
             chains=tuple(chains),
             tests=TESTS,
-            columns=np.array([self.columns[self.root(i)] for i in at], np.int32),
-            group=np.array([self.root(i) for i in at], np.int32),
+            columns=np.array([columns[root(i)] for i in at], np.int32),
+            group=np.array([root(i) for i in at], np.int32),
             renamed=np.array([self.renamed[i] for i in at], np.int32),
             free=np.array([self.free[i] for i in at], np.int32),
             rank=np.array([self.subjects[i].rank for i in at], np.int32),
@@ -249,7 +203,7 @@ def _invert(work: _Work, executor: Executor | None, progress: Progress) -> None:
     values: dict[int, Hashable] = {}
     for i, p in zip(wanted, found, strict=True):
         values[i] = p.matroid if isinstance(p.matroid, Unsearched) else (p.form, p.rank, p.matroid)
-    work.fill(len(TESTS) - 1, values)
+    work.known.fill(len(TESTS) - 1, values)
 
 
 def _decide(
@@ -263,7 +217,7 @@ def _decide(
         found = work.engine.answer(question, chains, work.engine.settings)
         sure = found.certainty is not Certainty.NUMERICAL
         if sure and found.outcome is Outcome.HOLDS:
-            work.unite(i, j)
+            work.known.unite(i, j)
         elif sure and found.outcome is Outcome.FAILS:
             work.refuted.add((i, j))
 

@@ -12,6 +12,7 @@ from disting.conditions.table import NECESSARY
 from disting.experiments.menu import Gain
 from disting.model.kinds import Kind
 from disting.model.shown import plural, summary
+from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.everywhere import Answer
 from disting.verdict.result import Relation
 
@@ -20,7 +21,6 @@ Spot = tuple[int, int]
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
-NOT_KNOWN = -1
 
 
 @dataclass(frozen=True)

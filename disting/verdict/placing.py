@@ -19,19 +19,18 @@ looked at where a bucket decides:
 All of it is over generic complex parameters: what is told apart there is so over positive ones.
 """
 
-from collections import defaultdict
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from math import ceil, log2
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.content import written
-from disting.behaviour.profile import Profile, Unsearched
+from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import FREE_CHOICE, RENAMING
-from disting.conditions.sufficient import condition_6, condition_7
+from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.experiments.equal_machines import standard
@@ -40,8 +39,9 @@ from disting.experiments.menu import Gain, Item, gain, measured
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
 from disting.questions.same.exact import resting_on_ranks
+from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.placed import NOT_KNOWN, REPEATS, TESTS, Placed
+from disting.verdict.placed import REPEATS, TESTS, Placed
 
 
 def placed(
@@ -59,8 +59,7 @@ def placed(
     new = [s for s, g in enumerate(work.gains) if g is Gain.NEW]
     engine.prefetch({work.sides[s].profiled for s in new}, Representation.TF, 0, executor, progress)
     profiles = {s: work.sides[s].profile(Representation.TF, 0) for s in new}
-    for column, condition in enumerate(NECESSARY, 1):
-        work.fill(column, {s: condition.key(p) for s, p in profiles.items()})
+    work.known.split(profiles, NECESSARY, 1)
     work.safeties += [p.safety for p in profiles.values()]
     work.join_known(profiles)
     work.decide(profiles, executor, progress)
@@ -69,15 +68,14 @@ def placed(
 
 @dataclass
 class _Work:
-    """All spots, and what is known of them so far: columns, and a forest of parents."""
+    """All spots in buckets and classes, and what else is known of them so far."""
 
     kind: Kind
     engine: Engine
     n_masses: int
     sides: list[ComparedMachine]
     gains: list[Gain]
-    columns: list[list[int]]
-    parent: list[int]
+    known: Buckets
     links: list[str]
     open: set[tuple[int, int]] = field(default_factory=set)
     apart: set[tuple[int, int]] = field(default_factory=set)
@@ -98,9 +96,11 @@ class _Work:
                 found = gain(chain, item)
                 gains.append(found or Gain.NEW)
                 firsts.append(NOT_KNOWN if found is None else list(Gain).index(found))
-        columns = [[first, *[NOT_KNOWN] * (len(TESTS) - 1)] for first in firsts]
         size = len(sides)
-        work = _Work(kind, engine, n, sides, gains, columns, list(range(size)), [""] * size)
+        buckets = Buckets.of(sides, len(TESTS))
+        for row, first in zip(buckets.columns, firsts, strict=True):
+            row[0] = first
+        work = _Work(kind, engine, n, sides, gains, buckets, [""] * size)
         for same in (Gain.REPEATS, Gain.SILENT):
             alike = [s for s in range(size) if gains[s] is same]
             for s in alike[1:]:
@@ -109,45 +109,27 @@ class _Work:
             work.open |= {(alike[0], s) for s in range(size) if alike and firsts[s] == NOT_KNOWN}
         return work
 
-    def fill(self, column: int, values: dict[int, Hashable]) -> None:
-        """Numbers of buckets; a bucket in which a value is not known is not split."""
-        numbers: dict[Hashable, int] = {}
-        for bucket in self.buckets(values):
-            if not any(isinstance(values[s], Unsearched) for s in bucket):
-                for s in bucket:
-                    self.columns[s][column] = numbers.setdefault(values[s], len(numbers))
-
-    def buckets(self, chosen: Iterable[int]) -> list[list[int]]:
-        """The chosen spots by all columns."""
-        found: dict[tuple[int, ...], list[int]] = defaultdict(list)
-        for s in chosen:
-            found[tuple(self.columns[s])].append(s)
-        return list(found.values())
-
     def asked(self, chosen: Iterable[int]) -> list[list[int]]:
         """Roots by buckets, where those hold more than one structure."""
         found = []
-        for bucket in self.buckets(chosen):
+        for bucket in self.known.shared(chosen):
             if len({s // self.n_masses for s in bucket}) > 1:
-                roots = list(dict.fromkeys(map(self.root, bucket)))
+                roots = list(dict.fromkeys(map(self.known.root, bucket)))
                 found += [roots] if len(roots) > 1 else []
         return found
 
     def join_known(self, profiles: dict[int, Profile]) -> None:
         """Free choice and renamings."""
         for bucket in self.asked(profiles):
-            prints: dict[str, int] = {}
-            for s in bucket:
-                if condition_7(profiles[bucket[0]], profiles[s]).outcome is Outcome.HOLDS:
-                    self.unite(bucket[0], s, FREE_CHOICE.name)
-                    continue
-                first = prints.setdefault(self.sides[s].colouring.fingerprint, s)
-                if first != s and self._is_renamed(first, s):
-                    self.unite(first, s, RENAMING.name)
+            free = [s for s in bucket if self._is_free(profiles[bucket[0]], profiles[s])]
+            for s in free:
+                self.unite(bucket[0], s, FREE_CHOICE.name)
+            for first, s in self.known.renamed([s for s in bucket if s not in free]):
+                self.unite(first, s, RENAMING.name)
 
-    def _is_renamed(self, first: int, s: int) -> bool:
-        here, there = self.sides[first], self.sides[s]
-        return here is there or condition_6(here, there, True).outcome is Outcome.HOLDS
+    @staticmethod
+    def _is_free(one: Profile, other: Profile) -> bool:
+        return condition_7(one, other).outcome is Outcome.HOLDS
 
     def decide(
         self, profiles: dict[int, Profile], executor: Executor | None, progress: Progress
@@ -169,7 +151,7 @@ class _Work:
                     (self.apart if found.outcome is Outcome.FAILS else self.open).add((a, b))
                 if found.certainty is Certainty.BOUNDED:
                     self.safeties.append(found.safety)
-            rest = [[s for s in bucket[1:] if self.root(s) == s] for bucket in rounds]
+            rest = [[s for s in bucket[1:] if self.known.root(s) == s] for bucket in rounds]
             rounds = [b for b in rest if len({s // self.n_masses for s in self._members(b)}) > 1]
 
     def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
@@ -179,27 +161,21 @@ class _Work:
 
     def _members(self, roots: Iterable[int]) -> list[int]:
         chosen = set(roots)
-        return [s for s in range(len(self.sides)) if self.root(s) in chosen]
-
-    def root(self, s: int) -> int:
-        """Representative of a class."""
-        while self.parent[s] != s:
-            s = self.parent[s]
-        return s
+        return [s for s in range(len(self.sides)) if self.known.root(s) in chosen]
 
     def unite(self, first: int, s: int, rule: str = "") -> None:
         """One class of two, for this reason; by the exact decision where none is named."""
-        a, b = self.root(first), self.root(s)
-        self.parent[max(a, b)] = min(a, b)
+        self.known.unite(first, s)
         if rule:
             self.links[first] = self.links[s] = f"{rule}/{first}"
 
     def finished(self) -> Placed:
         """What was found; classes are numbered as they come."""
-        roots = [self.root(s) for s in range(len(self.sides))]
+        root = self.known.root
+        roots = [root(s) for s in range(len(self.sides))]
         number = {r: k for k, r in enumerate(dict.fromkeys(roots))}
         kept, apart = (
-            {tuple(sorted((number[self.root(a)], number[self.root(b)]))) for a, b in pairs}
+            {tuple(sorted((number[root(a)], number[root(b)]))) for a, b in pairs}
             for pairs in (self.open, self.apart)
         )
         lost = ceil(log2(len(self.safeties))) if self.safeties else 0
@@ -207,7 +183,7 @@ class _Work:
             self.kind,
             self.n_masses,
             tuple(self.gains),
-            tuple(map(tuple, self.columns)),
+            tuple(map(tuple, self.known.columns)),
             tuple(number[r] for r in roots),
             tuple(self.links),
             frozenset((a, b) for a, b in kept - apart if a != b),

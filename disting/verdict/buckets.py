@@ -1,0 +1,92 @@
+"""Models in buckets by what is known of each, and in classes by what is known of pairs.
+
+A necessary condition is a function of one model, so it is a column of bucket numbers: models that
+differ in a column are distinguishable. To have equal closures of the image is transitive, so models
+that are the same form classes: a forest of parents.
+"""
+
+from collections import defaultdict
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from disting.behaviour.profile import Profile, Unsearched
+from disting.conditions.finding import Outcome
+from disting.conditions.side import AnySide
+from disting.conditions.sufficient import condition_6
+from disting.conditions.table import Necessary
+
+NOT_KNOWN = -1
+
+
+@dataclass
+class Buckets:
+    """`columns[i][t]`: bucket of model i in test t, NOT_KNOWN where it is not known; `order`: the
+    first of a class represents it.
+    """
+
+    sides: Sequence[AnySide]
+    columns: list[list[int]]
+    parent: list[int]
+    order: Callable[[int], object]
+
+    @staticmethod
+    def of(
+        sides: Sequence[AnySide], tests: int, order: Callable[[int], object] = lambda i: i
+    ) -> "Buckets":
+        """Nothing is known yet."""
+        n = len(sides)
+        return Buckets(sides, [[NOT_KNOWN] * tests for _ in range(n)], list(range(n)), order)
+
+    def split(
+        self, profiles: Mapping[int, Profile], conditions: Iterable[Necessary], first: int
+    ) -> None:
+        """Columns of necessary conditions, from the `first` one on."""
+        for column, condition in enumerate(conditions, first):
+            self.fill(column, {i: condition.key(p) for i, p in profiles.items()})
+
+    def fill(self, column: int, values: Mapping[int, Hashable]) -> None:
+        """Bucket numbers in one column; a bucket in which a value is not known is not split."""
+        numbers: dict[Hashable, int] = {}
+        for bucket in self.shared(values):
+            if not any(isinstance(values[i], Unsearched) for i in bucket):
+                for i in bucket:
+                    self.columns[i][column] = numbers.setdefault(values[i], len(numbers))
+
+    def shared(self, chosen: Iterable[int]) -> list[list[int]]:
+        """The chosen models by all columns."""
+        found: dict[tuple[int, ...], list[int]] = defaultdict(list)
+        for i in chosen:
+            found[tuple(self.columns[i])].append(i)
+        return list(found.values())
+
+    def root(self, i: int) -> int:
+        """Representative of a class."""
+        while self.parent[i] != i:
+            self.parent[i] = self.parent[self.parent[i]]
+            i = self.parent[i]
+        return i
+
+    def unite(self, i: int, j: int) -> None:
+        """Make one class of two."""
+        low, high = sorted((self.root(i), self.root(j)), key=self.order)  # type: ignore[arg-type]
+        self.parent[high] = low
+
+    def classes(self) -> list[tuple[int, ...]]:
+        """The members of every class, classes in the order of their first ones."""
+        found: dict[int, list[int]] = defaultdict(list)
+        for i in range(len(self.parent)):
+            found[self.root(i)].append(i)
+        return sorted(map(tuple, found.values()))
+
+    def renamed(self, bucket: Sequence[int]) -> Iterator[tuple[int, int]]:
+        """Yield pairs of models of one bucket that are renamings of each other: models of equal
+        colours are looked at, each beside the first of them.
+        """
+        prints: dict[str, int] = {}
+        for i in bucket if len(bucket) > 1 else ():
+            first = prints.setdefault(self.sides[i].colouring.fingerprint, i)
+            one, other = self.sides[first], self.sides[i]
+            if first != i and (
+                one is other or condition_6(one, other, True).outcome is Outcome.HOLDS
+            ):
+                yield first, i
