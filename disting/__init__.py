@@ -40,9 +40,9 @@ if TYPE_CHECKING:
     from disting.general import write_models as write_models
     from disting.model.chain import Chain as Chain
     from disting.model.chain import Sensor as Sensor
-    from disting.model.domain import Domain as Domain
     from disting.model.family import Family as Family
-    from disting.model.settings import Settings as Settings
+    from disting.model.question import Domain as Domain
+    from disting.model.question import Settings as Settings
     from disting.model.symmetry import Symmetry as Symmetry
     from disting.questions.identifiability import Identifiability as Identifiability
     from disting.questions.identifiability import Level as Level
@@ -61,9 +61,9 @@ if TYPE_CHECKING:
     from disting.verdict import View as View
     from disting.verdict.comparison import compare as compare
     from disting.verdict.comparison import findings as findings
+    from disting.verdict.comparison import identifiability as identifiability
     from disting.verdict.everywhere import compare_everywhere as compare_everywhere
-    from disting.verdict.everywhere_file import everywhere_file as everywhere_file
-    from disting.verdict.identifiable import identifiability as identifiability
+    from disting.verdict.everywhere import everywhere_file as everywhere_file
     from disting.verdict.proof import prove as prove
     from disting.verdict.verdict_file import verdict_file as verdict_file
     from disting.verdict.verification import Verification as Verification
@@ -83,18 +83,15 @@ _NAMES = {
     "disting.general": "Alternatives MatrixModel Model ModelList alternatives"
     " global_identifiability local_identifiability read_models write_models",
     "disting.model.chain": "Chain Sensor",
-    "disting.model.domain": "Domain",
     "disting.model.family": "Family",
-    "disting.model.settings": "Settings",
+    "disting.model.question": "Domain Settings",
     "disting.model.symmetry": "Symmetry",
     "disting.questions.identifiability": "Identifiability Level ParameterIdentifiability",
     "disting.questions.inclusion": "Inclusion",
     "disting.store": "CacheWarning Store",
     "disting.verdict": "Decisions Engine Query Relation Step Verdict View",
-    "disting.verdict.comparison": "compare findings",
-    "disting.verdict.everywhere": "compare_everywhere",
-    "disting.verdict.everywhere_file": "everywhere_file",
-    "disting.verdict.identifiable": "identifiability",
+    "disting.verdict.comparison": "compare findings identifiability",
+    "disting.verdict.everywhere": "compare_everywhere everywhere_file",
     "disting.verdict.proof": "prove",
     "disting.verdict.verdict_file": "verdict_file",
     "disting.verdict.verification": "Verification verify",

@@ -19,7 +19,7 @@ from disting.algebra.sampling import SEARCH_BITS, Size, enough, safety
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Drawn, Representation, Sample, drawn, samples, seen_at
 from disting.model.protocol import Model
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.structure import Structure
 
 REMEMBERED = 64

@@ -17,8 +17,8 @@ from disting.catalogs.files import (
 )
 from disting.conditions.rule import Stage
 from disting.files import write_whole
-from disting.model.domain import Domain
 from disting.model.family import Family
+from disting.model.question import Domain
 from disting.questions.identifiability import Identifiability
 from disting.questions.inclusion import inclusions_to_dict
 from disting.verdict import (

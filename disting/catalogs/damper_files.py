@@ -24,7 +24,7 @@ from disting.conditions.rule import EXACT
 from disting.errors import CatalogError
 from disting.files import intact_text, write_whole
 from disting.model.family import Family
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.verdict.classes import Classes
 
 SCHEMA = 1

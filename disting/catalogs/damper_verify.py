@@ -13,7 +13,7 @@ from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import name_of, read, text_of, was_patient
 from disting.catalogs.damper_settled import append, read_settled
 from disting.conditions.finding import Outcome
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.limited import sharing_finding

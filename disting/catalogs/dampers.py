@@ -16,7 +16,7 @@ from itertools import combinations
 from disting.catalogs.export import premise_text
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.model.shown import plural, summary
 from disting.verdict import Decisions, Engine, Progress, Query, Relation, Verdict, View, silent
 

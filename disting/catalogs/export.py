@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from disting.algebra.certainty import Certainty
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Premise
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.schemas import Format
 from disting.verdict import Decisions, Relation, error_bound, family_safety

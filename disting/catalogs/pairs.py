@@ -14,7 +14,7 @@ from disting.conditions.rule import RULES, Role, Stage
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Premise
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, inclusions_from_dict
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
 from disting.verdict import Relation, Step, Verdict, View, open_note

@@ -12,10 +12,10 @@ from disting.cli.output import written_file, written_folder
 from disting.conditions.rule import RULES
 from disting.errors import shown
 from disting.model.chain import Sensor
-from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
+from disting.model.question import Domain
 
 
 def whole(low: int, high: int = 10**9) -> Callable[[str], int]:

@@ -32,7 +32,7 @@ from disting.general import AnyModel, read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
 from disting.model.names import chains_named, name_of, read
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.verdict import Query, Verdict, View
 from disting.verdict.comparison import compare, names_of
 
@@ -88,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
 
 def file_of(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models, as they are named, with all that its check needs."""
-    from disting.verdict.everywhere_file import everywhere_file
+    from disting.verdict.everywhere import everywhere_file
     from disting.verdict.verdict_file import Stored, as_file, exact, has_more, verdict_file
 
     sides = _sides(texts, options)

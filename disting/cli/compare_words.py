@@ -9,8 +9,8 @@ from disting.errors import InputError, listed
 from disting.experiments import Experiment, MeasuredChain, Places, moved
 from disting.general import AnyModel, MatrixModel, as_chain
 from disting.model.chain import Chain
-from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
+from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict import Relation, Verdict
 from disting.verdict.comparison import names_of

@@ -19,10 +19,10 @@ from disting.cli.relations import relations_in_words
 from disting.cli.workers import engine_for
 from disting.conditions.rule import RULES
 from disting.errors import InputError
-from disting.model.domain import Domain
 from disting.model.drawing import text_drawing
 from disting.model.family import MOST_MASSES, Family
 from disting.model.names import chains_named, extras_of, name_of
+from disting.model.question import Domain
 from disting.verdict import Relation, classes_safety, joint_in_words
 
 SIGNS = {

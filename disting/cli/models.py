@@ -18,7 +18,7 @@ from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain, named
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.general import read_models, unnamed
-from disting.general.parameters import PARAMETERS
+from disting.general.identifiability import PARAMETERS
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.model.kinds import EXAMPLES

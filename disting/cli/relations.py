@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 from disting.conditions.rule import RULES
 from disting.errors import InputError
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.verdict import Query, Relation, View
 
 # bright enough on a dark ground, dark enough on a light one

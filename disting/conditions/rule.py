@@ -8,7 +8,7 @@ how many conditions there are, or in what order.
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 
 class Stage(StrEnum):

@@ -19,10 +19,8 @@ from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Premise
-from disting.model.domain import Domain
 from disting.model.protocol import Columns, Model
-from disting.model.question import Answerer, Models, Question, computed
-from disting.model.settings import Settings
+from disting.model.question import Answerer, Domain, Models, Question, Settings, computed
 from disting.model.structure import Structure
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]

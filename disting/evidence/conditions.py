@@ -7,8 +7,7 @@ from typing import ClassVar, Self
 
 from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind
 from disting.evidence.seen import Labels, SeenPair, spelled
-from disting.model.domain import Domain
-from disting.model.relation import Relation
+from disting.model.question import Domain, Relation
 
 TRANSCENDENTAL = (
     "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"

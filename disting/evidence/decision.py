@@ -5,8 +5,7 @@ from typing import ClassVar
 
 from disting.evidence.conditions import TRANSCENDENTAL
 from disting.evidence.kind import Carrier, Claim, Inside, Kind
-from disting.model.domain import Domain
-from disting.model.relation import Relation
+from disting.model.question import Domain, Relation
 
 THEOREMS = {
     "Foster and Cauer": (

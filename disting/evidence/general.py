@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from disting.evidence.kind import Carrier, Claim, Kind
-from disting.model.domain import Domain
-from disting.model.relation import Relation
+from disting.model.question import Domain, Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
 """Left given; polynomials in its parameters that are positive; values of the other model's

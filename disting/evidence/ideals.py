@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Self, get_args
 
 from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, read
-from disting.model.relation import Relation
+from disting.model.question import Relation
 
 _FULL = "have as many determinable parameters as coefficients ({})"
 _IDEAL = "the ideal of one fibre"

@@ -13,8 +13,7 @@ from types import UnionType
 from typing import Any, ClassVar, Self, Union, get_args, get_origin, get_type_hints
 
 from disting.evidence.seen import SeenPair
-from disting.model.domain import Domain
-from disting.model.relation import Relation
+from disting.model.question import Domain, Relation
 
 GONE = {
     "program": "an external program, which decides nothing now",

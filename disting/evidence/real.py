@@ -8,8 +8,7 @@ from typing import Any, ClassVar, Self
 from disting.evidence.decision import Theorem
 from disting.evidence.kind import Carrier, Claim, Kind
 from disting.evidence.positive import PositiveFinding, Share
-from disting.model.domain import Domain
-from disting.model.relation import Relation
+from disting.model.question import Domain, Relation
 
 Point = tuple[tuple[str, str], ...]  # parameter name, fraction
 _REAL = (Domain.REAL,)

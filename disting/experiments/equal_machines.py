@@ -1,5 +1,7 @@
-"""Measured chains that are one and the same machine: numbered from the other end, or with force and
-sensor exchanged.
+"""Measured chains that show the same for a reason seen at once: because they are one machine, or
+because each of their rows shows the same.
+
+One machine is numbered from the other end, or force and sensor are exchanged.
 
 * Reciprocity. A(s) is symmetric whatever is locked or added, and so is its inverse: a force at one
   place shows at another one what a force there shows here. So force and sensor may be exchanged, in
@@ -12,13 +14,34 @@ Both change names of parameters only, so all transfer functions remain what they
 chains in the form below are the same for all parameters. `model.symmetry` knows more forms of one
 transfer function: those that exchange force and sensor in one row alone do not carry over a
 further experiment.
+
+Two chains with a gap may show the same because each row does. The receptance of a chain with a gap
+is R + F, R of the grounded and F of the free row, each between its own ports and with parameters of
+its own. What is done at one mass of a row changes this row only: the further experiment shows R' +
+F or R + F' (a mass locked or something known added), or a motion of this row alone, which the force
+causes in it (a sensor there). So all that is measured is one and the same algebraic image of two
+independent things: what that row shows, (R, R') say, and F. If the closures of both are equal on
+both sides, so are those of the images.
+
+* A row whose ports and mass are the same as on the other side, maybe numbered from its other end,
+  shows the same there.
+* What is implied by the row's receptance alone has equal closures where the receptances have: a
+  sensor at the row's other port shows the receptance; a mass locked at a port or between the ports
+  makes it 0; what adds h(s), such as J s^2, at the one mass that is both ports makes it R/(1 + h R)
+  (A + h e e' has the inverse A^-1 - h A^-1 e e' A^-1/(1 + h e' A^-1 e)).
+* Receptances have equal closures where the rows are the same, or both full with the same constant
+  coefficients (`fibres.ideals.full_rows`).
+
+Nothing of this is left to chance.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
-from disting.experiments.experiment import MeasuredChain
+from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.fibres.ideals.full_rows import same_receptances
 from disting.model.chain import Chain
+from disting.model.row import Row, rows_of
 
 REMEMBERED = 4096
 
@@ -79,3 +102,82 @@ def _reflected(measured: MeasuredChain) -> MeasuredChain:
 def _fold(chain: Chain, mass: int) -> int:
     """Where a mass is after the reflection of the free row."""
     return chain.gap + 1 + chain.n_masses - mass if mass > chain.gap else mass
+
+
+Content = tuple[int, bool, bool, tuple[int, ...]]
+"""Number of masses, whether at the wall, whether damped, dampers to the ground."""
+Form = tuple[Content, int, int, int]
+"""A row, its two ports and a mass."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Done:
+    """What is done in a row: `kind` with its size, whether it is done in the free row, both rows,
+    whether the row's receptance implies what is seen, and if not, the row with ports and mass.
+    """
+
+    kind: str
+    in_free: bool
+    here: Row
+    elsewhere: Row
+    implied: bool
+    form: Form
+
+
+def same_by_rows(left: MeasuredChain, right: MeasuredChain) -> bool:
+    """Whether two measured chains have equal closures row by row; False where this is not known."""
+    if _factors(left.chain) != _factors(right.chain):
+        return False
+    one, other = _done(left), _done(right)
+    if one is None or other is None or (one.kind, one.in_free) != (other.kind, other.in_free):
+        return False
+    if not same_receptances(one.elsewhere, other.elsewhere):
+        return False
+    if one.implied and other.implied:
+        return same_receptances(one.here, other.here)
+    return not (one.implied or other.implied) and one.form == other.form
+
+
+def _factors(chain: Chain) -> tuple[object, ...]:
+    """What both share beside their rows."""
+    return chain.n_masses, chain.gap, chain.sensor, chain.lag, chain.dead_time
+
+
+def _done(measured: MeasuredChain) -> _Done | None:
+    """None unless one thing is done at one mass of a chain with a gap, beside what it is."""
+    chain = measured.chain
+    if not chain.gap or len(measured.experiments) != 2 or measured.experiments[0] != Experiment():
+        return None
+    further = measured.experiments[1]
+    if len(further.masses) != 1:
+        return None
+    (mass,) = further.masses
+    in_free = mass > chain.gap
+    rows = rows_of(chain.structure)
+    here, elsewhere = (rows[1], rows[0]) if in_free else (rows[0], rows[1])
+    at = mass - here.before
+    first, last = here.ports
+    if further == Experiment(sensor=mass):
+        force = (chain.act_plus if in_free else chain.act_minus) - here.before
+        first, last = force, first + last - force
+        kind, implied = "sensor", at == last
+    elif further == Experiment(changes=further.changes):
+        (change,) = further.changes
+        kind = f"{change.kind.name} {change.size}"
+        implied = first == at == last if change.kind.takes_size else first <= at <= last
+    else:
+        return None
+    return _Done(kind, in_free, here, elsewhere, implied, _form(here, first, last, at))
+
+
+def _form(row: Row, first: int, last: int, at: int) -> Form:
+    """The row with its ports and the mass, the free row from the end with the smaller numbers."""
+    turned = row.n_masses + 1
+    ways = [(_content(row), first, last, at)]
+    if not row.grounded:
+        ways.append((_content(row.mirrored), turned - first, turned - last, turned - at))
+    return min(ways)
+
+
+def _content(row: Row) -> Content:
+    return row.n_masses, row.grounded, row.damped, row.ground_dampers

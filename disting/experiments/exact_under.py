@@ -8,24 +8,95 @@ the degrees, the numbers and the count of the coordinates at hand. The stacked m
 a map, so its fibre is that of all experiments with one parameter vector, and its bounds are those
 of all equations together. More equations make the ideal easier, as a rule.
 
-Of a whole menu, `quick_finding`: rows that show the same (`same_rows`), lists that are made once
-for all places, ranks of parts (`part_ranks`), and ideals within limits that are soon reached.
+Of a whole menu, `quick_finding`: rows that show the same (`equal_machines`), lists that are made
+once for all places, ranks of parts, and ideals within limits that are soon reached.
+
+Ranks of parts. Equal closures of the images have equal closures of their projections, so whatever
+coordinates are left out, as many parameters are determined on both sides. Parts are looked at that
+mean something (`maps`): numerators, denominators, and where an inertia is added, the coefficients
+with the mass locked, those that its mass multiplies, and its mass. Condition 5 asks the same of all
+sets of invariants, one by one; where those are too many, or where it is silent because the
+coordinates are others, these few are asked in no time.
+
+A rank seen at a point modulo a prime is a lower bound. So the larger one is proven, and the smaller
+one is wrong only where a minor that is not zero vanishes at all points (`algebra.sampling`). A
+minor of k rows has a degree of at most the sum of those of the coordinates, less one each; its
+coefficients sum to at most k! times the product of the largest sums of a gradient's entry.
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import accumulate, combinations, pairwise
+from math import ceil, log2
+
+from flint import nmod_mat
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty
+from disting.algebra.sampling import PROOF_BITS, Size, about, enough, safety
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.experiments.equal_machines import same_by_rows
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import by_list
 from disting.experiments.maps import matched
-from disting.experiments.part_ranks import by_parts
-from disting.experiments.same_rows import same_by_rows
-from disting.fibres.ideals import Limits, decide_matched
-from disting.model.question import Question
-from disting.model.settings import Settings
+from disting.fibres.ideals import Limits, StackedMap, Terms, decide_matched
+from disting.fibres.ideals.fibre_ideal import drawn, jacobian
+from disting.model.question import Question, Settings
 from disting.questions.same.exact import SAFETY, decided
+
+
+def by_parts(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding | None:
+    """FAILS where the ranks of some parts differ, None where they are equal."""
+    maps = matched(left, right)
+    size = minor_size(maps)
+    points = enough(size, settings.points)
+    label = about(f"parts:{settings.seed}", *(m.content for m in maps))
+    seen = [ranks(m, [f"{label}:{k}" for k in range(points)]) for m in maps]
+    if seen[0] == seen[1]:
+        return None
+    bits = safety(size, points) - ceil(log2(2 * len(seen[0])))
+    return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety=bits)
+
+
+def ranks(stacked: StackedMap, labels: Sequence[str]) -> tuple[int, ...]:
+    """The largest rank of each union of parts that is seen at the points of the labels."""
+    return tuple(map(max, zip(*(_ranks_at(stacked, label) for label in labels), strict=True)))
+
+
+def _ranks_at(stacked: StackedMap, label: str) -> list[int]:
+    modulus, point = drawn(stacked, label, PROOF_BITS)
+    rows = [[int(x) for x in row] for row in jacobian(stacked, point, modulus).tolist()]
+    width = len(point)
+    return [
+        nmod_mat(len(chosen), width, [x for i in chosen for x in rows[i]], modulus).rank()
+        for chosen in _unions(stacked.parts)
+    ]
+
+
+def minor_size(maps: Sequence[StackedMap]) -> Size:
+    """Bounds of the minors of both Jacobian matrices."""
+    degree = bits = 0
+    for stacked in maps:
+        k = len(stacked.parameters)
+        highest = sorted((_degree(c) for c in stacked.coordinates), reverse=True)
+        height = max(sum(abs(n) for _, n in c) for c in stacked.coordinates)
+        degree = max(degree, sum(highest[:k]))
+        each = log2(max(height, 1)) + log2(max(highest[0], 1)) + log2(k + 1)
+        bits = max(bits, ceil(k * each))
+    return Size(degree, bits)
+
+
+def _degree(terms: Terms) -> int:
+    return max((sum(e) for e, _ in terms), default=0)
+
+
+def _unions(parts: Sequence[int]) -> Iterator[list[int]]:
+    """Positions of the coordinates of every union of parts."""
+    ends = list(pairwise(accumulate(parts, initial=0)))
+    for count in range(1, len(ends) + 1):
+        for chosen in combinations(ends, count):
+            yield [i for first, last in chosen for i in range(first, last)]
+
 
 LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=SAFETY)
 SHARED = 10  # bits: a table rests on up to a thousand findings, and says nothing below LEAST_SAFETY

@@ -23,8 +23,7 @@ from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import stacked_map
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.result import Confirmation
-from disting.model.question import Question
-from disting.model.settings import Settings
+from disting.model.question import Question, Settings
 from disting.questions.identifiability import (
     Level,
     Local,

@@ -46,8 +46,8 @@ from disting.fibres.synthesis.methods import is_covered
 from disting.fibres.synthesis.result import Fibre, Solution, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
+from disting.model.question import Settings
 from disting.model.row import rows_of
-from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 
 Values = dict[str, Ring]

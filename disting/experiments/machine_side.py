@@ -23,13 +23,11 @@ from disting.evidence.positive import PositiveFinding
 from disting.experiments.exact_under import exact_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
-from disting.experiments.machine_model import MachineModel
+from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.measured_evidence import confirms, confirms_inclusion, exact_again
-from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import positive_finding
 from disting.model.chain import Premise
-from disting.model.domain import Domain
-from disting.model.question import Question
+from disting.model.question import Domain, Question
 from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 from disting.questions.same.real_and_positive import positive_ways

@@ -24,7 +24,7 @@ from functools import lru_cache
 from flint import fmpz_mpoly
 
 from disting.experiments.experiment import Entry, MeasuredChain
-from disting.experiments.polynomials import expanded, shape
+from disting.experiments.machine_model import expanded, shape
 from disting.fibres.ideals import Fraction, StackedMap, Terms, stacked_maps
 from disting.fibres.ideals.stacked import is_one, map_of
 

@@ -22,15 +22,14 @@ from disting.evidence.seen import Seen, SeenPair, seen
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import confirms_missing, numberings
 from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
-from disting.experiments.machine_model import MachineModel
+from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.maps import matched
-from disting.experiments.polynomials import is_renaming
 from disting.experiments.positive import answer_of
 from disting.fibres.ideals import seen_again
 from disting.fibres.synthesis.result import Answer
 from disting.fibres.synthesis.target import fraction
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
 from disting.questions.inclusion.profiles import exceed, ordered

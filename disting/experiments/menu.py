@@ -19,8 +19,7 @@ from disting.behaviour.transfer import touched
 from disting.errors import InputError, shown
 from disting.experiments.changes import GENERIC
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
-from disting.experiments.machine_model import MachineModel
-from disting.experiments.polynomials import residues_of
+from disting.experiments.machine_model import MachineModel, residues_of
 from disting.model.chain import Chain
 from disting.model.kinds import COSTS, FORCE, KINDS, PRICES, SENSOR, Kind
 

@@ -26,7 +26,7 @@ from disting.experiments.listing import Listed, listable, listed_at, without_dea
 from disting.fibres.synthesis.decide import point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.result import Answer, Solution
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
 from disting.questions.same.real_and_positive import positive_share

@@ -28,7 +28,7 @@ from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
 from disting.general.target import fibre_equations, rational_values, target
 from disting.general.which_models import Way, way
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 POINTS = 40  # of either model
 GUARDS = 4  # of either model, where no equivalents are to be found

@@ -19,7 +19,7 @@ from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, Fibre, solved
 from disting.general.model import Model
 from disting.general.target import fibre_equations, rational_values, target
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.model.shown import summary
 
 SECONDS = 30.0

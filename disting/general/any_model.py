@@ -18,7 +18,7 @@ from disting.fibres.ideals import Fraction as Ratio
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.same.exact import SAFETY, decided
 
 LIMITS = Limits(safety=SAFETY)

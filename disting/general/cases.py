@@ -54,7 +54,7 @@ from disting.algebra.sampling import residues
 from disting.algebra.symbols import factored
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 CASES = 300  # that are opened before the search is given up
 ORDERS = 24  # in which unknowns are solved for

@@ -25,9 +25,7 @@ from disting.general.any_model import as_chain, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Premise
-from disting.model.domain import Domain
-from disting.model.question import Question
-from disting.model.settings import Settings
+from disting.model.question import Domain, Question, Settings
 from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.questions.same.exact import resting_on_ranks
 

@@ -8,8 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from disting.errors import InputError, shown
-from disting.general.expression import tree
-from disting.general.trees import Power, Product, Sum, Tree, names
+from disting.general.expression import Power, Product, Sum, Tree, names, tree
 
 Matrix = list[list[Tree]]
 ZERO = Fraction(0)

@@ -16,7 +16,7 @@ from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 
 from disting.algebra.groebner.rational import Shape
 from disting.general.target import fraction
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.model.shown import summary
 
 FIRST_BITS = 128

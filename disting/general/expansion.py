@@ -17,7 +17,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
 from disting.errors import InputError
-from disting.general.trees import Power, Product, Sum, Tree
+from disting.general.expression import Power, Product, Sum, Tree
 
 MOST_WORK = 30_000_000
 STEP = 20  # work of an operation, however small

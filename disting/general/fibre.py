@@ -17,7 +17,7 @@ from flint import fmpz_mpoly, fmpz_poly
 from disting.algebra.groebner.rational import Basis, Bounds, Polynomial, basis, shape
 from disting.algebra.sampling import residues
 from disting.general.equivalent import Equivalent, equivalents
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 DRAWS = 8  # of the free parameters of a family
 MEMBERS = 3  # draws with members after which the search ends, if one of them is positive

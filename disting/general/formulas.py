@@ -6,14 +6,13 @@ from disting.algebra.rational_function import RationalFunction
 from disting.evidence.general import Explicit, Formula, NoEquivalent
 from disting.general.between import End, Path
 from disting.general.expansion import Expansion
-from disting.general.expression import tree
+from disting.general.expression import names as symbols_of
+from disting.general.expression import polynomial_text, text_of, tree
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.sections import Section
-from disting.general.spelled import polynomial_text, text_of
-from disting.general.trees import names as symbols_of
 from disting.general.which_models import Way, way
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 
 def explicit(ways: list[Way], domain: Domain) -> Explicit:

@@ -25,13 +25,11 @@ from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import prime, residues
 from disting.general.behaviour import evaluated
 from disting.general.cases import ORDERS, Case, Search, orders, searched
-from disting.general.local_identifiability import LocalIdentifiability, local_identifiability
+from disting.general.expression import text_of
+from disting.general.identifiability import LocalIdentifiability, local_identifiability
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
-from disting.general.spelled import text_of
-from disting.model.domain import Domain
-from disting.model.question import Question
-from disting.model.settings import Settings
+from disting.model.question import Domain, Question, Settings
 from disting.model.shown import Shown, summary
 
 CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two

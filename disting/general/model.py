@@ -21,9 +21,8 @@ from disting.behaviour.expanded import expanded
 from disting.errors import InputError, shown
 from disting.general.entries import polynomial, refuse_namesakes, state_space
 from disting.general.expansion import Expansion
-from disting.general.expression import tree
+from disting.general.expression import LONGEST_NUMBER, Tree, names, tree
 from disting.general.response import responses
-from disting.general.trees import LONGEST_NUMBER, Tree, names
 from disting.model.chain import Chain
 from disting.model.names import name_of, names_another
 from disting.model.shown import Shown, plural, summary

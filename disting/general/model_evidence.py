@@ -18,7 +18,7 @@ from disting.general.any_model import is_renamed, maps_of
 from disting.general.behaviour import GeneralModel
 from disting.general.formulas import is_explicit, is_without
 from disting.general.matrix_model import AnyModel
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.same.exact import by_labels
 
 AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradiction found again

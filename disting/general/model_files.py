@@ -19,9 +19,9 @@ from pathlib import Path
 
 from disting.errors import InputError, listed, printable, shown
 from disting.files import as_path, read_bounded, write_whole
+from disting.general.expression import polynomial_text
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
-from disting.general.spelled import polynomial_text
 from disting.general.strict_json import Plain, object_of, plain_of, text_of
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family

@@ -39,7 +39,7 @@ from disting.general.cases import Case, cases_of
 from disting.general.model import Model, Terms
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.sections import cover, sections
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 Polynomial = list[fmpz_mpoly]
 """Coefficients of s^0, s^1, .. in the parameters."""

@@ -22,7 +22,7 @@ from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import factored
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
 """A sign and distinct irreducible factors whose signs are not seen: their product has the sign

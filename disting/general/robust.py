@@ -31,7 +31,7 @@ from disting.general.cases import Case, Search
 from disting.general.orthant import value_at
 from disting.general.sections import Section
 from disting.general.signs_on_boxes import Box, Grid, is_empty, root
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 UNKNOWNS = 2  # of a case at a point, at most
 VALUES = tuple(

@@ -17,9 +17,8 @@ from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx
 from disting.algebra.groebner.rational import Polynomial
 from disting.errors import InputError, listed, shown
 from disting.general.expansion import Expansion
-from disting.general.expression import tree
+from disting.general.expression import names, tree
 from disting.general.model import Model, Terms
-from disting.general.trees import names
 
 
 @dataclass(frozen=True, slots=True)

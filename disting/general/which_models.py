@@ -16,7 +16,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
 from disting.general.sections import Section, cover, held, sections
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 
 @dataclass(frozen=True, slots=True)

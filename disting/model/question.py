@@ -1,13 +1,54 @@
-"""What is asked of models beyond conditions 1 to 9: computed by a pure function, kept as text
-by whoever keeps it.
+"""What is asked of models, and answered: over which parameter values, with which settings, by which
+relation; questions beyond conditions 1 to 9 are answered by a pure function, and the answers kept
+as text by whoever keeps them.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any, Generic, Protocol, TypeVar
 
-from disting.model.settings import Settings
+
+class Domain(StrEnum):
+    """Admissible parameter values. What is said of complex values is said of generic ones."""
+
+    COMPLEX = "complex"
+    REAL = "real"
+    POSITIVE = "positive"
+
+
+class Relation(StrEnum):
+    """What is known of a pair over a domain of parameters.
+
+    INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other.
+    DISTINGUISHABLE: those of one of them, at least, have none; the verdict's inclusion and its two
+    shares tell of the other one. SOMETIMES: some parameters have an equivalent and others have
+    none, of two models that are indistinguishable over complex parameters.
+    """
+
+    DISTINGUISHABLE = "distinguishable"
+    INDISTINGUISHABLE = "indistinguishable"
+    SOMETIMES = "sometimes"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """All choices that steer a computation, made once and passed down.
+
+    `seed` names the random points, `points` counts the independent ones behind every rank (error
+    bounds multiply; more are taken where the least accepted bound needs them), `subset_limit`
+    bounds the subsets of rows that a matroid search may visit (about 10 ns each).
+    """
+
+    seed: str = "disting"
+    points: int = 3
+    subset_limit: int = 30_000_000
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data for keys and provenance."""
+        return asdict(self)
+
 
 T = TypeVar("T")
 Models = tuple[Any, ...]

@@ -12,8 +12,8 @@ from disting.fit.search.candidates import figure_1
 from disting.fit.select import Selection, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
-from disting.model.domain import Domain
 from disting.model.family import Family
+from disting.model.question import Domain
 from disting.paper.refit import Refit, refitted
 from disting.simulation import demo
 from disting.verdict import Decisions, Engine, Progress, Query, View, silent

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from disting.evidence.positive import Share
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.report.words import Decided, totals
 from disting.verdict import Relation, View
 

@@ -16,7 +16,7 @@ from markupsafe import Markup
 from disting.conditions.rule import ADMISSIBLE, RULES
 from disting.evidence.conditions import capital
 from disting.evidence.positive import Share
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, Decided, raised

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from disting.catalogs import Catalog
 from disting.conditions.rule import RULES
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.model.shown import plural as plural
 from disting.verdict import Relation, Verdict, View
 

@@ -15,9 +15,8 @@ from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.model.chain import Chain, Premise
-from disting.model.domain import Domain
 from disting.model.minors import embeddings
-from disting.model.question import Question
+from disting.model.question import Domain, Question
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability

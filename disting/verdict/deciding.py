@@ -16,7 +16,7 @@ from disting.behaviour.sample import Representation
 from disting.conditions.rule import Rule, Stage
 from disting.conditions.side import AnySide, Ask
 from disting.conditions.table import NECESSARY, STRUCTURAL, SUFFICIENT
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.cascade import Step, said_of

@@ -24,8 +24,7 @@ from disting.experiments import ComparedMachine, MeasuredChain
 from disting.general import AnyModel, ComparedModel
 from disting.model.chain import Chain
 from disting.model.protocol import Model
-from disting.model.question import Models, Question
-from disting.model.settings import Settings
+from disting.model.question import Models, Question, Settings
 from disting.model.shown import summary
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given

@@ -11,7 +11,7 @@ from itertools import combinations
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.fractionfree import OutOfTimeError
-from disting.behaviour.symbolic import rank_is_at_most
+from disting.behaviour.expanded import rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
 from disting.evidence.conditions import Ranks
 from disting.model.chain import Chain, Sensor

@@ -11,7 +11,7 @@ from enum import StrEnum
 from disting.conditions.rule import RULES, Rule, Stage
 from disting.conditions.side import AnySide
 from disting.errors import InputError
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 ALL_CONDITIONS = tuple(name for name, rule in RULES.items() if rule.is_condition)
 

@@ -10,8 +10,8 @@ from disting.evidence.kinds import evidence_from as evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
 from disting.model.chain import Premise
-from disting.model.domain import Domain
-from disting.model.relation import Relation as Relation
+from disting.model.question import Domain
+from disting.model.question import Relation as Relation
 from disting.model.shown import Shown, summary
 from disting.questions.inclusion import (
     Inclusion,

@@ -7,7 +7,7 @@ parameters are generic, finite and not zero.
 
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.decision import DeadTime
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion
 from disting.verdict.result import Relation, Verdict
 

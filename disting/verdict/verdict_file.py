@@ -20,11 +20,10 @@ from disting.files import __version__
 from disting.general import AnyModel, Model, as_chain
 from disting.general.model_files import LARGEST_CHAIN, as_entry, read_entry
 from disting.model.chain import Chain, Sensor
-from disting.model.domain import Domain
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES
 from disting.model.names import name_of, names_another
-from disting.model.settings import Settings
+from disting.model.question import Domain, Settings
 from disting.questions.inclusion import Inclusion, Inclusions
 from disting.schemas import Format
 from disting.verdict.comparison import Sides, asked_of, both_places, compare, models_named, sides_of

@@ -22,15 +22,15 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.files import as_path, read_json
 from disting.model.chain import Chain
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.model.shown import summary
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.verdict.cascade import decide, follows, over_domain
 from disting.verdict.chains import ComparedChain
 from disting.verdict.comparison import Sides
 from disting.verdict.engine import Engine
-from disting.verdict.everywhere_file import FORMAT as EVERYWHERE
-from disting.verdict.everywhere_file import differing_everywhere, read_everywhere
+from disting.verdict.everywhere import FORMAT as EVERYWHERE
+from disting.verdict.everywhere import differing_everywhere, read_everywhere
 from disting.verdict.proof import prove
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict

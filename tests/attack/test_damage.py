@@ -14,7 +14,7 @@ from disting.catalogs.damper_files import read as read_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.errors import CatalogError
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.store.store import CacheWarning
 from tests.attack.counts import chance, times
 from tests.attack.measured_files import with_bytes_changed

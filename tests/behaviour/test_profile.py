@@ -14,9 +14,8 @@ from disting import Chain, Engine, Family, Settings
 from disting.algebra.matroid import rank_in
 from disting.algebra.sampling import Size, prime, safety
 from disting.algebra.symbols import coefficients
-from disting.behaviour.chain_model import ChainModel
+from disting.behaviour.chain_model import ChainModel, degrees, is_sign_free
 from disting.behaviour.expanded import expanded
-from disting.behaviour.powers import degrees, is_sign_free
 from disting.behaviour.profile import (
     Unsearched,
     from_samples,

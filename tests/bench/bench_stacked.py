@@ -16,7 +16,7 @@ from disting.experiments import MeasuredChain
 from disting.experiments.exact_under import LIMITS, by_ideals, exact_finding
 from disting.experiments.maps import matched
 from disting.fibres.ideals.fibre_ideal import evaluated
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from tests.bench import singular
 from tests.bench.measure import alternating, table
 

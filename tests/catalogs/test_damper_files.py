@@ -26,7 +26,7 @@ from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions.finding import Outcome
 from disting.model.family import Family
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.limited import quick_finding, quick_profile

@@ -14,7 +14,7 @@ from disting import Chain, Engine, Family, InputError, Query, Relation, View, co
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli import main
 from disting.cli.dampers import grid, legend
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 SAME, APART = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE
 ENGINE = Engine()

@@ -12,7 +12,7 @@ import pytest
 
 from disting import Engine, Query, Relation, View, catalog, compare
 from disting.catalogs.export import decisions_csv
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.report import page
 from disting.verdict import Verdict
 

@@ -11,7 +11,7 @@ import pytest
 from disting import Certainty, Chain, Engine, Family, Query, Relation, Sensor, compare
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_finding
 from tests.catalogs.variants import (

@@ -5,7 +5,7 @@ these.
 from disting.algebra.sampling import Size
 from disting.behaviour.profile import from_samples
 from disting.behaviour.sample import Sample
-from disting.model.settings import Settings
+from disting.model.question import Settings
 
 LARGE, SMALL = 2**61 - 1, 2**31 - 1  # Mersenne primes for the proof and for the search
 

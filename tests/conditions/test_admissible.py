@@ -33,8 +33,7 @@ from disting.evidence.real import BothWays, OddFibres, RealFactors
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target
-from disting.model.domain import Domain
-from disting.model.settings import Settings
+from disting.model.question import Domain, Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
 from disting.questions.inclusion import Inclusion

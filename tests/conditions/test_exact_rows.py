@@ -12,7 +12,7 @@ from disting.conditions.finding import Finding, Outcome
 from disting.evidence.kinds import evidence_from
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.same import exact
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_finding

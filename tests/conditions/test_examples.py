@@ -18,7 +18,7 @@ from disting.conditions.necessary import (
     condition_5,
 )
 from disting.conditions.sufficient import condition_7
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from tests.conditions.handmade import LARGE, SMALL, sample
 
 LABELS = ("b0", "b1")

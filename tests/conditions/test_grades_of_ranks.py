@@ -15,7 +15,7 @@ from disting.conditions.rule import EXACT
 from disting.general import Model
 from disting.general.any_model import same
 from disting.general.behaviour import GeneralModel
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.same.exact import by_synthesis, resting_on_ranks
 from disting.verdict import family_safety, joint_in_words
 from disting.verdict.result import error_bound

@@ -14,8 +14,7 @@ from disting.evidence.decision import THEOREMS, Theorem
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays
-from disting.model.domain import Domain
-from disting.model.relation import Relation
+from disting.model.question import Domain, Relation
 from disting.verdict import View
 from disting.verdict.cascade import follows
 

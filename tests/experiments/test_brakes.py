@@ -8,9 +8,9 @@ import pytest
 
 from disting import Experiment, Family, Query, View, compare, compare_everywhere
 from disting.experiments import MeasuredChain
+from disting.experiments.equal_machines import same_by_rows
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import _by_mass
-from disting.experiments.same_rows import same_by_rows
 from disting.model.kinds import BRAKE, INERTIA, KINDS
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Standing, verify

@@ -13,8 +13,7 @@ from disting import (
     compare_everywhere,
 )
 from disting.experiments import Change, MeasuredChain
-from disting.experiments.machine_model import MachineModel
-from disting.experiments.polynomials import expanded, shape
+from disting.experiments.machine_model import MachineModel, expanded, shape
 from disting.model.kinds import BRAKE, LOCK, SENSOR
 from tests.experiments.plain_stack import S, coefficients, transfer
 

@@ -14,7 +14,7 @@ from disting.experiments import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE, identifiability_under
 from disting.experiments.machine_model import MachineModel
 from disting.model.kinds import KINDS
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from tests.experiments.plain_stack import determined, has_other
 
 SIZE = "3/2"  # of an added inertia

@@ -16,7 +16,7 @@ from disting.experiments import MeasuredChain, confirms
 from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.measured_evidence import confirms_inclusion
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from tests.experiments.plain_stack import determined, transfer
 
 EXACT = Query(View.EXACT)

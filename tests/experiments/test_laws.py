@@ -13,7 +13,7 @@ from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.experiments import MeasuredChain
 from disting.experiments.machine_model import MachineModel
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from tests.experiments.plain_stack import S, has_equivalent, keywords, transfer
 from tests.laws.strategies import chains
 

@@ -12,13 +12,11 @@ from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.next_files import SHIPPED_SIZES, next_catalog
 from disting.evidence.ideals import Refuted, Solved
 from disting.experiments import MeasuredChain
-from disting.experiments.equal_machines import standard
-from disting.experiments.exact_under import LIMITS, by_ideals
+from disting.experiments.equal_machines import same_by_rows, standard
+from disting.experiments.exact_under import LIMITS, by_ideals, by_parts
 from disting.experiments.listing import by_list
 from disting.experiments.maps import matched
 from disting.experiments.menu import Costs, Item, measured
-from disting.experiments.part_ranks import by_parts
-from disting.experiments.same_rows import same_by_rows
 from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.verdict import Relation
 from tests.experiments.plain_stack import keywords, transfer

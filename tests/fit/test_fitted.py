@@ -18,7 +18,7 @@ from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Estimate, Task
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from tests.fit.drives import response
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")

@@ -27,7 +27,7 @@ from disting.fit.search.whitened import Whitened
 from disting.fit.sentences import commands, suspicions
 from disting.measurement import FrequencyResponse, mean_of
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from tests.cli.process import called
 from tests.fit.monte_carlo import (
     BENCH,

@@ -14,7 +14,7 @@ from flint import fmpq, fmpq_poly
 from disting.general.equivalent import Equivalent
 from disting.general.model import Model, Terms
 from disting.general.target import Target
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 Interval = tuple[Fraction, Fraction]
 

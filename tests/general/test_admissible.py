@@ -18,7 +18,7 @@ from disting.general.cases import Case, Search
 from disting.general.orthant import Orthant
 from disting.general.sections import sections
 from disting.general.which_models import way
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 IRREVERSIBLE = Model.from_state_space(
     [["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1], name="irreversible"

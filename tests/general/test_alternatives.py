@@ -21,7 +21,7 @@ from disting.fibres.synthesis.target import target as chain_target
 from disting.general import Extent, Model, alternatives
 from disting.general.alternatives import AT_ONCE
 from disting.general.target import fibre_equations, rational_values, target
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from tests.general.certificate import certified
 
 IRREVERSIBLE = Model.from_state_space(

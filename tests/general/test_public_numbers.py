@@ -14,7 +14,7 @@ from disting.fibres.ideals import decide
 from disting.general import Model, local_identifiability
 from disting.general.any_model import coefficient_map
 from disting.general.behaviour import GeneralModel
-from disting.model.settings import Settings
+from disting.model.question import Settings
 
 OTHER = Model.from_transfer_function(["c"], ["1", "0"], name="integrator")
 ATTACKS = 4

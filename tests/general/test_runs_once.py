@@ -37,7 +37,7 @@ CHAINS = """
 from disting import Engine, Family, Store, catalog, compare
 from disting.catalogs.build import build
 from disting.questions.same.limited import quick_finding
-from disting.model.settings import Settings
+from disting.model.question import Settings
 
 build(2, damped=True, engine=Engine(store=Store.none()))
 compare(Family(2, damped=False)[1], Family(2, damped=False)[2])

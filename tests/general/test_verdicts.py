@@ -28,7 +28,7 @@ from disting.evidence.conditions import Renaming
 from disting.general import ComparedModel, Model, local_identifiability
 from disting.general.any_model import is_renamed
 from disting.general.behaviour import GeneralModel
-from disting.model.settings import Settings
+from disting.model.question import Settings
 
 COMPLEX = Query(View.EXACT)  # the paper's domain
 SAME, DIFFERENT = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE

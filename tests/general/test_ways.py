@@ -25,7 +25,7 @@ from disting.general.orthant import Orthant, value_at
 from disting.general.robust import Parted
 from disting.general.sections import held, sections
 from disting.general.which_models import Way, way
-from disting.model.domain import Domain
+from disting.model.question import Domain
 
 EDGES = [*((i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j), (1, 0), (2, 0), (3, 0)]
 

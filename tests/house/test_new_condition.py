@@ -28,7 +28,7 @@ def _again(left: Profile, right: Profile) -> Finding:
     return replace(necessary.condition_2(left, right), rule=AGAIN)
 
 
-def _marked(left: Side, right: Side) -> Finding:
+def _marked(left: AnySide, right: AnySide) -> Finding:
     if {left.name, right.name} not in ({"A1", "A11"}, {"3:1", "3:11"}):
         return Finding(MARKED, Outcome.INAPPLICABLE, note="not marked")
     return Finding(MARKED, Outcome.HOLDS, Certainty.THEOREM, evidence=Mark((4, 4)))

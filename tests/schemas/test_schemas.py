@@ -19,7 +19,7 @@ from disting.fit.plan.rival import Limit, Trust
 from disting.fit.search.setup import Setup
 from disting.general import read_models
 from disting.measurement import write_csv
-from disting.model.domain import Domain
+from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format, schema
 from disting.simulation import demo

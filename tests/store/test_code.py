@@ -62,7 +62,7 @@ def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions(
         "disting.fit.search.plant",
         "disting.fibres.synthesis.decide",
     } <= set(modules_of("disting.fit.search.exchange"))
-    assert {"disting.model.chain", "disting.conditions.table", "disting.model.domain"} <= set(
+    assert {"disting.model.chain", "disting.conditions.table", "disting.model.question"} <= set(
         modules_of("disting.verdict.engine")
     )
     assert not any(

@@ -29,7 +29,7 @@ from disting.catalogs.dampers import DamperSets, dampers
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.errors import ContradictionError
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.same.limited import QUICKLY, quick_finding, quick_profile
 from disting.store.scheduling import executor
 from disting.verdict.engine import question_key

@@ -9,10 +9,10 @@ from disting import Certainty, Engine, Family, Query, View, compare
 from disting.algebra.fractionfree import OutOfTimeError, rank
 from disting.algebra.symbols import symbols
 from disting.behaviour.chain_model import ChainModel
+from disting.behaviour.expanded import rank_is_at_most
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.behaviour.symbolic import rank_is_at_most
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.verdict.proof import prove, prove_all
 
 

@@ -21,7 +21,7 @@ from disting.fit.search.joint import AnyCost
 from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.shown import summary
 
 FOLDS = 5  # of the cross-validation

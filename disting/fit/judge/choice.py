@@ -24,7 +24,7 @@ from disting.fit.search.joint import AnyCost
 from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 
 
 def akaike_weighted(candidates: Sequence[Candidate], task: Task) -> list[Candidate]:

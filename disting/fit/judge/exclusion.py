@@ -28,7 +28,7 @@ from disting.fit.judge.practical import Seen
 from disting.fit.noise.covariance import VANISHING
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.identifiability.tangent import proof_tangents
 
 LEVEL = 0.01  # probability of excluding a structure that is true by another one

@@ -13,7 +13,7 @@ import numpy as np
 
 from disting.errors import InputError, listed
 from disting.experiments import MeasuredChain
-from disting.experiments.polynomials import is_renaming
+from disting.experiments.machine_model import is_renaming
 from disting.fit.judge.alternatives import Alternative, Limits, is_within
 from disting.fit.search.candidates import reference
 from disting.fit.search.estimate import Task

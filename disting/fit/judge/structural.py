@@ -19,7 +19,7 @@ from disting.fit.search.estimate import Task
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import measured_chain
 from disting.model.chain import Chain
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.identifiability.basis import basis
 from disting.questions.identifiability.formula import Formula
 from disting.questions.identifiability.tangent import proof_tangents

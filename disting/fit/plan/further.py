@@ -31,7 +31,7 @@ from disting.fit.search.plant import Plant
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
-from disting.model.settings import Settings
+from disting.model.question import Settings
 
 Spot = tuple[int, int]
 """(structure, counted from 0; mass)."""

@@ -30,8 +30,7 @@ from disting.errors import ContradictionError
 from disting.fibres.synthesis.result import Answer, Status
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
-from disting.model.question import Question
-from disting.model.settings import Settings
+from disting.model.question import Question, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability

@@ -18,7 +18,7 @@ from disting.algebra.sampling import enough, safety
 from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
 from disting.model.protocol import Model
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.shown import summary
 from disting.questions.identifiability.parts import Level
 

@@ -19,8 +19,7 @@ from flint import fmpz_mat, nmod_mat
 
 from disting.algebra.quotient import matrix, rational
 from disting.algebra.sampling import about, prime, residues
-from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.powers import powers
+from disting.behaviour.chain_model import ChainModel, powers
 from disting.behaviour.sample import Drawn, Representation, at_point, drawn, seen_at
 from disting.model.structure import Structure
 from disting.questions.identifiability.formula import Formula

@@ -26,7 +26,7 @@ from itertools import permutations, product
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.sampling import about
-from disting.behaviour.powers import degrees
+from disting.behaviour.chain_model import degrees
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.across_sizes import (
@@ -40,8 +40,8 @@ from disting.evidence.across_sizes import (
 from disting.evidence.conditions import Counts
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.question import Settings
 from disting.model.row import Row, canonical_rows
-from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.limit_fibre import contained
 from disting.questions.inclusion.limits import follows, reached

@@ -43,8 +43,7 @@ from disting.fibres.ideals import (
 )
 from disting.fibres.ideals import decide as decide_ideal
 from disting.model.chain import Chain
-from disting.model.question import Membership, Question
-from disting.model.settings import Settings
+from disting.model.question import Membership, Question, Settings
 from disting.questions.inclusion.across_sizes import by_computing, by_sizes
 from disting.questions.inclusion.closures import of_closure
 from disting.questions.inclusion.image import of_image

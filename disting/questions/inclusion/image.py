@@ -20,7 +20,7 @@ from dataclasses import replace
 from math import ceil, log2
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty
-from disting.behaviour.powers import powers
+from disting.behaviour.chain_model import powers
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.ideals import Refuted
 from disting.fibres.ideals import Limits, decide, normalised, refuted_by_rows
@@ -31,8 +31,7 @@ from disting.fibres.synthesis.decide import (
     safety_of_point,
 )
 from disting.model.chain import Chain
-from disting.model.question import Membership
-from disting.model.settings import Settings
+from disting.model.question import Membership, Settings
 from disting.questions.inclusion.profiles import by_relative_degrees
 from disting.questions.same.exact import rational_part
 

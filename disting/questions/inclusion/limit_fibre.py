@@ -17,7 +17,7 @@ from itertools import combinations, islice, product
 from math import ceil, log2
 
 from disting.algebra.certainty import LEAST_SAFETY
-from disting.behaviour.powers import powers
+from disting.behaviour.chain_model import powers
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals import Decision, Limits, coefficient_map, confirms, decide
 from disting.model.chain import Chain, Sensor

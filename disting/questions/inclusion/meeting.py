@@ -23,8 +23,7 @@ equations a_0 = m b_0 and a_1 = m b_1. So one dimension less is needed.
 from dataclasses import dataclass
 from functools import lru_cache
 
-from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.powers import Powers, powers
+from disting.behaviour.chain_model import ChainModel, Powers, powers
 from disting.behaviour.sample import Representation, drawn, seen_at
 from disting.model.row import rows_of
 from disting.model.structure import Structure

@@ -35,7 +35,7 @@ from itertools import islice, product
 
 from disting.algebra.quotient import constant, matrix, variable
 from disting.algebra.sampling import prime
-from disting.behaviour.powers import powers
+from disting.behaviour.chain_model import powers
 from disting.model.chain import Chain
 from disting.model.row import GROUNDED, canonical_rows
 from disting.questions.inclusion.profiles import row_falls

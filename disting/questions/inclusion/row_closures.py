@@ -26,7 +26,7 @@ from typing import NamedTuple
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.algebra.sampling import prime, residues
 from disting.algebra.symbols import renamed, symbols
-from disting.behaviour.powers import powers
+from disting.behaviour.chain_model import powers
 from disting.evidence.limits import RowLimits, Why
 from disting.fibres.ideals import CoefficientMap, Limits, decide
 from disting.fibres.ideals.fibre_ideal import evaluated, generic_rank

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from disting.algebra.quotient import constant, matrix, variable
 from disting.algebra.sampling import SEARCH_BITS, Size, prime, residues, safety
-from disting.behaviour.powers import common_power, powers
+from disting.behaviour.chain_model import common_power, powers
 from disting.behaviour.transfer import plain_receptance, values_at
 from disting.model.row import Row
 

@@ -5,8 +5,7 @@ from typing import Protocol
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.model.chain import Chain
-from disting.model.question import Answerer
-from disting.model.settings import Settings
+from disting.model.question import Answerer, Settings
 from disting.model.symmetry import Form
 
 

@@ -8,8 +8,7 @@ from typing import Any
 
 from disting.algebra.quotient import constant, variable
 from disting.algebra.sampling import prime, residues
-from disting.behaviour.chain_model import quotient
-from disting.behaviour.powers import degrees
+from disting.behaviour.chain_model import degrees, quotient
 from disting.model.chain import Chain, Sensor
 
 ATTEMPTS = 1000  # points tried until one is found

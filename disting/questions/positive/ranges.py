@@ -32,7 +32,7 @@ from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.exact_number import MOST_DIGITS, is_too_long
 from disting.model.names import name_of
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.symmetry import canonical, forms
 from disting.questions.positive.obstacles import Obstacle, Point
 from disting.questions.positive.points import Range, equivalent, random_point, read, spelled

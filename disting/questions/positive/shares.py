@@ -44,9 +44,8 @@ from disting.fibres.synthesis.decide import member, point_bits, rational_point, 
 from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.result import Answer
 from disting.model.chain import Chain
-from disting.model.question import Membership
+from disting.model.question import Membership, Settings
 from disting.model.row import Row
-from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive.obstacles import (
     Obstacle,

@@ -26,7 +26,7 @@ from disting.fibres.synthesis.result import Status
 from disting.fibres.synthesis.target import fraction, target
 from disting.model.chain import Chain
 from disting.model.minors import embeddings
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability

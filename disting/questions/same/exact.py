@@ -65,8 +65,7 @@ from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
 from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.foster import are_foster, are_same_by_rows
 from disting.model.chain import Chain
-from disting.model.question import Membership
-from disting.model.settings import Settings
+from disting.model.question import Membership, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 

@@ -20,8 +20,7 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
-from disting.model.question import Question
-from disting.model.settings import Settings
+from disting.model.question import Question, Settings
 from disting.questions.same.exact import (
     by_full_rows,
     by_ideals,

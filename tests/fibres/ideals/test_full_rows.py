@@ -12,7 +12,7 @@ from disting import Certainty, Chain, Family, Outcome, Query, Relation, View, co
 from disting.catalogs.dampers import DamperSets
 from disting.evidence.ideals import FullRows
 from disting.fibres.ideals import Limits, same_by_full_rows
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import by_full_rows, by_ideals
 

@@ -25,9 +25,8 @@ from disting.fibres.ideals.shares import (
     told_apart,
 )
 from disting.model.chain import Chain
-from disting.model.question import Membership
+from disting.model.question import Membership, Settings
 from disting.model.row import Row, rows_of
-from disting.model.settings import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_finding

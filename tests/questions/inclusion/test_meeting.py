@@ -8,7 +8,7 @@ import sympy as sp
 from scipy.optimize import least_squares
 
 from disting import Chain, Family
-from disting.behaviour.powers import degrees, powers
+from disting.behaviour.chain_model import degrees, powers
 from disting.model.chain import Sensor
 from disting.questions.inclusion.meeting import Room, room
 

@@ -17,7 +17,7 @@ from disting.experiments import MeasuredChain
 from disting.experiments.inclusion import inclusions_under
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.measured_evidence import confirms_inclusion
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.questions.inclusion import Inclusion, confirms, quick_closure
 from disting.questions.inclusion.across_sizes import refuted
 from disting.questions.inclusion.closures import of_closure

@@ -22,7 +22,7 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis import Answer, Status, fibre, target
 from disting.fibres.synthesis.decide import rational_point
-from disting.model.settings import Settings
+from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding
 from disting.questions.positive.obstacles import obstacle, only_rows_sum_to_zero

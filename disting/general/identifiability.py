@@ -1,20 +1,28 @@
-"""Which single parameters of a model are locally identifiable, from the Jacobian of its invariants
-at random points.
+"""Which parameters of a general model its transfer functions determine, for any number of inputs
+and outputs: locally, from the Jacobian of its invariants at random points; each one globally,
+locally or not at all.
 
 Parameter j is locally identifiable (generically: finitely many values fit) exactly if the unit
 vector e_j lies in the row space of the Jacobian J at a generic point, that is if J without column
 j has a smaller rank. With full column rank all are.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty, graded
 from disting.errors import of_type
+from disting.general.any_model import map_of
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
-from disting.model.settings import Settings
+from disting.model.question import Question, Settings
 from disting.model.shown import summary
-from disting.questions.identifiability import local
+from disting.questions.identifiability import (
+    ParameterIdentifiability,
+    by_parameter,
+    decoded,
+    encoded,
+    local,
+)
 
 SETTINGS = Settings()
 
@@ -57,3 +65,21 @@ def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> Loc
     return LocalIdentifiability(
         model.parameters, found.rank, found.names, *graded(not found.safety, found.safety)
     )
+
+
+def parameter_identifiability(model: AnyModel, settings: Settings) -> ParameterIdentifiability:
+    """Identifiability of each parameter from all transfer functions together.
+
+    >>> from disting.general.matrix_model import MatrixModel
+    >>> model = MatrixModel.from_state_space([["-a-b", 0], ["a", "-c"]], [1, 0], [[1, 0], [0, 1]])
+    >>> parameter_identifiability(model, Settings()).sentence
+    '3 parameters, all globally identifiable.'
+    """
+    own = tuple(f"p{i + 1}" for i in range(len(model.parameters)))
+    known = local(GeneralModel(model), settings)
+    names = tuple(own[model.parameters.index(name)] for name in known.names)
+    found = by_parameter(own, replace(known, names=names), map_of(model), settings)
+    return replace(found, levels=dict(zip(model.parameters, found.levels.values(), strict=True)))
+
+
+PARAMETERS = Question("parameters of general models", parameter_identifiability, encoded, decoded)
