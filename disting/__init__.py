@@ -29,15 +29,17 @@ if TYPE_CHECKING:
     from disting.errors import InputError as InputError
     from disting.experiments import Experiment as Experiment
     from disting.files import __version__ as __version__
-    from disting.general import Alternatives as Alternatives
-    from disting.general import MatrixModel as MatrixModel
-    from disting.general import Model as Model
-    from disting.general import ModelList as ModelList
-    from disting.general import alternatives as alternatives
-    from disting.general import global_identifiability as global_identifiability
-    from disting.general import local_identifiability as local_identifiability
-    from disting.general import read_models as read_models
-    from disting.general import write_models as write_models
+    from disting.general.alternatives import Alternatives as Alternatives
+    from disting.general.alternatives import alternatives as alternatives
+    from disting.general.global_identifiability import (
+        global_identifiability as global_identifiability,
+    )
+    from disting.general.identifiability import local_identifiability as local_identifiability
+    from disting.general.matrix_model import MatrixModel as MatrixModel
+    from disting.general.model import Model as Model
+    from disting.general.model_files import ModelList as ModelList
+    from disting.general.model_files import read_models as read_models
+    from disting.general.model_files import write_models as write_models
     from disting.model.chain import Chain as Chain
     from disting.model.chain import Sensor as Sensor
     from disting.model.family import Family as Family
@@ -52,19 +54,19 @@ if TYPE_CHECKING:
     from disting.questions.inclusion import Inclusion as Inclusion
     from disting.store import CacheWarning as CacheWarning
     from disting.store import Store as Store
-    from disting.verdict import Decisions as Decisions
-    from disting.verdict import Engine as Engine
-    from disting.verdict import Query as Query
-    from disting.verdict import Relation as Relation
-    from disting.verdict import Step as Step
-    from disting.verdict import Verdict as Verdict
-    from disting.verdict import View as View
+    from disting.verdict.cascade import Step as Step
     from disting.verdict.comparison import compare as compare
     from disting.verdict.comparison import findings as findings
     from disting.verdict.comparison import identifiability as identifiability
+    from disting.verdict.decisions import Decisions as Decisions
+    from disting.verdict.engine import Engine as Engine
     from disting.verdict.everywhere import compare_everywhere as compare_everywhere
     from disting.verdict.everywhere import everywhere_file as everywhere_file
     from disting.verdict.proof import prove as prove
+    from disting.verdict.query import Query as Query
+    from disting.verdict.query import View as View
+    from disting.verdict.result import Relation as Relation
+    from disting.verdict.result import Verdict as Verdict
     from disting.verdict.verdict_file import verdict_file as verdict_file
     from disting.verdict.verification import Verification as Verification
     from disting.verdict.verification import verify as verify
@@ -80,8 +82,12 @@ _NAMES = {
     "disting.errors": "CatalogError ConstraintViolation ContradictionError DistingError InputError",
     "disting.experiments": "Experiment",
     "disting.files": "__version__",
-    "disting.general": "Alternatives MatrixModel Model ModelList alternatives"
-    " global_identifiability local_identifiability read_models write_models",
+    "disting.general.alternatives": "Alternatives alternatives",
+    "disting.general.global_identifiability": "global_identifiability",
+    "disting.general.identifiability": "local_identifiability",
+    "disting.general.matrix_model": "MatrixModel",
+    "disting.general.model": "Model",
+    "disting.general.model_files": "ModelList read_models write_models",
     "disting.model.chain": "Chain Sensor",
     "disting.model.family": "Family",
     "disting.model.question": "Domain Settings",
@@ -89,10 +95,14 @@ _NAMES = {
     "disting.questions.identifiability": "Identifiability Level ParameterIdentifiability",
     "disting.questions.inclusion": "Inclusion",
     "disting.store": "CacheWarning Store",
-    "disting.verdict": "Decisions Engine Query Relation Step Verdict View",
+    "disting.verdict.cascade": "Step",
     "disting.verdict.comparison": "compare findings identifiability",
+    "disting.verdict.decisions": "Decisions",
+    "disting.verdict.engine": "Engine",
     "disting.verdict.everywhere": "compare_everywhere everywhere_file",
     "disting.verdict.proof": "prove",
+    "disting.verdict.query": "Query View",
+    "disting.verdict.result": "Relation Verdict",
     "disting.verdict.verdict_file": "verdict_file",
     "disting.verdict.verification": "Verification verify",
 }

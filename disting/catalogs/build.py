@@ -21,16 +21,11 @@ from disting.model.family import Family
 from disting.model.question import Domain
 from disting.questions.identifiability import Identifiability
 from disting.questions.inclusion import inclusions_to_dict
-from disting.verdict import (
-    Decisions,
-    Engine,
-    Progress,
-    Query,
-    Relation,
-    View,
-    silent,
-)
 from disting.verdict.chains import ComparedChain
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, Stage.FIBRE: View.EXACT}
 # what holds over positive parameters follows from the shares of both sides

@@ -24,7 +24,10 @@ from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
 from disting.model.names import name_of
 from disting.model.shown import plural, summary
-from disting.verdict import Decisions, Engine, Progress, Query, Relation, View, silent
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
 
 SCHEMA = 1
 FILE = "candidates.jsonl"

@@ -27,7 +27,8 @@ from disting.model.family import Family
 from disting.model.shown import Shown, plural, summary
 from disting.questions.identifiability import Identifiability
 from disting.schemas import Format
-from disting.verdict import Relation, Verdict, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation, Verdict
 
 if TYPE_CHECKING:
     import pandas as pd

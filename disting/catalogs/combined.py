@@ -18,7 +18,9 @@ from disting.model.question import Models, Question
 from disting.model.symmetry import canonical
 from disting.questions.inclusion import CLOSURE, IMAGE, inclusions_from_dict, turned
 from disting.questions.same.real_and_positive import POSITIVELY
-from disting.verdict import Decisions, Engine, Progress, Query, silent
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query
 
 
 def combined_family(

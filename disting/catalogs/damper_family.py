@@ -15,9 +15,10 @@ from disting.errors import InputError
 from disting.model.family import Family
 from disting.model.shown import plural, summary
 from disting.questions.same.limited import PATIENTLY, SETTLED, SHARING
-from disting.verdict import Engine, Progress, Relation, silent
 from disting.verdict.classes import Classes
+from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.grouping import classes
+from disting.verdict.result import Relation
 
 # masses: there shares and ideals are asked where the synthesis is silent; for 5 they take hours
 PATIENT_UP_TO = 4

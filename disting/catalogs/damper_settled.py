@@ -12,9 +12,8 @@ from disting.conditions.finding import Finding
 from disting.files import intact_text
 from disting.model.chain import Chain
 from disting.questions.same.limited import SETTLED
-from disting.verdict import Engine
 from disting.verdict.chains import ComparedChain
-from disting.verdict.engine import question_key
+from disting.verdict.engine import Engine, question_key
 
 FILE = "settled-dampers.jsonl"
 Settled = dict[tuple[str, str], Finding]

@@ -17,8 +17,9 @@ from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.limited import sharing_finding
-from disting.verdict import Engine, Progress, Relation, silent
 from disting.verdict.chains import ComparedChain
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.result import Relation
 
 
 def verify_dampers(

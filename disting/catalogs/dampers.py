@@ -18,7 +18,10 @@ from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.question import Domain
 from disting.model.shown import plural, summary
-from disting.verdict import Decisions, Engine, Progress, Query, Relation, Verdict, View, silent
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
 
 Masses = tuple[int, ...]
 COLUMNS = ("left", "right", "relation", "decided_by", "domain", "damped", "quantity")

@@ -12,7 +12,9 @@ from disting.model.chain import Premise
 from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, Sense
 from disting.schemas import Format
-from disting.verdict import Decisions, Relation, error_bound, family_safety
+from disting.verdict.decisions import Decisions
+from disting.verdict.joint import family_safety
+from disting.verdict.result import Relation, error_bound
 
 FORMULA = re.compile(r"(?:^|(?<=[,;])|(?<=[,;] ))[=+@-]")
 CSV_COLUMNS = (

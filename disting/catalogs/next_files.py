@@ -30,10 +30,11 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.kinds import KINDS, Kind
 from disting.model.shown import plural, summary
-from disting.verdict import Engine, Progress, View, silent
 from disting.verdict.buckets import NOT_KNOWN
+from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.further import Further, further
 from disting.verdict.placed import TESTS, Placed
+from disting.verdict.query import View
 
 SCHEMA = 1
 SHIPPED_SIZES = (2, 3, 4, 5)

@@ -17,7 +17,9 @@ from disting.model.chain import Premise
 from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, inclusions_from_dict
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
-from disting.verdict import Relation, Step, Verdict, View, open_note
+from disting.verdict.cascade import Step, open_note
+from disting.verdict.query import View
+from disting.verdict.result import Relation, Verdict
 
 
 def stored_verdict(

@@ -20,8 +20,10 @@ from disting.catalogs.sizes_files import COMMAND, SCHEMA, SizesCatalog, name_of,
 from disting.files import write_whole
 from disting.questions.inclusion import confirms, inclusions_to_dict
 from disting.questions.same.evidence_check import Witness
-from disting.verdict import Decisions, Engine, Progress, Query, View, silent
 from disting.verdict.chains import ComparedChain
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
 
 
 def build_sizes(

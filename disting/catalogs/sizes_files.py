@@ -22,7 +22,8 @@ from disting.errors import CatalogError, InputError
 from disting.files import intact_text
 from disting.model.chain import Chain, Premise
 from disting.model.shown import Shown, plural, summary
-from disting.verdict import Relation, Verdict, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation, Verdict
 
 SCHEMA = 1
 COMMAND = "disting catalog sizes"

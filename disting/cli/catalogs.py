@@ -11,7 +11,7 @@ from disting.catalogs.files import shipped_folder
 from disting.cli.arguments import add_masses, add_out, add_work
 from disting.cli.effort import announced, pairs_by_size, pairs_work
 from disting.cli.workers import engine_for
-from disting.verdict import Engine, Progress
+from disting.verdict.engine import Engine, Progress
 
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:

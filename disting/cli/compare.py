@@ -28,13 +28,15 @@ from disting.cli.relations import query
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import named
-from disting.general import AnyModel, read_models
+from disting.general.matrix_model import AnyModel
+from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
 from disting.model.names import chains_named, name_of, read
 from disting.model.question import Settings
-from disting.verdict import Query, Verdict, View
 from disting.verdict.comparison import compare, names_of
+from disting.verdict.query import Query, View
+from disting.verdict.result import Verdict
 
 FILE = ".json:"  # between a file and the name of a model in it
 MODEL = (

@@ -7,14 +7,15 @@ from collections.abc import Iterator, Sequence
 from disting.cli.relations import in_colour
 from disting.errors import InputError, listed
 from disting.experiments import Experiment, MeasuredChain, Places, moved
-from disting.general import AnyModel, MatrixModel, as_chain
+from disting.general.any_model import as_chain
+from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, InclusionFinding
-from disting.verdict import Relation, Verdict
 from disting.verdict.comparison import names_of
 from disting.verdict.everywhere import Answer, Everywhere
+from disting.verdict.result import Relation, Verdict
 from disting.verdict.shown import shown
 
 MOST_TERMS = 30  # of a transfer function that is written out

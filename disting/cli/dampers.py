@@ -23,7 +23,8 @@ from disting.model.drawing import text_drawing
 from disting.model.family import MOST_MASSES, Family
 from disting.model.names import chains_named, extras_of, name_of
 from disting.model.question import Domain
-from disting.verdict import Relation, classes_safety, joint_in_words
+from disting.verdict.joint import classes_safety, joint_in_words
+from disting.verdict.result import Relation
 
 SIGNS = {
     Relation.DISTINGUISHABLE: ".",

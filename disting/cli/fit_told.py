@@ -28,7 +28,7 @@ from disting.model.drawing import text_drawing
 from disting.report.fit.responses import fits_of
 from disting.report.fit.words import fit_in_words, percent, result_unit, with_error
 from disting.report.fit.words import name as name_of
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 SHOWN = 8  # candidates of the printed table
 OTHERWISE = {

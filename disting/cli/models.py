@@ -17,13 +17,14 @@ from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain, named
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general import read_models, unnamed
+from disting.general.any_model import unnamed
 from disting.general.identifiability import PARAMETERS
+from disting.general.model_files import read_models
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
 from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
-from disting.verdict import Engine, Progress
+from disting.verdict.engine import Engine, Progress
 
 NOT_ASKED = "·"
 Found = Identifiability | ParameterIdentifiability

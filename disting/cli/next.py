@@ -23,7 +23,7 @@ from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import chains_named, name_of, read
-from disting.verdict import Engine, Query, Relation, View
+from disting.verdict.engine import Engine
 from disting.verdict.further import Further, further
 from disting.verdict.further_words import (
     CSV_COLUMNS,
@@ -33,6 +33,8 @@ from disting.verdict.further_words import (
     rows,
     to_dict,
 )
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
 
 Named = tuple[str, Chain]
 DOMAIN = (

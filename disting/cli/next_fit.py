@@ -11,7 +11,7 @@ from disting.fit.plan.fit_file import Named, named_by
 from disting.fit.plan.further import bench_of, foretold
 from disting.fit.plan.relations import stood
 from disting.report.fit.left_words import Onward
-from disting.verdict import Engine, Progress
+from disting.verdict.engine import Engine, Progress
 from disting.verdict.further import further
 
 

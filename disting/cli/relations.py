@@ -13,7 +13,8 @@ from collections.abc import Iterable
 from disting.conditions.rule import RULES
 from disting.errors import InputError
 from disting.model.question import Domain
-from disting.verdict import Query, Relation, View
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
 
 # bright enough on a dark ground, dark enough on a light one
 COLOURS = {

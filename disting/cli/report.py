@@ -17,8 +17,9 @@ from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import list_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError
-from disting.general import ModelList
-from disting.verdict import Engine, Progress, View
+from disting.general.model_files import ModelList
+from disting.verdict.engine import Engine, Progress
+from disting.verdict.query import View
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -24,14 +24,16 @@ from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_wor
 from disting.cli.workers import engine_for
 from disting.conditions.side import AnySide
 from disting.errors import InputError
-from disting.general import ModelList, read_models
+from disting.general.model_files import ModelList, read_models
 from disting.model.chain import Sensor
 from disting.model.names import damping_option
 from disting.questions.inclusion import ONE_SIDED, Sense
-from disting.verdict import Decisions, Relation, family_safety, joint_in_words
 from disting.verdict.comparison import refuse_ports
+from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
+from disting.verdict.joint import family_safety, joint_in_words
 from disting.verdict.proof import prove_all
+from disting.verdict.result import Relation
 
 MOST_TOLD = 20  # pairs that are told one by one
 

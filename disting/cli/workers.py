@@ -12,7 +12,7 @@ from time import monotonic
 from disting.cli.plain import complain
 from disting.errors import InputError, shown
 from disting.store import Store
-from disting.verdict import Engine, Progress
+from disting.verdict.engine import Engine, Progress
 
 BARS_AFTER = 2.0  # seconds of silence on a terminal
 SILENT = 30.0  # seconds at most, where standard error is no terminal

@@ -50,7 +50,7 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.shown import Shown, plural, summary
 from disting.store import Store
-from disting.verdict import Engine
+from disting.verdict.engine import Engine
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,8 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.paper.claim import Claim, Found, Outcome, Seen
 from disting.paper.findings import Findings
-from disting.verdict import Query, Relation, Verdict, View
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
 
 SIZES = (1, 2, 3, 4)
 

@@ -10,7 +10,7 @@ from itertools import combinations
 
 from disting.conditions.rule import RULES
 from disting.paper.findings import Findings
-from disting.verdict import Decisions
+from disting.verdict.decisions import Decisions
 
 
 class Outcome(StrEnum):

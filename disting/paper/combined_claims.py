@@ -24,7 +24,8 @@ from disting.paper.claim import (
 )
 from disting.paper.damped_claims import MISREAD
 from disting.paper.findings import Findings
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 CASES = families(3) + families(3, damped=True) + families(4)
 FIG_13 = {"": 9, "1": 168, "4": 151, "5": 34, "6": 7, "7": 37}

@@ -22,7 +22,8 @@ from disting.paper.claim import (
 )
 from disting.paper.family_claims import coefficients
 from disting.paper.findings import Findings
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 A1_A4 = (*pairs(3, [(1, 4)], damped=True), Seen(3, False, ("1", "4")))
 

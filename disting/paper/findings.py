@@ -16,7 +16,9 @@ from disting.model.family import Family
 from disting.model.question import Domain
 from disting.paper.refit import Refit, refitted
 from disting.simulation import demo
-from disting.verdict import Decisions, Engine, Progress, Query, View, silent
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
 
 PictureKey = tuple[int, bool, View, int, Sensor]
 

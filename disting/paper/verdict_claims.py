@@ -22,7 +22,8 @@ from disting.paper.claim import (
     undecided,
 )
 from disting.paper.findings import Findings
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 BOTH = families(3) + families(3, damped=True)
 

@@ -28,7 +28,7 @@ from disting.report.page_drawing import (
     shared,
 )
 from disting.report.words import plural
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 LISTED = 24  # undecided pairs of classes up to this number are listed
 SHOWN_AT_ONCE = 12  # classes; more are folded away

@@ -21,7 +21,7 @@ from disting.report.model import folder_of
 from disting.report.page_drawing import Part
 from disting.report.scene import Layer
 from disting.report.words import short_title
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 
 def descriptions(n_masses: int, *, damped: bool) -> Iterator[Chain]:

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from disting.evidence.positive import Share
 from disting.model.question import Domain
 from disting.report.words import Decided, totals
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 Members = tuple[int, ...]
 VIEWS = (View.POSITIVE, View.EXACT)  # the engineer's first, then the paper's

@@ -27,7 +27,7 @@ from disting.algebra.symbols import (
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
-from disting.general import Model
+from disting.general.model import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination
 from disting.report.mathml import (

@@ -21,7 +21,7 @@ from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene
 from disting.report.svg import body, number
 from disting.report.words import plural, short_title, totals
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 INKS = {Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE, Relation.UNDECIDED: Ink.OPEN}
 

@@ -16,7 +16,8 @@ from disting.report.png import png
 from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Shape, Text
 from disting.report.svg import svg
 from disting.report.words import VIEW_TITLES, headline, sign, title, totals
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 FILLS = {
     Relation.DISTINGUISHABLE: Ink.DISTINGUISHABLE,

@@ -23,7 +23,8 @@ from disting.report.next_steps import advice, drawn, found_for, page_of
 from disting.report.page_drawing import Drawing, shared
 from disting.report.page_drawing import definitions as held
 from disting.report.words import plural, rule_in_words, short_title
-from disting.verdict import Relation, Verdict, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation, Verdict
 
 
 @dataclass(frozen=True, slots=True)

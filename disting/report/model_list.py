@@ -12,14 +12,19 @@ from pathlib import Path
 from disting.catalogs.export import decisions_csv, decisions_json
 from disting.errors import InputError
 from disting.files import write_whole
-from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
-from disting.general.global_identifiability import IDENTIFIABILITY
+from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
+from disting.general.matrix_model import MatrixModel
+from disting.general.model import Model
+from disting.general.model_files import ModelList
 from disting.report.domains import VIEWS, over
 from disting.report.environment import render
 from disting.report.formulas import TransferFunction, written_model
 from disting.report.payload import payload
 from disting.report.words import SAID, VIEW_TITLES, plural
-from disting.verdict import Decisions, Engine, Progress, Query, Relation, Verdict, View, silent
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
 
 LISTED_PAIRS = 1000  # told one by one below the matrix
 

@@ -20,7 +20,8 @@ from disting.report.model import folder_of, motion_of, ways
 from disting.report.page_drawing import definitions
 from disting.report.payload import script_json
 from disting.report.words import plural, short_title
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 # of the machine that is shown first [kg, N/m, N s/m]: modes of about 1 Hz, which the eye follows,
 # damped by some percent; no two springs have one ratio k/d, which would make more models equivalent

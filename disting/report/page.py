@@ -29,7 +29,8 @@ from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sk
 from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 LISTED_PAIRS = 60  # undecided pairs up to this number are listed one by one
 BELOW, ABOVE = VIEWS  # shown first

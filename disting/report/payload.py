@@ -20,7 +20,8 @@ from disting.model.question import Domain
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, Decided, raised
-from disting.verdict import Verdict, View
+from disting.verdict.query import View
+from disting.verdict.result import Verdict
 from disting.verdict.shown import shown
 
 SHARES = {

@@ -21,7 +21,8 @@ from disting.report.families import Families, families
 from disting.report.page_drawing import SharedDrawing, definitions, shared
 from disting.report.payload import packed, payload
 from disting.report.words import VIEW_TITLES, plural, raised
-from disting.verdict import Verdict, View
+from disting.verdict.query import View
+from disting.verdict.result import Verdict
 
 UNTOLD, LEFT_INSIDE, RIGHT_INSIDE, NO_LIMIT, NOT_KNOWN = range(5)
 KINDS = {

@@ -10,7 +10,8 @@ from disting.catalogs import Catalog
 from disting.conditions.rule import RULES
 from disting.model.question import Domain
 from disting.model.shown import plural as plural
-from disting.verdict import Relation, Verdict, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation, Verdict
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {

@@ -10,8 +10,10 @@ from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, shown
 from disting.experiments import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general import AnyModel, MatrixModel, Model, as_chain, unnamed
+from disting.general.any_model import as_chain, unnamed
 from disting.general.identifiability import PARAMETERS
+from disting.general.matrix_model import AnyModel, MatrixModel
+from disting.general.model import Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named, name_of
 from disting.questions.identifiability import Identifiability, ParameterIdentifiability

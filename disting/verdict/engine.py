@@ -21,7 +21,8 @@ from disting.behaviour.profile import Profile, profile, profile_from_json, profi
 from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
 from disting.experiments import ComparedMachine, MeasuredChain
-from disting.general import AnyModel, ComparedModel
+from disting.general.compared import ComparedModel
+from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain
 from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings

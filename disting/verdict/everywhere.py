@@ -11,7 +11,8 @@ from typing import Any
 from disting.errors import DistingError, InputError, of_type, shown
 from disting.experiments import Experiment, Named, Places, moved, named, ways
 from disting.files import __version__
-from disting.general import MatrixModel, Model
+from disting.general.matrix_model import MatrixModel
+from disting.general.model import Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.shown import plural, summary

@@ -17,7 +17,9 @@ from disting.errors import DistingError, InputError, shown
 from disting.evidence.kind import is_well_typed
 from disting.experiments import Experiment
 from disting.files import __version__
-from disting.general import AnyModel, Model, as_chain
+from disting.general.any_model import as_chain
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
 from disting.general.model_files import LARGEST_CHAIN, as_entry, read_entry
 from disting.model.chain import Chain, Sensor
 from disting.model.family import MOST_MASSES

@@ -16,7 +16,7 @@ from disting import (
     compare,
     local_identifiability,
 )
-from disting.general import Extent
+from disting.general.fibre import Extent
 from disting.general.target import rational_values, target
 from tests.against_programs.draws import Tally, cases
 from tests.oracles import plain_by_sympy

@@ -18,9 +18,10 @@ from disting.catalogs.next_files import (
     write,
 )
 from disting.errors import CatalogError
-from disting.verdict import Engine, View
+from disting.verdict.engine import Engine
 from disting.verdict.further import further
 from disting.verdict.further_words import to_dict
+from disting.verdict.query import View
 
 FAMILIES = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
 DAMPED_OR_NOT = pytest.mark.parametrize("damped", [False, True])

@@ -14,7 +14,7 @@ from disting import Engine, Query, Relation, View, catalog, compare
 from disting.catalogs.export import decisions_csv
 from disting.model.question import Domain
 from disting.report import page
-from disting.verdict import Verdict
+from disting.verdict.result import Verdict
 
 ENGINE = Engine()
 SMALL = [(n, damped) for n in (2, 3, 4) for damped in (False, True)]

@@ -23,7 +23,9 @@ from disting.behaviour.sample import Representation
 from disting.conditions.rule import DEGREES, INVARIANTS
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
-from disting.verdict import Engine, Query, Relation, Verdict, View
+from disting.verdict.engine import Engine
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
 
 
 @dataclass(frozen=True, slots=True)

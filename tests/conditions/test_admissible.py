@@ -47,7 +47,7 @@ from disting.questions.same.real_and_positive import (
 )
 from disting.report.domains import VIEWS, over
 from disting.report.payload import payload
-from disting.verdict import Verdict
+from disting.verdict.result import Verdict
 from tests.oracles.positive_synthesis import positive_point
 
 POSITIVE = Query(View.POSITIVE)

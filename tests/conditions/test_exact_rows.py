@@ -16,7 +16,7 @@ from disting.model.question import Settings
 from disting.questions.same import exact
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_finding
-from disting.verdict import decide
+from disting.verdict.cascade import decide
 
 WALLED = (Chain(5, 4, 1, 5, 3, 5, damped=True), Chain(5, 4, 2, 5, 4, 5, damped=True))
 INSIDE = (Chain(6, 4, 1, 5, 3, 6, damped=True), Chain(6, 4, 2, 5, 4, 6, damped=True))

@@ -12,12 +12,12 @@ from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
 from disting.conditions.rule import EXACT
-from disting.general import Model
 from disting.general.any_model import same
 from disting.general.behaviour import GeneralModel
+from disting.general.model import Model
 from disting.model.question import Settings
 from disting.questions.same.exact import by_synthesis, resting_on_ranks
-from disting.verdict import family_safety, joint_in_words
+from disting.verdict.joint import family_safety, joint_in_words
 from disting.verdict.result import error_bound
 from tests.conditions.handmade import handmade
 

@@ -15,8 +15,8 @@ from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays
 from disting.model.question import Domain, Relation
-from disting.verdict import View
 from disting.verdict.cascade import follows
+from disting.verdict.query import View
 
 COMPLEX = Query(View.EXACT)
 

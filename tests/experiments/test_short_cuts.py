@@ -18,7 +18,7 @@ from disting.experiments.listing import by_list
 from disting.experiments.maps import matched
 from disting.experiments.menu import Costs, Item, measured
 from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 from tests.experiments.plain_stack import keywords, transfer
 from tests.experiments.test_truth import SAME
 

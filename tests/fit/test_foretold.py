@@ -17,7 +17,7 @@ from disting.fit.selection_json import _named
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR
-from disting.verdict import Engine
+from disting.verdict.engine import Engine
 from tests.fit.drives import dense_response, truth
 
 FAMILY = Family(3, damped=True)

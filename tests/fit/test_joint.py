@@ -31,7 +31,8 @@ from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.store import Store
-from disting.verdict import Engine, Relation
+from disting.verdict.engine import Engine
+from disting.verdict.result import Relation
 from tests.fit.drives import OMEGA, bench, response, truth
 
 TWO = Chain(2, damped=True, ground_dampers=(2,), dead_time=True)

@@ -25,7 +25,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report.fit.plan_words import plan_in_words
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 MODEL = Chain(2, damped=True, ground_dampers=(1,))
 RIVAL = Chain(2, damped=True, ground_dampers=(2,))

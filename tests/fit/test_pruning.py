@@ -15,7 +15,7 @@ from disting.model.chain import Chain
 from disting.report.fit import collinearity_dots, fit_page, importance_bars, waterfall
 from disting.report.fit.write import fit_figures
 from disting.simulation import demo
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 from tests.fit.drives import response
 
 

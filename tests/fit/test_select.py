@@ -19,7 +19,7 @@ from disting.fit.search.cost import lines_by_deviation
 from disting.fit.select import select
 from disting.fit.selection_json import model_from_dict, selection_to_dict
 from disting.model.chain import Chain
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 from tests.fit.drives import OMEGA, bench, response
 
 PLANTED = Chain(2, damped=True, ground_dampers=(2,), dead_time=True)

@@ -18,8 +18,9 @@ from disting.conditions.finding import Outcome
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target as chain_target
-from disting.general import Extent, Model, alternatives
-from disting.general.alternatives import AT_ONCE
+from disting.general.alternatives import AT_ONCE, alternatives
+from disting.general.fibre import Extent
+from disting.general.model import Model
 from disting.general.target import fibre_equations, rational_values, target
 from disting.model.question import Domain
 from tests.general.certificate import certified

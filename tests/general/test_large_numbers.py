@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Relation, compare
-from disting.general import Model
+from disting.general.model import Model
 
 TRANSFER = Model.from_transfer_function
 PAIRS = [

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Chain, Family, InputError, Relation, compare
-from disting.general import Model
+from disting.general.model import Model
 
 k12, k21, k01, k02 = sp.symbols("k12 k21 k01 k02")
 NAMES = "abcd"

@@ -5,7 +5,8 @@ random point.
 import pytest
 import sympy as sp
 
-from disting.general import Model, global_identifiability
+from disting.general.global_identifiability import global_identifiability
+from disting.general.model import Model
 
 TF = Model.from_transfer_function
 MODELS = [

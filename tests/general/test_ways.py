@@ -16,11 +16,12 @@ from disting.algebra.rational_function import RationalFunction
 from disting.conditions.finding import Outcome
 from disting.errors import InputError
 from disting.evidence.general import Explicit
-from disting.general import Model, alternatives, confirms, is_explicit
-from disting.general.admissible import points
+from disting.general.admissible import confirms, points
+from disting.general.alternatives import alternatives
 from disting.general.between import path
 from disting.general.cases import Case, Search
-from disting.general.formulas import fit
+from disting.general.formulas import fit, is_explicit
+from disting.general.model import Model
 from disting.general.orthant import Orthant, value_at
 from disting.general.robust import Parted
 from disting.general.sections import held, sections

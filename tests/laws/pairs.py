@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from disting import Chain, Engine, Family, Query, View, compare
 from disting.questions.same.evidence_check import Witness
-from disting.verdict import audit, decide
+from disting.verdict.cascade import audit, decide
 from tests.laws.strategies import chains
 
 ENGINE = Engine()

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 from disting import ContradictionError, Family, Query, Relation, View
-from disting.verdict import audit, decide
+from disting.verdict.cascade import audit, decide
 from disting.verdict.chains import ComparedChain
 from tests.laws.pairs import (
     ENGINE,

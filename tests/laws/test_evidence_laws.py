@@ -16,7 +16,7 @@ from disting.evidence.conditions import (
     Supermodel,
 )
 from disting.questions.same.evidence_check import Witness
-from disting.verdict import steps
+from disting.verdict.cascade import steps
 from tests.laws.pairs import (
     EXAMPLES,
     PAPER,

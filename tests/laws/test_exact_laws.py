@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from disting import Chain, Query, Relation, Verdict, View
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import FibreAt
-from disting.verdict import audit, decide, steps
+from disting.verdict.cascade import audit, decide, steps
 from tests.laws.pairs import ENGINE, PAPER, WITNESS, family, quick, similar_pairs, subject
 
 ONLY = Query(View.EXACT, inclusion=False)

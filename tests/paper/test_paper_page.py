@@ -17,7 +17,8 @@ from disting.report.paper.picture import of_scene
 from disting.report.paper.refit import refit_figure
 from disting.report.scene import Text
 from disting.report.svg import svg
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 from tests.report.outline import Outline
 
 NAMES = [

@@ -13,7 +13,7 @@ import pytest
 import disting
 from disting.catalogs import catalog
 from disting.report import page, write_report
-from disting.verdict import View
+from disting.verdict.query import View
 from disting.verdict.shown import shown
 from tests.cli.process import called
 from tests.report.links import follow_link

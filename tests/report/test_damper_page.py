@@ -22,7 +22,7 @@ from disting.report.families import families
 from disting.report.index import runs
 from disting.report.page_drawing import ground_dampers, shared
 from disting.report.scene import Ink
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,8 @@ from disting.report import matrix_png, matrix_svg
 from disting.report.matrix import WIDEST_PNG, figure, has_slides, slide, slide_png, thumbnail
 from disting.report.scene import Ink, Rect, Text, extent
 from disting.report.words import VIEW_TITLES, sign, totals
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 from tests.report.shapes import meet
 
 

@@ -9,7 +9,8 @@ from disting.evidence.positive import Share
 from disting.questions.inclusion import Inclusion
 from disting.report.domains import one_sided
 from disting.report.model import limits, model_page, standing, told_apart
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 from tests.report.outline import Outline
 
 

@@ -13,7 +13,7 @@ from disting.catalogs import Catalog, catalog
 from disting.report import index, page
 from disting.report.payload import packed, script_json
 from disting.report.words import VIEW_TITLES
-from disting.verdict import View
+from disting.verdict.query import View
 from disting.verdict.shown import shown
 from tests.report.outline import Outline
 

@@ -17,7 +17,7 @@ from disting.questions.inclusion import Inclusion
 from disting.report import write_report
 from disting.report.families import families
 from disting.report.sizes import LEFT_INSIDE, NO_LIMIT, NOT_KNOWN, between, limits, sizes_page
-from disting.verdict import View
+from disting.verdict.query import View
 from disting.verdict.shown import shown
 from tests.cli.process import called
 from tests.report.barriers import barriers

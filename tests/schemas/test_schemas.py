@@ -17,13 +17,14 @@ from disting.fit.plan.power import Answer
 from disting.fit.plan.relations import Standing
 from disting.fit.plan.rival import Limit, Trust
 from disting.fit.search.setup import Setup
-from disting.general import read_models
+from disting.general.model_files import read_models
 from disting.measurement import write_csv
 from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format, schema
 from disting.simulation import demo
-from disting.verdict import Relation, everywhere
+from disting.verdict import everywhere
+from disting.verdict.result import Relation
 from tests.cli.process import called
 from tests.cli.test_fit_joint import column, written
 from tests.fit.test_foretold import FREE, VALUES, fit_file, member, twin_values

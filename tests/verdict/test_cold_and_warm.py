@@ -18,7 +18,7 @@ from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import Empirical, Excluded, PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays, RealWitnesses
 from disting.experiments import MeasuredChain
-from disting.general import read_models
+from disting.general.model_files import read_models
 from disting.verdict.cascade import decide
 from disting.verdict.result import Verdict
 from disting.verdict.verification import Standing

@@ -10,11 +10,11 @@ from random import Random
 import pytest
 
 from disting import Engine, Family, Query, Sensor, View, catalog, compare, read_models, verify
-from disting.general import Model, ModelList, write_models
-from disting.general.model_files import models_of
+from disting.general.model import Model
+from disting.general.model_files import ModelList, models_of, write_models
 from disting.model.names import name_of
 from disting.report.model_list import judged
-from disting.verdict import family_safety
+from disting.verdict.joint import family_safety
 from disting.verdict.verification import Standing
 from tests.cli.process import called
 

@@ -9,8 +9,8 @@ import pytest
 
 from disting import Certainty, Chain, Engine, Family, Query, View
 from disting.catalogs.export import decisions_json
-from disting.verdict import classes_safety, family_safety
 from disting.verdict.classes import Classes
+from disting.verdict.joint import classes_safety, family_safety
 
 
 def decided(chains, view=View.EXACT):

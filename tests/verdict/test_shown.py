@@ -13,7 +13,7 @@ from disting.evidence.conditions import Counts, Ranks
 from disting.experiments import Experiment
 from disting.model.names import chain_of
 from disting.questions.inclusion import Inclusion
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 from disting.verdict.shown import shown
 
 SIZES = [(n, damped) for n in (2, 3) for damped in (False, True)]

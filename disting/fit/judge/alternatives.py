@@ -25,8 +25,10 @@ from disting.errors import CatalogError
 from disting.model.chain import Chain
 from disting.model.shown import summary
 from disting.questions.positive import renamings
-from disting.verdict import Engine, Query, Relation, View
 from disting.verdict.chains import ComparedChain
+from disting.verdict.engine import Engine
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
 
 Limits = Mapping[str, tuple[float, float]]
 """Range of each parameter that is given (one value) or bounded, by name."""

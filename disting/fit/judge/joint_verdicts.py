@@ -25,7 +25,9 @@ from disting.model.chain import Chain
 from disting.model.structure import Structure
 from disting.questions.positive import renamings
 from disting.store import Store
-from disting.verdict import Engine, Query, Relation, View
+from disting.verdict.engine import Engine
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
 
 SAME = 1e-6  # largest relative difference of two responses that are one, at all lines
 OPEN = "Whether that holds for positive parameters is not decided."

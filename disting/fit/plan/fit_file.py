@@ -18,7 +18,7 @@ from disting.fit.selection_json import FIT_FILE, chain_from_dict, model_from_dic
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 Values = dict[str, float]
 MOST_COUNTED = 10**7  # such as the lines of a response

@@ -36,9 +36,9 @@ from disting.model.chain import Chain
 from disting.model.shown import Shown, summary
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format
-from disting.verdict import Engine, Relation, Verdict
 from disting.verdict.comparison import compare
-from disting.verdict.engine import Progress, silent
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.result import Relation, Verdict
 
 POWER = 0.95  # wanted probability of excluding one that is not
 LARGEST = 1e6  # noncentrality that is looked for, at most

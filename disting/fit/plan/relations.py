@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.fit.plan.fit_file import Left
-from disting.verdict import Engine, Query, Relation, View
-from disting.verdict.engine import Progress, silent
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
 
 
 class Standing(StrEnum):

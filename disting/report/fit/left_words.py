@@ -16,10 +16,10 @@ from disting.model.drawing import LEGEND, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
 from disting.schemas import Format
-from disting.verdict import Relation
 from disting.verdict.everywhere import Answer
 from disting.verdict.further import Further
 from disting.verdict.further_words import CSV_COLUMNS, rows, to_dict
+from disting.verdict.result import Relation
 
 MEASURED_COLUMNS = ("largest", "frequency", "noncentrality", "power")
 BEFORE = "at the fitted values, before a rival refits"

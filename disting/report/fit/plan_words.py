@@ -15,7 +15,7 @@ from disting.fit.search.candidates import as_listed, reference
 from disting.model.drawing import text_drawing
 from disting.model.names import damping_option
 from disting.report.fit.words import percent, readable
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 LOUD = 0.3  # noise of a line beyond which the logarithm of a response is no longer linear in it
 FEWEST = 8  # lines of a response

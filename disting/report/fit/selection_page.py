@@ -29,7 +29,7 @@ from disting.report.fit.words import (
     readable,
 )
 from disting.report.words import listed, plural
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 FIRST = 30  # rows of candidates that are shown at once
 FOLDED = 4  # equivalents of one structure that are shown at once

@@ -11,7 +11,7 @@ from disting.measurement.arrays import Real
 from disting.report.scene import FILE_PALETTE, Ink, Layer, Path, Scene
 from disting.report.svg import svg
 from disting.report.words import SAID
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 WIDTH, HEIGHT, EDGE = 280.0, 90.0, 6.0
 MOST = 400  # points

@@ -17,7 +17,7 @@ from disting.report.fit.words import response_unit
 from disting.report.notebook.markup import FILLS
 from disting.report.scene import FILE_PALETTE
 from disting.report.words import SAID, title
-from disting.verdict import Relation
+from disting.verdict.result import Relation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,8 +14,10 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.plan.power import Plan, is_trusted
 from disting.fit.search.candidates import reference
 from disting.fit.select import Selection
-from disting.general import MatrixModel, Model, ModelList
 from disting.general.global_identifiability import GlobalIdentifiability
+from disting.general.matrix_model import MatrixModel
+from disting.general.model import Model
+from disting.general.model_files import ModelList
 from disting.measurement import FrequencyResponse
 from disting.model.family import Family
 from disting.questions.identifiability import Identifiability
@@ -25,9 +27,10 @@ from disting.report.fit.plan_words import chance
 from disting.report.fit.words import name, readable, response_unit, typeset
 from disting.report.notebook.markup import LONGEST, block, curve, facts, line, matrix, more, table
 from disting.report.words import headline, plural, raised, title
-from disting.verdict import Decisions, Relation, Verdict
+from disting.verdict.decisions import Decisions
 from disting.verdict.further import Further
 from disting.verdict.further_words import anywhere, conclusion
+from disting.verdict.result import Relation, Verdict
 from disting.verdict.shown import shown as measured
 
 

@@ -26,7 +26,9 @@ from disting.report.paper.picture import Picture, of_plot, of_scene
 from disting.report.paper.refit import refit_figure
 from disting.report.scene import Anchor, Ink, Layer, Scene, Text
 from disting.report.words import sign
-from disting.verdict import Decisions, Relation, View
+from disting.verdict.decisions import Decisions
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 MARGIN = 16.0
 HEAD = 26.0  # a panel's title

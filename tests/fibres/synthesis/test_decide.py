@@ -8,7 +8,8 @@ from disting.fibres.synthesis.decide import Direction, Grounds, decide, member
 from disting.fibres.synthesis.result import Status
 from disting.model.family import Family
 from disting.model.question import Membership
-from disting.verdict import Relation, View
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 
 OPEN_MEMBERS = {
     (3, True): {(1, 11)},

@@ -23,7 +23,7 @@ from disting.model.family import Family
 from disting.model.question import Membership
 from disting.model.row import rows_of
 from disting.questions.identifiability.tangent import proof_tangents
-from disting.verdict import Engine
+from disting.verdict.engine import Engine
 from tests.questions.identifiability.oracle import solutions
 
 
