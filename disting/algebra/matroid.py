@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import nmod_mat
 
-from disting.algebra.circuits import dependent_flats, search_size
+from disting.algebra.matroid_circuits import dependent_flats, search_size
 
 Rows = tuple[int, ...]
 RankOf = Callable[[Rows], int]

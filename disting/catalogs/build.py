@@ -21,7 +21,7 @@ from disting.model.family import Family
 from disting.model.question import Domain
 from disting.questions.identifiability import Identifiability
 from disting.questions.inclusion import inclusions_to_dict
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View

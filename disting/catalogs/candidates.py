@@ -23,7 +23,7 @@ from disting.files import intact_text, write_whole
 from disting.model.chain import Chain, Sensor
 from disting.model.constraints import Indices
 from disting.model.names import name_of
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View

@@ -24,7 +24,7 @@ from disting.conditions.rule import RULES
 from disting.errors import CatalogError, InputError, of_type
 from disting.model.chain import Chain, Premise
 from disting.model.family import Family
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 from disting.questions.identifiability import Identifiability
 from disting.schemas import Format
 from disting.verdict.query import View

@@ -13,8 +13,8 @@ from disting.catalogs.export import premise_text
 from disting.catalogs.files import shipped_folder
 from disting.errors import InputError
 from disting.model.family import Family
-from disting.model.shown import plural, summary
-from disting.questions.same.limited import PATIENTLY, SETTLED, SHARING
+from disting.model.presentation import plural, summary
+from disting.questions.same.low_cost import PATIENTLY, SETTLED, SHARING
 from disting.verdict.classes import Classes
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.grouping import classes

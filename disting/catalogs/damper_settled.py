@@ -11,8 +11,8 @@ from pathlib import Path
 from disting.conditions.finding import Finding
 from disting.files import intact_text
 from disting.model.chain import Chain
-from disting.questions.same.limited import SETTLED
-from disting.verdict.chains import ComparedChain
+from disting.questions.same.low_cost import SETTLED
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.engine import Engine, question_key
 
 FILE = "settled-dampers.jsonl"

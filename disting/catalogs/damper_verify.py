@@ -16,8 +16,8 @@ from disting.conditions.finding import Outcome
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.limited import sharing_finding
-from disting.verdict.chains import ComparedChain
+from disting.questions.same.low_cost import sharing_finding
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Relation
 

@@ -16,8 +16,8 @@ from itertools import combinations
 from disting.catalogs.export import premise_text
 from disting.errors import InputError
 from disting.model.chain import Chain
+from disting.model.presentation import plural, summary
 from disting.model.question import Domain
-from disting.model.shown import plural, summary
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View

@@ -29,11 +29,11 @@ from disting.files import intact_text, write_whole
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.kinds import KINDS, Kind
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.further import Further, further
-from disting.verdict.placed import TESTS, Placed
+from disting.verdict.placement_record import TESTS, Placed
 from disting.verdict.query import View
 
 SCHEMA = 1

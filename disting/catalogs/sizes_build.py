@@ -7,7 +7,6 @@ from pathlib import Path
 
 from disting.catalogs.build import step
 from disting.catalogs.catalog import catalog
-from disting.catalogs.combined import answers_in, combined
 from disting.catalogs.files import (
     INCLUSIONS,
     SHIPPED_SIZES,
@@ -16,11 +15,12 @@ from disting.catalogs.files import (
     shipped_folder,
     write_provenance,
 )
+from disting.catalogs.sizes import answers_in, combined
 from disting.catalogs.sizes_files import COMMAND, SCHEMA, SizesCatalog, name_of, sizes_catalog
 from disting.files import write_whole
 from disting.questions.inclusion import confirms, inclusions_to_dict
 from disting.questions.same.evidence_check import Witness
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View

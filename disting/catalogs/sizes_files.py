@@ -15,13 +15,13 @@ from itertools import accumulate, combinations
 from pathlib import Path
 
 from disting.catalogs.catalog import Catalog, catalog
-from disting.catalogs.combined import combined_family
 from disting.catalogs.files import SHIPPED_SIZES, Record, shipped_folder
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
+from disting.catalogs.sizes import combined_family
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text
 from disting.model.chain import Chain, Premise
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 

@@ -11,7 +11,7 @@ from disting.model.symmetry import canonical
 from disting.questions.inclusion import confirms
 from disting.questions.positive import proves
 from disting.questions.same.evidence_check import Witness
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import View
 

@@ -15,8 +15,8 @@ from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict.comparison import names_of
 from disting.verdict.everywhere import Answer, Everywhere
+from disting.verdict.meaning import shown
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.shown import shown
 
 MOST_TERMS = 30  # of a transfer function that is written out
 

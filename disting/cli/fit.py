@@ -12,7 +12,7 @@ from pathlib import Path
 from disting.cli.arguments import is_damped
 from disting.cli.effort import Work, announced
 from disting.cli.fit_data import Data, data, sensors
-from disting.cli.fit_told import told
+from disting.cli.fit_text import told
 from disting.cli.output import emitted
 from disting.cli.workers import cores, engine_for
 from disting.errors import InputError, listed, printable

@@ -12,7 +12,7 @@ from disting.cli.arguments import is_damped
 from disting.cli.output import emitted
 from disting.cli.plain import complain
 from disting.cli.workers import engine_for
-from disting.equivalence.given import assignments, point_of
+from disting.equivalence.inputs import assignments, point_of
 from disting.errors import InputError, printable
 from disting.fit.noise.scatter import scatter
 from disting.fit.plan.design import Designed, designed, designed_to_dict

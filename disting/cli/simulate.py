@@ -122,7 +122,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
     """The chain and its parameters; of the demonstration drive if none is named."""
-    from disting.equivalence.given import assignments, point_of
+    from disting.equivalence.inputs import assignments, point_of
     from disting.simulation import DEMO_MODEL
 
     if options.model is None:

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from pathlib import Path
 
-from disting.catalogs.combined import combined_family
 from disting.catalogs.export import decisions_csv, decisions_json
+from disting.catalogs.sizes import combined_family
 from disting.cli.arguments import (
     add_damped,
     add_deciding,

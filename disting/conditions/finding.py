@@ -8,7 +8,7 @@ from typing import Self
 from disting.algebra.certainty import Certainty, shortfall
 from disting.conditions.rule import EXACT, Rule
 from disting.evidence.kinds import Evidence, evidence_from
-from disting.model.shown import summary
+from disting.model.presentation import summary
 
 # what files have in the place of the rule where a decision found it, since the first of them: a
 # mark, and no place in the table of conditions, of which one called 10 is written as text

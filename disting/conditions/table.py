@@ -26,7 +26,7 @@ from disting.conditions.rule import (
     Rule,
 )
 from disting.conditions.side import AnySide
-from disting.model.shown import summary
+from disting.model.presentation import summary
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,8 @@
 formulas.
 """
 
-from disting.equivalence.given import assignments as assignments
-from disting.equivalence.given import chains_of as chains_of
+from disting.equivalence.inputs import assignments as assignments
+from disting.equivalence.inputs import chains_of as chains_of
 from disting.equivalence.listing import NONE as NONE
 from disting.equivalence.listing import Equivalent as Equivalent
 from disting.equivalence.listing import Equivalents as Equivalents

@@ -17,7 +17,7 @@ from disting.fibres.synthesis.result import Fibre, Status
 from disting.fibres.synthesis.target import target
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
-from disting.model.shown import Shown, summary
+from disting.model.presentation import Shown, summary
 from disting.schemas import Format
 
 

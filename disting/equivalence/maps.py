@@ -16,13 +16,13 @@ from disting.algebra.certainty import Certainty
 from disting.algebra.notation import expression, latex, latex_symbol, text
 from disting.algebra.rational_function import RationalFunction, variables
 from disting.equivalence.cauer import expansions
-from disting.equivalence.given import Value, point_of
 from disting.equivalence.identity import holds_at_random, is_identity, safety
 from disting.equivalence.images import Image, images
+from disting.equivalence.inputs import Value, point_of
 from disting.errors import ContradictionError
 from disting.model.chain import Chain
 from disting.model.names import chains_named, name_of
-from disting.model.shown import summary
+from disting.model.presentation import summary
 
 EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
 CAUER_UP_TO = 4  # masses of continued fractions; up to 3 s and 8000 characters

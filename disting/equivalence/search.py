@@ -15,8 +15,8 @@ from typing import Any
 from flint import acb, arb, fmpq
 
 from disting.equivalence.cauer import common_ratio, proportional_solutions
-from disting.equivalence.given import Value, chains_of, point_of
 from disting.equivalence.images import DUALITY, Image, images
+from disting.equivalence.inputs import Value, chains_of, point_of
 from disting.equivalence.listing import (
     Equivalent,
     Equivalents,
@@ -29,7 +29,7 @@ from disting.equivalence.listing import (
     under_all,
 )
 from disting.equivalence.residual import difference
-from disting.equivalence.under import Bench, benches
+from disting.equivalence.under_experiments import Bench, benches
 from disting.errors import ContradictionError, InputError
 from disting.experiments import Experiment, named
 from disting.fibres.synthesis.fibre import fibre

@@ -1,7 +1,7 @@
 """Chains under several experiments with one parameter vector: what to measure next.
 
 `changes` of a machine are of the kinds of one table, `experiment` says how is measured,
-`machine_model` what it reveals, `exact_under` decides what conditions leave open, `machine_side`
+`machine_model` what it reveals, `exact` decides what conditions leave open, `machine_side`
 makes a measured chain a side of a comparison, `places` tells which mass of one model is which of
 the other.
 """

@@ -17,7 +17,7 @@ from disting.errors import ConstraintViolation, InputError, shown
 from disting.experiments.changes import Change, changes_of, in_order
 from disting.model.chain import AS_IT_IS, Chain, Sensor
 from disting.model.kinds import CHANGES, Kind
-from disting.model.shown import summary
+from disting.model.presentation import summary
 from disting.model.structure import Element, Known, Ports, Structure
 
 Place = tuple[int, int]

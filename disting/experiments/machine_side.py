@@ -20,7 +20,7 @@ from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
-from disting.experiments.exact_under import exact_finding
+from disting.experiments.exact import exact_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.machine_model import MachineModel, is_renaming

@@ -48,7 +48,7 @@ from disting.fit.search.joint import AnyCost, Further, JointCost, joint_cost, ju
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 from disting.store import Store
 from disting.verdict.engine import Engine
 

@@ -19,8 +19,8 @@ from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, Fibre, solved
 from disting.general.model import Model
 from disting.general.target import fibre_equations, rational_values, target
+from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.model.shown import summary
 
 SECONDS = 30.0
 # milliseconds, seldom half a second; what is larger gets a process of its own, with a limit of time

@@ -16,8 +16,8 @@ from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 
 from disting.algebra.groebner.rational import Shape
 from disting.general.target import fraction
+from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.model.shown import summary
 
 FIRST_BITS = 128
 

@@ -29,8 +29,8 @@ from disting.general.expression import text_of
 from disting.general.identifiability import LocalIdentifiability, local_identifiability
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
+from disting.model.presentation import Shown, summary
 from disting.model.question import Domain, Question, Settings
-from disting.model.shown import Shown, summary
 
 CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two
 SETTINGS = Settings()

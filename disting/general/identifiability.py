@@ -14,8 +14,8 @@ from disting.errors import of_type
 from disting.general.any_model import map_of
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
+from disting.model.presentation import summary
 from disting.model.question import Question, Settings
-from disting.model.shown import summary
 from disting.questions.identifiability import (
     ParameterIdentifiability,
     by_parameter,

@@ -22,7 +22,7 @@ from disting.general.model import (
     refuse_name,
     transfer_functions,
 )
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 
 MOST_ENTRIES = 100
 

@@ -25,7 +25,7 @@ from disting.general.expression import LONGEST_NUMBER, Tree, names, tree
 from disting.general.response import responses
 from disting.model.chain import Chain
 from disting.model.names import name_of, names_another
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 
 MOST_SYMBOLS = 300
 Terms = tuple[tuple[tuple[int, ...], int], ...]

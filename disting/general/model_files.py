@@ -26,7 +26,7 @@ from disting.general.strict_json import Plain, object_of, plain_of, text_of
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of, name_of
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 from disting.schemas import Format
 
 LARGEST = 5_000_000  # bytes of a file

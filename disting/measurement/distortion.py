@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.measurement.arrays import Complex, Real, applied
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 
 ROUNDING = 1e-9  # share of the response that is not worth a word
 FEWEST = 4  # lines of a kind that are summed up

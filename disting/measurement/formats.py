@@ -12,9 +12,9 @@ from disting.errors import InputError, listed
 from disting.measurement.column_words import Role, meaning
 from disting.measurement.exports import exported
 from disting.measurement.matlab import responses, variables
+from disting.measurement.matlab_models import chosen_response, from_stored
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.source import Source
-from disting.measurement.stored import chosen_response, from_stored
 from disting.measurement.table import Table, is_time, time_series
 from disting.measurement.tabular import frequency_response, response_columns
 from disting.measurement.text_table import decoded, table

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError
 from disting.measurement import hdf5, mat5, mat5_objects
+from disting.measurement.matlab_models import Stored, stored_responses
 from disting.measurement.source import Allowance, Source, Take
-from disting.measurement.stored import Stored, stored_responses
 from disting.measurement.variables import Arrays
 
 HDF5 = b"\x89HDF\r\n\x1a\n"

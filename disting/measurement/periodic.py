@@ -20,7 +20,7 @@ from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import Distortion, distortion
 from disting.measurement.outliers import left_out
-from disting.model.shown import plural
+from disting.model.presentation import plural
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
 # correlation of the input with itself, one period later, from which on it counts as periodic

@@ -24,7 +24,7 @@ from disting.measurement.arrays import (
 from disting.measurement.distortion import Distortion
 from disting.measurement.units import agree, differentiated
 from disting.model.chain import Sensor, as_sensor
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,7 +12,7 @@ from disting.measurement.closed_loop import follows_output
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
 from disting.measurement.units import motion
 from disting.model.chain import Sensor, as_sensor
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 
 ASSUMED_POSITION = (
     "output taken as a position; if not, give --quantity velocity or --quantity acceleration"

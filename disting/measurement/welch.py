@@ -38,7 +38,7 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.periodic import Estimated
-from disting.model.shown import plural
+from disting.model.presentation import plural
 
 FEWEST_SEGMENTS = 4
 CHANCE = 1e-3  # p of the module's text

@@ -14,7 +14,7 @@ from typing import Any
 
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.model.constraints import Indices, violated
-from disting.model.shown import Drawn
+from disting.model.presentation import Drawn
 from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
 
 AS_IT_IS = "as it is"  # an experiment that changes nothing, in words

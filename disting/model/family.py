@@ -14,7 +14,7 @@ from functools import cached_property
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.constraints import Indices, violated
-from disting.model.shown import Shown
+from disting.model.presentation import Shown
 
 
 def count(n: int) -> int:

@@ -20,9 +20,9 @@ from disting.model.question import Domain
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, Decided, raised
+from disting.verdict.meaning import shown
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
-from disting.verdict.shown import shown
 
 SHARES = {
     Share.ALWAYS: "Every{generic} {0} with positive parameters has a positive equivalent {1}",

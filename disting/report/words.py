@@ -8,8 +8,8 @@ from typing import Protocol
 
 from disting.catalogs import Catalog
 from disting.conditions.rule import RULES
+from disting.model.presentation import plural as plural
 from disting.model.question import Domain
-from disting.model.shown import plural as plural
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 

@@ -22,8 +22,8 @@ from disting.errors import ContradictionError
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
+from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.model.shown import summary
 from disting.questions.inclusion import Inclusion, Inclusions
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.query import Query

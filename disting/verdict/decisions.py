@@ -21,7 +21,7 @@ from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
 from disting.verdict.buckets import Buckets
 from disting.verdict.cascade import Step, decide, verdict_of

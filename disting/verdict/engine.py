@@ -21,18 +21,18 @@ from disting.behaviour.profile import Profile, profile, profile_from_json, profi
 from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
 from disting.experiments import ComparedMachine, MeasuredChain
-from disting.general.compared import ComparedModel
 from disting.general.matrix_model import AnyModel
+from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain
+from disting.model.presentation import summary
 from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings
-from disting.model.shown import summary
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.store.code import digest
 from disting.store.store import Store
 from disting.verdict.cascade import audit, decide
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.deciding import decisions
 from disting.verdict.decisions import Decisions, Part
 from disting.verdict.query import Query

@@ -15,7 +15,7 @@ from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 from disting.schemas import Format
 from disting.verdict.comparison import NOT_CHAINS, both_places, compare
 from disting.verdict.engine import Engine

@@ -15,11 +15,11 @@ from disting.errors import InputError
 from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
-from disting.model.shown import Shown, plural, summary
+from disting.model.presentation import Shown, plural, summary
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
-from disting.verdict.placed import Placed
-from disting.verdict.placing import placed
+from disting.verdict.placement import placed
+from disting.verdict.placement_record import Placed
 
 
 @dataclass(frozen=True, slots=True)

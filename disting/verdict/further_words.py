@@ -8,7 +8,7 @@ from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING
 from disting.experiments.menu import Gain, Item
 from disting.schemas import Format
 from disting.verdict.further import Further, Option
-from disting.verdict.placed import REPEATS
+from disting.verdict.placement_record import REPEATS
 from disting.verdict.result import Relation, error_bound
 
 CSV_COLUMNS = (

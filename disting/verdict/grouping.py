@@ -35,9 +35,9 @@ from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
 from disting.model.protocol import Model
 from disting.model.question import Question
-from disting.questions.same.limited import INVERSELY, QUICKLY
+from disting.questions.same.low_cost import INVERSELY, QUICKLY
 from disting.verdict.buckets import NOT_KNOWN, Buckets
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.classes import Classes, without_dampers
 from disting.verdict.engine import Engine, Progress, silent
 

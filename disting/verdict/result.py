@@ -10,9 +10,9 @@ from disting.evidence.kinds import evidence_from as evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
 from disting.model.chain import Premise
+from disting.model.presentation import Shown, summary
 from disting.model.question import Domain
 from disting.model.question import Relation as Relation
-from disting.model.shown import Shown, summary
 from disting.questions.inclusion import (
     Inclusion,
     Inclusions,

@@ -22,11 +22,11 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.files import as_path, read_json
 from disting.model.chain import Chain
+from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.model.shown import summary
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.verdict.cascade import decide, follows, over_domain
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.comparison import Sides
 from disting.verdict.engine import Engine
 from disting.verdict.everywhere import FORMAT as EVERYWHERE

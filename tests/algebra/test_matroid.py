@@ -8,7 +8,6 @@ from flint import nmod_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from disting.algebra.circuits import dependent_flats, search_size
 from disting.algebra.matroid import (
     Component,
     Matroid,
@@ -17,6 +16,7 @@ from disting.algebra.matroid import (
     rank_in,
     separating_rows,
 )
+from disting.algebra.matroid_circuits import dependent_flats, search_size
 from disting.algebra.sampling import residues
 
 P = 2**31 - 1

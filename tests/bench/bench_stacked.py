@@ -13,7 +13,7 @@ import pytest
 from disting import Engine, Experiment, Family, Query, View, compare
 from disting.algebra.sampling import prime, residues
 from disting.experiments import MeasuredChain
-from disting.experiments.exact_under import LIMITS, by_ideals, exact_finding
+from disting.experiments.exact import LIMITS, by_ideals, exact_finding
 from disting.experiments.maps import matched
 from disting.fibres.ideals.fibre_ideal import evaluated
 from disting.model.question import Settings

@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 from disting import Engine, Inclusion, InputError, Query, Relation, catalog
-from disting.catalogs.combined import answers_in, combined, combined_family
+from disting.catalogs.sizes import answers_in, combined, combined_family
 from disting.cli import main
 from disting.questions.inclusion import Sense
 

@@ -29,7 +29,7 @@ from disting.model.family import Family
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.limited import quick_finding, quick_profile
+from disting.questions.same.low_cost import quick_finding, quick_profile
 from disting.store.scheduling import executor
 from disting.verdict.grouping import classes
 

@@ -11,8 +11,8 @@ import pytest
 
 from disting import CatalogError, Engine, Inclusion, InputError, Relation, View, catalog, compare
 from disting.catalogs import sizes_files
-from disting.catalogs.combined import combined
 from disting.catalogs.files import lines, shipped_folder
+from disting.catalogs.sizes import combined
 from disting.catalogs.sizes_build import false_evidence, verify_sizes
 from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
 from disting.questions.inclusion import Sense

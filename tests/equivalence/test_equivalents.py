@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting.equivalence import Origin, Signs, equivalents, explicit_map
-from disting.equivalence.given import point_of
+from disting.equivalence.inputs import point_of
 from disting.errors import InputError
 from disting.fibres.synthesis.result import Status
 from disting.model.chain import Chain, Sensor

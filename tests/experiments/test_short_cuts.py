@@ -13,7 +13,7 @@ from disting.catalogs.next_files import SHIPPED_SIZES, next_catalog
 from disting.evidence.ideals import Refuted, Solved
 from disting.experiments import MeasuredChain
 from disting.experiments.equal_machines import same_by_rows, standard
-from disting.experiments.exact_under import LIMITS, by_ideals, by_parts
+from disting.experiments.exact import LIMITS, by_ideals, by_parts
 from disting.experiments.listing import by_list
 from disting.experiments.maps import matched
 from disting.experiments.menu import Costs, Item, measured

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disting import Engine, Query, View, compare
-from disting.cli.fit_told import told
+from disting.cli.fit_text import told
 from disting.fit.judge.alternatives import alternatives, representatives, stands_for
 from disting.fit.judge.modes import physical
 from disting.fit.search.candidates import figure_1

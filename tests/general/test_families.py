@@ -18,7 +18,7 @@ from disting import (
     catalog,
     compare,
 )
-from disting.general.compared import ComparedModel
+from disting.general.model_side import ComparedModel
 from tests.oracles.plain_chains import plain_state_space
 
 ENTRIES = {

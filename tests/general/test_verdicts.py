@@ -27,9 +27,9 @@ from disting.conditions.rule import ADMISSIBLE
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import is_renamed
 from disting.general.behaviour import GeneralModel
-from disting.general.compared import ComparedModel
 from disting.general.identifiability import local_identifiability
 from disting.general.model import Model
+from disting.general.model_side import ComparedModel
 from disting.model.question import Settings
 
 COMPLEX = Query(View.EXACT)  # the paper's domain

@@ -8,7 +8,7 @@ from hypothesis import given
 
 from disting import ContradictionError, Family, Query, Relation, View
 from disting.verdict.cascade import audit, decide
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from tests.laws.pairs import (
     ENGINE,
     PAPER,

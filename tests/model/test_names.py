@@ -15,9 +15,9 @@ from disting import (
     prove,
     transfer_function,
 )
-from disting.catalogs.combined import combined_family
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.next_files import next_catalog
+from disting.catalogs.sizes import combined_family
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chain_of, chains_named, name_of, read

@@ -13,8 +13,8 @@ import pytest
 import disting
 from disting.catalogs import catalog
 from disting.report import page, write_report
+from disting.verdict.meaning import shown
 from disting.verdict.query import View
-from disting.verdict.shown import shown
 from tests.cli.process import called
 from tests.report.links import follow_link
 

@@ -13,8 +13,8 @@ from disting.catalogs import Catalog, catalog
 from disting.report import index, page
 from disting.report.payload import packed, script_json
 from disting.report.words import VIEW_TITLES
+from disting.verdict.meaning import shown
 from disting.verdict.query import View
-from disting.verdict.shown import shown
 from tests.report.outline import Outline
 
 HOSTILE = """</script><script>alert("1")</script><img src=x onerror='alert(2)'>&amp;{{ 7*7 }}"""

@@ -17,8 +17,8 @@ from disting.questions.inclusion import Inclusion
 from disting.report import write_report
 from disting.report.families import families
 from disting.report.sizes import LEFT_INSIDE, NO_LIMIT, NOT_KNOWN, between, limits, sizes_page
+from disting.verdict.meaning import shown
 from disting.verdict.query import View
-from disting.verdict.shown import shown
 from tests.cli.process import called
 from tests.report.barriers import barriers
 from tests.report.links import follow_link

@@ -12,7 +12,7 @@ from disting.catalogs.damper_family import damper_family
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.conditions.structural import condition_8, condition_9
-from disting.questions.same.limited import QUICKLY
+from disting.questions.same.low_cost import QUICKLY
 from disting.verdict.engine import question_key
 from disting.verdict.grouping import classes
 

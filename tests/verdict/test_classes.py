@@ -30,7 +30,7 @@ from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.errors import ContradictionError
 from disting.model.question import Settings
-from disting.questions.same.limited import QUICKLY, quick_finding, quick_profile
+from disting.questions.same.low_cost import QUICKLY, quick_finding, quick_profile
 from disting.store.scheduling import executor
 from disting.verdict.engine import question_key
 from disting.verdict.grouping import classes

@@ -19,8 +19,8 @@ from disting import (
     explicit_map,
     transfer_function,
 )
+from disting.verdict.meaning import shown
 from disting.verdict.result import Verdict
-from disting.verdict.shown import shown
 
 SURE = re.compile(r"(Proven( \([^)]+\))?|Probability of error at most 2\^-\d{3})\.$")
 

@@ -13,8 +13,8 @@ from disting.evidence.conditions import Counts, Ranks
 from disting.experiments import Experiment
 from disting.model.names import chain_of
 from disting.questions.inclusion import Inclusion
+from disting.verdict.meaning import shown
 from disting.verdict.result import Relation
-from disting.verdict.shown import shown
 
 SIZES = [(n, damped) for n in (2, 3) for damped in (False, True)]
 

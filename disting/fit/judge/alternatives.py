@@ -23,9 +23,9 @@ from math import inf
 from disting.catalogs import candidates as stored
 from disting.errors import CatalogError
 from disting.model.chain import Chain
-from disting.model.shown import summary
+from disting.model.presentation import summary
 from disting.questions.positive import renamings
-from disting.verdict.chains import ComparedChain
+from disting.verdict.chain_side import ComparedChain
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation

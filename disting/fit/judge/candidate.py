@@ -21,8 +21,8 @@ from disting.fit.search.joint import AnyCost
 from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
+from disting.model.presentation import summary
 from disting.model.question import Settings
-from disting.model.shown import summary
 
 FOLDS = 5  # of the cross-validation
 FOLD_GAIN = 1e-6  # relative gain of cost at which the fit of a fold ends

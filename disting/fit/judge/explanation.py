@@ -23,7 +23,7 @@ from disting.fit.noise.covariance import correlation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
 from disting.measurement.arrays import Real
-from disting.model.shown import summary
+from disting.model.presentation import summary
 
 # chi2 per line up to which a model explains the data: what a machine does beside being a chain
 LARGEST = 3.0

@@ -16,7 +16,7 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.measurement.arrays import Real
-from disting.model.shown import summary
+from disting.model.presentation import summary
 
 NAMED = 0.3  # share of the largest entry from which on a parameter belongs to the worst direction
 ROUNDING = 1e-15  # a singular value below this share of the largest one is zero

@@ -43,7 +43,7 @@ from disting.fit.noise.line_variance import (
 )
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
-from disting.model.shown import summary
+from disting.model.presentation import summary
 
 # tau up to which lines that jump are distorted; beyond, the grid may be too coarse for resonances
 DISTORTED = 0.05

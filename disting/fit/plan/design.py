@@ -14,7 +14,7 @@ import numpy as np
 from disting.fit.plan.power import Answer, Plan, plan_to_dict, power
 from disting.fit.plan.spectrum import Adversary, Band, Spectrum, best_band, optimal, runnable
 from disting.measurement.arrays import Real
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 from disting.simulation import Excitation
 
 OVERSAMPLED = 5.0  # sampling rate, in highest frequencies

@@ -33,7 +33,7 @@ from disting.fit.plan.rival import Rival, Trust, fitted_rival
 from disting.fit.search.candidates import reference
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
-from disting.model.shown import Shown, summary
+from disting.model.presentation import Shown, summary
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format
 from disting.verdict.comparison import compare

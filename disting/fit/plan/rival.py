@@ -45,7 +45,7 @@ from disting.fit.search.starts import natural, scale, stacked
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
-from disting.model.shown import summary
+from disting.model.presentation import summary
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 

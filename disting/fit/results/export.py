@@ -16,7 +16,7 @@ from disting.fit.judge.modes import poles, zeros
 from disting.fit.search.plant import Plant
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 from disting.simulation import matrices, port_vectors
 
 if TYPE_CHECKING:

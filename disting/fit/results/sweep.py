@@ -12,7 +12,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Real
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 
 CRITERIA = ("condition_index", "importance_ratio", "collinearity")
 STEPS = 200  # thresholds from 1 to 10000

@@ -35,7 +35,7 @@ from disting.fit.search.starts import (
 )
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
-from disting.model.shown import summary
+from disting.model.presentation import summary
 
 ITERATIONS = 30  # of the rough search, and again from the best that it found
 FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not

@@ -23,7 +23,7 @@ from disting.fit.search.setup import Setup, measurable
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 from disting.model.structure import Structure
 
 Lines = Callable[[FrequencyResponse], Real]

@@ -10,7 +10,7 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
 from disting.fibres.synthesis.result import Answer
-from disting.model.shown import Shown, summary
+from disting.model.presentation import Shown, summary
 from disting.questions.identifiability.formula import Formula
 from disting.questions.identifiability.parts import (
     Alternative,

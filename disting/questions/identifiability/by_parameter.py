@@ -17,9 +17,9 @@ from disting.algebra.certainty import Certainty, graded, joint_safety
 from disting.algebra.sampling import enough, safety
 from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
+from disting.model.presentation import summary
 from disting.model.protocol import Model
 from disting.model.question import Settings
-from disting.model.shown import summary
 from disting.questions.identifiability.parts import Level
 
 

@@ -1,6 +1,6 @@
 """What a notebook shows of an object: a drawing, a table, a plot with matplotlib.
 
-The rooms below ask for it as `disting.model.shown.Presenter`, which `Notebook` is.
+The rooms below ask for it as `disting.model.presentation.Presenter`, which `Notebook` is.
 """
 
 from collections.abc import Mapping

@@ -30,8 +30,8 @@ from disting.report.words import headline, plural, raised, title
 from disting.verdict.decisions import Decisions
 from disting.verdict.further import Further
 from disting.verdict.further_words import anywhere, conclusion
+from disting.verdict.meaning import shown as measured
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.shown import shown as measured
 
 
 @singledispatch

@@ -1,5 +1,5 @@
 """What one kind of further experiment leaves together of structures that one measurement cannot
-tell apart, as it is found (`placing`), shipped and looked up.
+tell apart, as it is found (`placement`), shipped and looked up.
 """
 
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from disting.conditions.rule import EXACT
 from disting.conditions.table import NECESSARY
 from disting.experiments.menu import Gain
 from disting.model.kinds import Kind
-from disting.model.shown import plural, summary
+from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.everywhere import Answer
 from disting.verdict.result import Relation

@@ -34,14 +34,14 @@ from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
 from disting.experiments import ComparedMachine, MeasuredChain
 from disting.experiments.equal_machines import standard
-from disting.experiments.exact_under import QUICKLY
+from disting.experiments.exact import QUICKLY
 from disting.experiments.menu import Gain, Item, gain, measured
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
 from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.placed import REPEATS, TESTS, Placed
+from disting.verdict.placement_record import REPEATS, TESTS, Placed
 
 
 def placed(
