@@ -10,7 +10,6 @@ from disting.experiments.changes import GENERIC as GENERIC
 from disting.experiments.changes import Change as Change
 from disting.experiments.experiment import Experiment as Experiment
 from disting.experiments.experiment import MeasuredChain as MeasuredChain
-from disting.experiments.machine_side import ComparedMachine as ComparedMachine
 from disting.experiments.measured_evidence import confirms as confirms
 from disting.experiments.places import Named as Named
 from disting.experiments.places import Places as Places

@@ -23,4 +23,3 @@ from disting.general.model import Model as Model
 from disting.general.model_files import ModelList as ModelList
 from disting.general.model_files import read_models as read_models
 from disting.general.model_files import write_models as write_models
-from disting.general.model_side import ComparedModel as ComparedModel

@@ -20,7 +20,8 @@ from disting.algebra.content import written
 from disting.behaviour.profile import Profile, profile, profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
-from disting.experiments import ComparedMachine, MeasuredChain
+from disting.experiments import MeasuredChain
+from disting.experiments.machine_side import ComparedMachine
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain

@@ -32,9 +32,10 @@ from disting.conditions.finding import Outcome
 from disting.conditions.rule import FREE_CHOICE, RENAMING
 from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
-from disting.experiments import ComparedMachine, MeasuredChain
+from disting.experiments import MeasuredChain
 from disting.experiments.equal_machines import standard
 from disting.experiments.exact import QUICKLY
+from disting.experiments.machine_side import ComparedMachine
 from disting.experiments.menu import Gain, Item, gain, measured
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
