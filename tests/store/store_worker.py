@@ -10,6 +10,7 @@ import resource
 import sqlite3
 import sys
 import warnings
+from importlib import import_module
 from pathlib import Path
 
 from disting.store.store import CacheWarning, Store
@@ -115,7 +116,10 @@ def limited(path: str, size: str) -> None:
 def nobody(path: str) -> None:
     """Use the store without the rights of the owner."""
     if os.getuid() == 0:
-        Path(path).as_uri()  # loads what an interpreter below the home of root hides from others
+        # an interpreter below the home of root hides from others what is imported when used
+        Path(path).as_uri()
+        for late in ("filelock", "importlib.metadata", "platformdirs"):
+            import_module(late)
         os.setgroups([])
         os.setgid(65534)
         os.setuid(65534)

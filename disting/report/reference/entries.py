@@ -82,7 +82,6 @@ def _entry(name: str, place: Place, node: Definition, text: str) -> Entry:
 def _class(name: str, place: Place, node: ast.ClassDef) -> Entry:
     bases = tuple(ast.unparse(base) for base in node.bases)
     members = [m for part in node.body for m in _members(part, place, bases)]
-    record = any("dataclass" in ast.unparse(d) for d in node.decorator_list)
     making = [p for p in node.body if getattr(p, "name", "") in ("__init__", "__post_init__")]
     made = next(
         (p for p in making if isinstance(p, ast.FunctionDef) and p.name == "__init__"), None
@@ -90,8 +89,8 @@ def _class(name: str, place: Place, node: ast.ClassDef) -> Entry:
     arguments: tuple[Argument, ...] | None = None
     if made:
         arguments = _arguments(made.args, place.module)[1:]
-    elif record or "NamedTuple" in bases:
-        arguments = _fields_as_arguments(members, node)
+    elif _is_record(node):
+        arguments = _fields_as_arguments(list(_fields(place, node)), node)
     text = ast.get_docstring(node) or ""
     return Entry(
         name,
@@ -105,9 +104,26 @@ def _class(name: str, place: Place, node: ast.ClassDef) -> Entry:
     )
 
 
-def _fields_as_arguments(members: Sequence[Entry], node: ast.ClassDef) -> tuple[Argument, ...]:
+def _is_record(node: ast.ClassDef) -> bool:
+    decorated = any("dataclass" in ast.unparse(d) for d in node.decorator_list)
+    return decorated or any(ast.unparse(base) == "NamedTuple" for base in node.bases)
+
+
+def _fields(place: Place, node: ast.ClassDef) -> Iterator[Entry]:
+    """The fields of a record, those of records that it extends first."""
+    for base in node.bases:
+        found = defined(Place(place.module, base.id)) if isinstance(base, ast.Name) else None
+        extended = parsed(found.module).definitions[found.name] if found else None
+        if found and isinstance(extended, ast.ClassDef):
+            yield from _fields(found, extended)
+    if _is_record(node):
+        members = (m for part in node.body for m in _members(part, place, ()))
+        yield from (m for m in members if m.kind is Kind.FIELD)
+
+
+def _fields_as_arguments(fields: Sequence[Entry], node: ast.ClassDef) -> tuple[Argument, ...]:
     """How a record is made: its fields, by keyword only where its decorator says so."""
-    found = [Argument(m.name, m.returns, m.value) for m in members if m.kind is Kind.FIELD]
+    found = [Argument(m.name, m.returns, m.value) for m in fields]
     if any("kw_only=True" in ast.unparse(d) for d in node.decorator_list):
         return (Argument("", star="*"), *found)
     return tuple(found)
