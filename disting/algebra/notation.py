@@ -53,10 +53,14 @@ def expression(of: RationalFunction | Sum, *, evaluate: bool = True) -> Expr:
 
 
 def quotient(
-    above: Sequence[Polynomial], below: Sequence[Polynomial], *, evaluate: bool = True
+    above: Sequence[Polynomial],
+    below: Sequence[Polynomial],
+    *,
+    evaluate: bool = True,
+    halves: bool = False,
 ) -> Expr:
     """A rational function of s, from the coefficients of the powers 0, 1, .. of numerator and
-    denominator.
+    denominator; with `halves` of the powers 0, 1/2, 1, ..
 
     >>> from disting.algebra.symbols import symbols
     >>> k, m = symbols(["k", "m"]).values()
@@ -65,7 +69,7 @@ def quotient(
     """
     from sympy import Rational
 
-    (n, top), (d, bottom) = (_in_s(side, evaluate) for side in (above, below))
+    (n, top), (d, bottom) = (_in_s(side, evaluate, halves) for side in (above, below))
     return _product((Rational(n, d), [*top, *((x, -e) for x, e in bottom)]), evaluate)
 
 
@@ -143,15 +147,19 @@ def split_name(name: str) -> tuple[str, str]:
     return head[0], name[head.end() :].strip("_").replace("_", ",")
 
 
-def _in_s(coefficients: Sequence[Polynomial], evaluate: bool) -> Product:
+def _in_s(coefficients: Sequence[Polynomial], evaluate: bool, halves: bool) -> Product:
     """A polynomial in s as one product: a sum with brackets around its longer coefficients, or
     its only term.
     """
+    from sympy import Rational
+
     found: list[Product] = []
     for i, coefficient in enumerate(coefficients):
         products = _products(terms(coefficient))
         shown = [(1, [(_added(products, evaluate), 1)])] if i and len(products) > 1 else products
-        found += [(number, [*powers, (symbol("s"), i)]) for number, powers in shown]
+        found += [
+            (number, [*powers, (symbol("s"), Rational(i, 1 + halves))]) for number, powers in shown
+        ]
     return found[0] if len(found) == 1 else (1, [(_added(found, evaluate), 1)])
 
 

@@ -65,7 +65,8 @@ def coefficient_rows(
 
 
 def series_rows(quotient: Quotient, count: int) -> tuple[list[int], list[list[int]]]:
-    """Coefficients G_0..G_count of the expansion in 1/s (30), and the rows of their derivatives.
+    """Coefficients G_0..G_count of the expansion in 1/s (30), and the rows of their derivatives;
+    before them G_-1, .. of the powers of s, if the degree of the numerator is larger.
 
     num/den = G_0 + G_1/s + ..., so the polynomial part of s^count num/den has them as its
     coefficients; likewise for the derivative (num' den - num den')/den^2.
@@ -76,7 +77,8 @@ def series_rows(quotient: Quotient, count: int) -> tuple[list[int], list[list[in
         (dn * quotient.den - quotient.num * dd).left_shift(count) // square
         for dn, dd in zip(quotient.num_derivatives, quotient.den_derivatives, strict=True)
     ]
-    numbers, rows = coefficient_rows(values, slopes, count + 1)
+    above = max(0, quotient.num.degree() - quotient.den.degree())
+    numbers, rows = coefficient_rows(values, slopes, count + 1 + above)
     return numbers[::-1], rows[::-1]
 
 

@@ -182,7 +182,8 @@ def _terms(q: Quotient) -> dict[str, Row]:
 
 
 def _series(q: Quotient, count: int) -> dict[str, Row]:
-    return {f"G{i}": row for i, row in enumerate(zip(*series_rows(q, count), strict=True))}
+    rows = list(zip(*series_rows(q, count), strict=True))
+    return {f"G{i}": row for i, row in enumerate(rows, count + 1 - len(rows))}
 
 
 def _less(named: dict[str, Row], first: dict[str, Row], modulus: int) -> dict[str, Row]:

@@ -15,17 +15,18 @@ from disting.model.structure import HIGHEST
 class Kind:
     """A row of the table; two are the same, and in order, by their `name`, as commands write it.
 
-    `argument`: that of `Experiment`. `is_port`: it moves a port; else `power` is that of s with
-    which its size stands in A(s)[i, i], None of what holds the mass and takes no size. `text`, with
-    {at} and {size}, names it in an experiment, `item` and `anywhere` on a menu, `title` in a table;
-    `sign` is drawn on the mass. `prices`: the names of what it costs, of which the cheapest is
-    paid; `cost`: that of each where none is named, None: on a menu only where a cost is named.
-    `always`: experiments without it say so where they are written, as they did before there were
-    other kinds. Raises InputError for a power that A(s) does not have.
+    `argument`: that of `Experiment`, none of kinds for networks alone. `is_port`: it moves a port;
+    else `power` is that of s with which its size stands in A(s)[i, i], None of what holds the mass
+    and takes no size. `text`, with {at} and {size}, names it in an experiment, `item` and
+    `anywhere` on a menu, `title` in a table; `sign` is drawn on the mass. `prices`: the names of
+    what it costs, of which the cheapest is paid; `cost`: that of each where none is named, None: on
+    a menu only where a cost is named. `always`: experiments without it say so where they are
+    written, as they did before there were other kinds. Raises InputError for a power that A(s) does
+    not have.
     """
 
     name: str
-    argument: str
+    argument: str = ""
     is_port: bool = False
     power: int | None = None
     text: str = ""
@@ -137,10 +138,69 @@ BRAKE = Kind(
     prices=("brake",),
 )
 KINDS = (SENSOR, FORCE, INERTIA, LOCK, SPRING, BRAKE)
-"""In the order of menus, where costs are equal."""
+"""Of machines, in the order of menus, where costs are equal."""
+CIRCUIT_KINDS = (
+    Kind(
+        name="sensor",
+        is_port=True,
+        item="the voltage at node {} measured",
+        anywhere="the voltage at any further node measured",
+        title="voltage measured there",
+        prices=("sensor", "move"),
+        cost=1.0,
+    ),
+    Kind(
+        name="port",
+        is_port=True,
+        item="the impedance between node {} and the reference measured",
+        anywhere="the impedance between any other node and the reference measured",
+        title="impedance measured there",
+        prices=("move",),
+        cost=1.0,
+    ),
+    Kind(
+        name="short",
+        item="node {} shorted to the reference",
+        anywhere="any node shorted to the reference",
+        title="shorted to the reference there",
+        prices=("short",),
+        cost=3.0,
+    ),
+    Kind(
+        name="resistor",
+        power=0,
+        item="a known resistor from node {} to the reference",
+        anywhere="a known resistor from any node to the reference",
+        title="known resistor to the reference there",
+        prices=("resistor",),
+        cost=2.0,
+    ),
+)
+"""The same of circuits. The reference is the negative node of the port."""
+COMPARTMENT_KINDS = (
+    Kind(
+        name="sensor",
+        is_port=True,
+        item="the contents of compartment {} measured",
+        anywhere="the contents of any further compartment measured",
+        title="contents measured there",
+        prices=("sensor", "move"),
+        cost=1.0,
+    ),
+    Kind(
+        name="force",
+        is_port=True,
+        item="the input moved to compartment {}",
+        anywhere="the input moved to any other compartment",
+        title="input moved there",
+        prices=("move",),
+        cost=1.0,
+    ),
+)
+ALL_KINDS = (*KINDS, *CIRCUIT_KINDS, *COMPARTMENT_KINDS)
 CHANGES = tuple(sorted((k for k in KINDS if not k.is_port), key=lambda k: k.takes_size))
 """Those of the machine, in the order of an experiment's words: what is held still first."""
 EXAMPLES = ", ".join(kind.example for kind in KINDS)
 BY_NAME = {kind.name: kind for kind in KINDS}
-COSTS = {price: k.cost for k in KINDS if k.cost is not None for price in k.prices}
-PRICES = tuple(dict.fromkeys(price for kind in KINDS for price in kind.prices))
+COSTS = {price: k.cost for k in ALL_KINDS if k.cost is not None for price in k.prices}
+PRICES = tuple(dict.fromkeys(price for kind in ALL_KINDS for price in kind.prices))

@@ -1,0 +1,116 @@
+"""The transfer functions of a network as quotients of polynomials in s and its values.
+
+    G = s^q c^T P^-1 b = s^q det [[P, b], [-c^T, 0]] / det P
+
+Every value enters P to the first power, so it does both determinants, and a value p that divides
+enters them as 1/p: both are multiplied by p. Powers of s are counted in steps of s^(1/2) where
+Warburg elements have half ones; where inductors have s^-1, P is multiplied by s, or s^2 in halves.
+"""
+
+from collections.abc import Mapping
+from fractions import Fraction
+from math import lcm
+
+from flint import fmpz_mpoly
+
+from disting.algebra.determinants import Minors, Times, minors
+from disting.errors import InputError
+from disting.network.element import Element, Port
+from disting.network.network import Network
+
+Ring = Mapping[str, fmpz_mpoly]
+"""Generators by name."""
+Sides = tuple[fmpz_mpoly, fmpz_mpoly]
+"""Numerator and denominator, not in lowest terms."""
+
+
+def transfer_functions(
+    network: Network, ring: Ring, s: str, times: Times
+) -> tuple[tuple[Sides, ...], ...]:
+    """Those of a network, outputs x inputs, in a ring with all its parameters and the variable s,
+    which is s^(1/2) where the network has half powers; `times` multiplies, or refuses to. Raises
+    InputError where P cannot be inverted.
+    """
+    plain = network.grounded
+    size = max((i for e in plain.elements for i in e.nodes), default=0)
+    step = 1 if network.halves else 2
+    lift = max((0, *(-e.kind.halves for e in plain.elements))) // step
+    one = ring[s] ** 0
+    scale = lcm(*(e.known_ratio.denominator for e in plain.elements if e.known_ratio is not None))
+    rows = [[one - one] * size for _ in range(size)]
+    for e in plain.elements:
+        _add(rows, e, ring, ring[s] ** (e.kind.halves // step + lift), scale)
+    whole = (1 << size) - 1
+    determinant = minors(rows, {0: one}, times).get(whole, one - one)
+    if determinant.is_zero():
+        raise InputError(
+            f"{network.name}: no motion or voltage follows from what enters: a part has nothing"
+            " that holds it; connect it to the ground or give it a mass"
+        )
+    gained = 2 * network.order // step + lift
+    dividing = [e.value for e in plain.elements if e.kind.divides]
+    columns = []
+    for port in plain.inputs:
+        entering = _vector(port, size, one)
+        above = minors([[*r, b] for r, b in zip(rows, entering, strict=True)], {0: one}, times)
+        columns.append(
+            [
+                _turned(
+                    _bordered(above, _vector(out, size, one), one - one, times)
+                    * ring[s] ** gained
+                    * scale**2,
+                    determinant,
+                    dividing,
+                )
+                for out in plain.outputs
+            ]
+        )
+    return tuple(zip(*columns, strict=True))
+
+
+def _add(
+    rows: list[list[fmpz_mpoly]], e: Element, ring: Ring, power: fmpz_mpoly, scale: int
+) -> None:
+    """Add the term of an element, times the square of a number that makes it whole."""
+    term = power * (ring[e.value] if e.value else 1)
+    u, v = ({i: _entry(x, ring, scale) for i, x in side.items()} for side in (e.pulls, e.feels))
+    for i, x in u.items():
+        for j, y in v.items():
+            rows[i - 1][j - 1] += term * x * y
+
+
+def _entry(x: Fraction | str, ring: Ring, scale: int) -> fmpz_mpoly | int:
+    return -ring[x] * scale if isinstance(x, str) else int(x * scale)
+
+
+def _vector(port: Port, size: int, one: fmpz_mpoly) -> list[fmpz_mpoly]:
+    return [one * port.ends.get(i, 0) for i in range(1, size + 1)]
+
+
+def _bordered(
+    above: Minors,
+    sensor: list[fmpz_mpoly],
+    zero: fmpz_mpoly,
+    times: Times,
+) -> fmpz_mpoly:
+    """c^T adj P b, from the minors of the rows [P, b]."""
+    last = [*(-x for x in sensor), zero]
+    return minors([last], above, times).get((2 << len(sensor)) - 1, zero)
+
+
+def _turned(num: fmpz_mpoly, den: fmpz_mpoly, dividing: list[str]) -> Sides:
+    """Both with 1/p for values p that divide, times all of these values."""
+    if not dividing:
+        return num, den
+    context = den.context()
+    places = [context.variable_to_index(name) for name in dividing]
+    sides = []
+    for side in (num, den):
+        terms = {}
+        for powers, number in side.to_dict().items():
+            turned = list(powers)
+            for at in places:
+                turned[at] = 1 - turned[at]
+            terms[tuple(turned)] = number
+        sides.append(context.from_dict(terms))
+    return sides[0], sides[1]

@@ -1,0 +1,96 @@
+"""Nodes and elements of a network as a graph: what is connected, what a port can see."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from disting.network.element import Element, Port
+
+Edge = tuple[int, int]
+
+
+def edges(element: Element) -> tuple[Edge, ...]:
+    """Between which nodes it goes: a mass is felt against the ground; a gear of a ratio other than
+    1 pushes against its casing, so it joins both nodes and the ground.
+    """
+    first, *others = element.nodes
+    second = others[0] if others else 0
+    if element.ratio and element.known_ratio != 1 and first and second:
+        return (first, second), (first, 0), (second, 0)
+    return ((first, second),)
+
+
+def parts(nodes: Iterable[int], joined: Iterable[Edge]) -> dict[int, int]:
+    """For each node the smallest one that it is connected with."""
+    root = {node: node for node in nodes}
+
+    def found(node: int) -> int:
+        while root[node] != node:
+            node = root[node]
+        return node
+
+    for a, b in joined:
+        low, high = sorted((found(a), found(b)))
+        root[high] = low
+    return {node: found(node) for node in root}
+
+
+def seen_by_blocks(
+    elements: Sequence[Element], inputs: Iterable[Port], outputs: Iterable[Port]
+) -> frozenset[int]:
+    """Positions of the elements that can enter a transfer function of a reciprocal network.
+
+    With an edge for each port, they lie in a block (a 2-connected component) with the edges of an
+    input and of an output. Proof. P = sum p s^r u u^T, so det P is a sum over spanning trees, and
+    c^T adj P b one over forests of two trees that both port edges connect. A block that is left out
+    meets the rest in one node, so both sums have its own sum over trees as a factor, which cancels.
+    """
+    import networkx  # imported late: it takes longer than most of what is asked
+
+    joined: list[tuple[Edge, tuple[int | str, int]]] = [
+        *((edge, (at, i)) for at, e in enumerate(elements) for i, edge in enumerate(edges(e))),
+        *(((p.plus, p.minus), ("in", i)) for i, p in enumerate(inputs)),
+        *(((p.plus, p.minus), ("out", i)) for i, p in enumerate(outputs)),
+    ]
+    # networkx knows blocks of graphs without parallel edges: every edge gets a node in its middle
+    graph: networkx.Graph[Any] = networkx.Graph()
+    for (a, b), key in joined:
+        graph.add_edges_from(((a, key), (key, b)))
+    seen = set[int]()
+    blocks: Iterable[Iterable[Any]] = networkx.biconnected_components(graph)
+    for block in blocks:
+        marks = {key[0] for key in block if isinstance(key, tuple)}
+        if {"in", "out"} <= marks:
+            seen |= {at for at in marks if isinstance(at, int)}
+    return frozenset(seen)
+
+
+def reached(elements: Sequence[Element], start: Iterable[int], backwards: bool) -> set[int]:
+    """Compartments that flows reach from some, or from which some are reached."""
+    found = set(start)
+    while True:
+        more = {
+            ends[not backwards]
+            for ends in (e.nodes for e in elements if e.letter == "a")
+            if ends[backwards] in found
+        }
+        if more <= found | {0}:
+            return found
+        found |= more - {0}
+
+
+def seen_by_flows(
+    elements: Sequence[Element], inputs: Iterable[Port], outputs: Iterable[Port]
+) -> frozenset[int]:
+    """Positions of the elements of compartments that can enter: those of compartments that an input
+    reaches, and from which an output is reached. Others have a block of zeros in P.
+    """
+    ahead = reached(elements, [p.plus for p in inputs], False)
+    behind = reached(elements, [p.plus for p in outputs], True)
+    return frozenset(i for i, e in enumerate(elements) if e.nodes[0] in ahead & behind)
+
+
+def renumbered(places: Mapping[int, int], element: Element) -> Element:
+    """The element at other nodes, of which one can be the ground unless it is a gear."""
+    nodes = tuple(places[i] for i in element.nodes)
+    ratio = "" if element.known_ratio == 1 else element.ratio
+    return Element(element.value, element.letter, nodes, ratio)

@@ -1,0 +1,187 @@
+"""What remains of a network when elements tend to zero or grow without bound: its minors, as of a
+graph of which edges are deleted and contracted.
+
+`places` takes nodes of the `whole` to nodes of the `part`, and 0, the ground, to 0. Every element
+of the part is met by an element of the whole of its kind, no two by the same one, with its ends
+where it has its own, in the same direction where it has a ratio or is a flow. Nodes of the whole at
+one node of the part are connected by elements that are not needed. Ports lie at the same places, as
+they are or some with both ends exchanged, an even number of times.
+
+Theorem. Then for all parameters of the part, its transfer functions are limits of those of the
+whole.
+
+Proof for reciprocal networks. Let elements between nodes at one place grow as 1/e (of a resistor:
+fall as e), those that meet an element of the part be it, and all others be e. For real s > 0 every
+term p s^r u u^T is positive semidefinite, so the sum C/e of those that grow has the kernel
+x_i = y_j for a node i at j, with y_0 = 0: the columns of K. P = P_0 + e P_1 + C/e, and K^T P_0 K is
+P(s) of the part, which can be inverted for all but finitely many s. On the orthogonal complement of
+the kernel C is positive definite; eliminating the complement shows P^-1 -> K (K^T P_0 K)^-1 K^T.
+K^T turns a port at nodes of the whole into one at their places. So for e -> 0 all transfer
+functions converge, at infinitely many s.
+
+Proof for flows. Nothing is contracted: `places` gives each compartment of the part one of the
+whole. All other flows are e. For e = 0 the matrix P falls apart into that of the part and that of
+compartments which no flow connects with it, s for each, and the transfer functions are those of the
+part, as they are continuous in e.
+
+Gears of which a ratio is known are elements like others if both have the same ratio; an unknown
+ratio of the whole stands for one ratio of the part. Neither is contracted.
+"""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from itertools import islice
+
+from disting.network.element import Element
+from disting.network.graph import parts
+from disting.network.network import Network
+
+Places = Mapping[int, int]
+TRIED = 20_000  # places of a node, in all
+
+
+def is_minor(part: Network, whole: Network, places: Places) -> bool:
+    """Whether these places make the part of the whole.
+
+    >>> from disting.network import network_of
+    >>> is_minor(network_of("R0-C1"), network_of("R0-p(C1,R1)"), {0: 0, 1: 1, 2: 2})
+    True
+    """
+    named = {0, *whole.nodes} == set(places) and {0, *part.nodes} == set(places.values())
+    if not named or places.get(0) != 0 or (part.sort, part.order) != (whole.sort, whole.order):
+        return False
+    return (
+        _has_ports(part, whole, places)
+        and _meets(part, whole, places) is not None
+        and _is_connected(part, whole, places)
+    )
+
+
+def left_out(
+    part: Network, whole: Network, places: Places
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The values of the whole whose elements are missing, and of those in whose place nodes are
+    connected directly.
+
+    >>> from disting.network import network_of
+    >>> one, other = network_of("R0-C1"), network_of("R0-p(C1,R1)-L1")
+    >>> left_out(one, other, {0: 0, 1: 1, 2: 2, 3: 0})
+    (('R1',), ('L1',))
+    """
+    met = _meets(part, whole, places) or {}
+    kept = {e.value for e in met.values()}
+    others = [e for e in whole.elements if e.value and e.value not in kept]
+    rigid = [e for e in others if len({places[i] for i in (*e.nodes, 0)[:2]}) == 1]
+    rigid = [] if whole.is_directed else rigid
+    missing = tuple(sorted(e.value for e in others if e not in rigid))
+    return missing, tuple(sorted(e.value for e in rigid))
+
+
+def minors(part: Network, whole: Network) -> Iterator[dict[int, int]]:
+    """Yield places that make the part of the whole, as far as they are found with bounded work."""
+    if len(part.elements) >= len(whole.elements) or part.shape != whole.shape:
+        return
+    for start in _port_places(part, whole):
+        order = sorted(set(whole.nodes) - start.keys())
+        for places in islice(_grown(part, whole, start, order), TRIED):
+            if is_minor(part, whole, places):
+                yield places
+
+
+def _port_places(part: Network, whole: Network) -> Iterator[dict[int, int]]:
+    """Yield the places of the nodes of ports, port by port, with their ends either way."""
+    found: list[dict[int, int]] = [{0: 0}]
+    for mine, there in zip(whole.ports, part.ports, strict=True):
+        ways = [((mine.plus, there.plus), (mine.minus, there.minus))]
+        ways.append(((mine.plus, there.minus), (mine.minus, there.plus)))
+        found = [
+            places | dict(way)
+            for places in found
+            for way in ways
+            if all(places.get(i, at) == at for i, at in way)
+        ]
+    yield from found
+
+
+def _has_ports(part: Network, whole: Network, places: Places) -> bool:
+    """Whether ports lie at those of the part, with an even number of exchanges on every way from an
+    input to an output.
+    """
+    signs = []
+    for mine, there in zip(whole.ports, part.ports, strict=True):
+        at = places[mine.plus], places[mine.minus]
+        if at not in ((there.plus, there.minus), (there.minus, there.plus)):
+            return False
+        signs.append(at == (there.plus, there.minus))
+    return len(set(signs)) == 1
+
+
+def _grown(
+    part: Network, whole: Network, places: dict[int, int], order: list[int]
+) -> Iterator[dict[int, int]]:
+    """Yield all ways to place the nodes that have none."""
+    if not order:
+        yield places
+        return
+    node, *rest = order
+    lacking = {*part.nodes} - set(places.values())
+    if len(lacking) > len(order):
+        return
+    used = set(places.values()) if whole.is_directed else set()
+    near = {
+        places[j]
+        for e in whole.elements
+        if node in e.nodes
+        for j in (e.nodes if len(e.nodes) > 1 else (node, 0))
+        if j != node and j in places
+    }
+    later = set(order)
+    tied = any(node in e.nodes and set(e.nodes) & later - {node} for e in whole.elements)
+    choices = {*lacking, *(set(places.values()) if tied else near)} - used
+    if whole.is_directed:
+        choices |= {0}
+    for at in sorted(choices):
+        yield from _grown(part, whole, places | {node: at}, rest)
+
+
+def _meets(part: Network, whole: Network, places: Places) -> dict[str, Element] | None:
+    """For each element of the part one of the whole, by name; None if there are too few."""
+    wanted = Counter(_mark(e, {i: i for i in (0, *part.nodes)}) for e in part.elements)
+    met: dict[tuple[object, ...], list[Element]] = {}
+    for e in whole.elements:
+        met.setdefault(_mark(e, places), []).append(e)
+    if any(len(met.get(mark, ())) < count for mark, count in wanted.items()):
+        return None
+    free = {mark: iter(found) for mark, found in met.items()}
+    chosen, ratios = dict[str, Element](), dict[str, str]()
+    for e in part.elements:
+        mine = next(free[_mark(e, {i: i for i in (0, *part.nodes)})])
+        chosen[e.value or str(e.nodes)] = mine
+        if e.known_ratio is None and ratios.setdefault(mine.ratio, e.ratio) != e.ratio:
+            return None
+    return chosen
+
+
+def _mark(e: Element, places: Places) -> tuple[object, ...]:
+    """What two elements share that can be one another's: kind, ends, whether there is a ratio."""
+    at = tuple(places[i] for i in e.nodes)
+    plain = not e.ratio and e.letter != "a"
+    return e.letter, tuple(sorted(at)) if plain else at, e.known_ratio
+
+
+def _is_connected(part: Network, whole: Network, places: Places) -> bool:
+    """Whether the nodes at each place are one body; a compartment is alone, but for those outside,
+    which are left alone.
+    """
+    if whole.is_directed:
+        alone = Counter(at for at in places.values() if at)
+        return all(count == 1 for count in alone.values())
+    inside = [
+        (i, j)
+        for e in whole.elements
+        if not e.ratio
+        for i, j in [(e.nodes[0], e.nodes[1] if len(e.nodes) > 1 else 0)]
+        if places[i] == places[j]
+    ]
+    roots = parts(places, inside)
+    return all(roots[i] == roots[j] for i in places for j in places if places[i] == places[j])

@@ -1,0 +1,269 @@
+"""Networks that give the same transfer functions for all positive values, special ones aside, as
+they are made of parts that can replace each other.
+
+Parts. A part is a one-port: elements between two nodes that nothing else touches inside. An element
+has the compliance (a circuit's: the impedance) 1/(p s^r). Let a part be of two kinds, A with the
+smaller r, B with the larger one, in series and parallel in any order. With x = s^(r_B - r_A) its
+compliance is s^(-r_A) F(x), F made of constants k (A) and of k/x (B) by sums and H -> 1/(x H).
+
+THEOREM (Foster, Cauer). K(n, c, z) is the set of F = [k] + [k_0/x] + sum of n terms k_i/(x + a_i),
+positive, a_i distinct, the first term there if c, the second one if z. All parts with the same n,
+c, z give all of K(n, c, z), and for generic values nothing else. Proof, by the number of elements.
+An element is K(0, 1, 0) or K(0, 0, 1). In series F is the sum over the branches: generic branches
+share no a_i, so their n add up, and c, z are there if a branch has them. Conversely give of F in K
+each branch as many terms as its n, any ones, and a share of k and of k_0 to each branch that has
+such a term: each share is all that a branch can be, by the induction. In parallel the same is said
+of 1/(x F), which is in K(n + c + z - 1, not c, not z): F falls strictly between its poles, so it
+has one zero there, one more left of all poles if c, and none else; at a zero -b the residue of
+1/(x F) is 1/(-b F'(-b)) > 0.
+
+Replacement. Values of different parts are chosen independently. So networks give the same transfer
+functions if they are the same graph with the same sets of compliances at its edges, whatever the
+rest is. A series of parts of three kinds is known by its single elements (several ones of a kind
+are one), by how many terms k/(x + a) of each two kinds it has, and by the parts of three kinds in
+it; in parallel likewise. Potentials enter as differences, so that the ground is a node like any
+other; parts in series can be exchanged; a reciprocal network may exchange force and sensor.
+
+Compartments. A compartment b with flows to and from i only, and perhaps to the outside, hangs at i,
+and so does a tree of such ones. It adds a (1 - Q) to the diagonal of P at i: a the flow from i, Q
+the share that has come back, Q = sum q_j/(s + l_j) of as many terms as there are compartments, q_j
+and l_j positive, Q(0) = 1 without an outflow, Q(0) < 1 with some.
+THEOREM. All trees with as many compartments, with or without outflows, give all such a (1 - Q), and
+several that hang at i, and an outflow of i, together are one. Proof. Q = C G with C = sum q_j, and
+1/G = s + e - H with e > 0 and H = sum h_j/(s + m_j) of one term less, positive, by the theorem
+above. Share the terms of H among the branches by their sizes; so on: this gives a symmetric matrix
+S on the tree, G = ((s - S)^-1)_bb. Its eigenvalues are -l_j < 0, its entries at edges are positive,
+so all entries of (-S)^-1 are. Let t be C at b, positive at compartments with an outflow, 0
+elsewhere, and w = (-S)^-1 t, with sizes such that w_b = G(0) C + .. = Q(0) + .. = 1: then A = W S
+W^-1, W = diag(w), has the same G, positive flows at the edges, and what leaves i of the column sums
+is -t_i/w_i: the flow C from b back to i, and the outflows. For several trees at i split a Q into
+groups of terms; one without outflow takes a_b = a times the value of its group at 0, what is left
+of a goes to those with an outflow, or to the outflow of i.
+"""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from disting.network.network import Network
+
+REMEMBERED = 4096  # networks
+Count = tuple[tuple[tuple[int, int], int], ...]
+"""How many terms of which two kinds, the smaller power first."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Part:
+    """A part in series ("S") or parallel ("P"): the powers r (in halves) of its single elements,
+    its terms of two kinds, and parts of three kinds or more, written out.
+    """
+
+    form: str
+    single: tuple[int, ...]
+    terms: Count = ()
+    others: tuple["Part", ...] = ()
+
+    @property
+    def kinds(self) -> set[int]:
+        """Powers of all that is in it."""
+        inside = {r for pair, _ in self.terms for r in pair}
+        return {*self.single, *inside, *(r for part in self.others for r in part.kinds)}
+
+
+@dataclass(frozen=True, slots=True)
+class NormalForm:
+    """A graph with parts at its edges, or compartments with what hangs at them."""
+
+    edges: tuple[tuple[int, int, object], ...]
+    nodes: tuple[tuple[int, object], ...]
+
+
+def same_parts(left: Network, right: Network) -> bool:
+    """Whether two networks give the same transfer functions for all positive values, special ones
+    aside, by the theorems above. False says nothing.
+
+    >>> from disting.network.notation import network_of
+    >>> same_parts(network_of("R0-p(R1,C1)-p(R2,C2)"), network_of("p(R1,R2-C1,R3-C2)"))
+    True
+    >>> same_parts(network_of("1~2~3~4; F1; S1"), network_of("1~2, 1~3, 3~4; F1; S1"))
+    True
+    """
+    if (left.sort, left.order, left.shape) != (right.sort, right.order, right.shape):
+        return False
+    one, other = normal_form(left), normal_form(right)
+    if one is None or other is None or _sketch(one) != _sketch(other):
+        return False
+    return any(_is_isomorphic(one, left, other, ports) for ports in _readings(right))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def normal_form(network: Network) -> NormalForm | None:
+    """What remains when parts and hanging trees are named by what they can be; None of a network
+    with gears.
+    """
+    if network.is_directed:
+        return _of_compartments(network)
+    return None if any(e.ratio for e in network.elements) else _of_graph(network)
+
+
+def in_series(parts: Iterable[Part]) -> Part:
+    """Parts one after the other."""
+    return _joined("S", parts)
+
+
+def in_parallel(parts: Iterable[Part]) -> Part:
+    """Parts side by side."""
+    return _joined("P", parts)
+
+
+def _joined(form: str, parts: Iterable[Part]) -> Part:
+    single, terms, others = set[int](), Counter[tuple[int, int]](), list[Part]()
+    for part in parts:
+        inside = part if part.form == form or len(part.single) == 1 == len(part.kinds) else None
+        if inside is None and len(part.kinds) == 2:
+            inside = _turned(part)
+        if inside is None:
+            others.append(part)
+        else:
+            single |= set(inside.single)
+            terms.update(dict(inside.terms))
+            others += inside.others
+    made = Part(form, tuple(sorted(single)), tuple(sorted(terms.items())), tuple(sorted(others)))
+    return _turned(made) if form == "P" and len(made.kinds) == 2 else _single(made)
+
+
+def _single(part: Part) -> Part:
+    """One element is in series and in parallel alike."""
+    return Part("S", part.single) if len(part.kinds) == 1 else part
+
+
+def _turned(part: Part) -> Part:
+    """A part of two kinds from series to parallel, or back: K(n, c, z) is, of 1/(x F), the set
+    K(n + c + z - 1, not c, not z). Of F the constant is the kind of the smaller power, of 1/(x F),
+    whose terms are side by side, that of the larger one.
+    """
+    low, high = sorted(part.kinds)
+    count = dict(part.terms).get((low, high), 0) + len(part.single) - 1
+    single = [r for r, other in ((low, high), (high, low)) if other not in part.single]
+    terms = (((low, high), count),) if count else ()
+    return Part("P" if part.form == "S" else "S", tuple(sorted(single)), terms)
+
+
+def _of_graph(network: Network) -> NormalForm:
+    """Parts between nodes that are no ends of ports and have two neighbours become one."""
+    between: dict[frozenset[int], list[Part]] = {}
+    for e in network.seen:
+        ends = frozenset((*e.nodes, 0)[:2])
+        between.setdefault(ends, []).append(Part("S", (e.kind.halves,)))
+    edges = {ends: in_parallel(parts) for ends, parts in between.items()}
+    kept = {i for p in network.ports for i in (p.plus, p.minus)}
+    while True:
+        at = _inner(edges, kept)
+        if at is None:
+            break
+        found = [ends for ends in edges if at in ends]
+        across = frozenset().union(*found) - {at}
+        made = in_series(edges.pop(ends) for ends in found)
+        edges[across] = in_parallel([edges[across], made]) if across in edges else made
+    listed = (tuple(sorted(ends)) for ends in edges)
+    return NormalForm(tuple((a, b, edges[frozenset((a, b))]) for a, b in sorted(listed)), ())
+
+
+def _inner(edges: dict[frozenset[int], Part], kept: set[int]) -> int | None:
+    """A node of two neighbours at which no port is; None if there is none."""
+    degree = Counter(i for ends in edges for i in ends)
+    return next((i for i, count in degree.items() if count == 2 and i not in kept), None)
+
+
+def _of_compartments(network: Network) -> NormalForm:
+    """Trees that hang at a compartment become a number and whether something flows out of them."""
+    flows = {(e.nodes[0], e.nodes[1]) for e in network.seen if e.letter == "a"}
+    kept = {p.plus for p in network.ports}
+    nodes = {e.nodes[0] for e in network.seen}
+    hanging = dict.fromkeys(nodes, 0)
+    leaky = dict.fromkeys(nodes, False)
+    # what flows to compartments that are not seen is lost
+    lost = {i for i, j in flows if j not in nodes}
+    flows = {(i, j) for i, j in flows if j in nodes}
+    for i in lost:
+        leaky[i] = True
+    while True:
+        at = next((i for i in sorted(nodes - kept) if _hangs(i, flows)), None)
+        if at is None:
+            break
+        (near,) = {j for i, j in flows if i == at}
+        hanging[near] += hanging.pop(at) + 1
+        leaky[near] = leaky[near] or leaky.pop(at)
+        nodes, flows = nodes - {at}, flows - {(at, near), (near, at)}
+    return NormalForm(
+        tuple((i, j, "flow") for i, j in sorted(flows)),
+        tuple((i, (hanging[i], leaky[i])) for i in sorted(nodes)),
+    )
+
+
+def _hangs(at: int, flows: set[tuple[int, int]]) -> bool:
+    """Whether it has flows to and from one compartment only."""
+    out, back = {j for i, j in flows if i == at}, {i for i, j in flows if j == at}
+    return len(out) == 1 and out == back
+
+
+Ports = tuple[tuple[int, int], ...]
+"""Both ends of each."""
+
+
+def _readings(network: Network) -> Iterator[Ports]:
+    """Yield the ports as they are, with all signs changed, and of one force and one sensor of a
+    reciprocal network exchanged: the transfer functions are the same.
+    """
+    plain = tuple((p.plus, p.minus) for p in network.ports)
+    orders = [plain]
+    if network.shape == (1, 1) and not network.is_directed:
+        orders.append(plain[::-1])
+    for ports in orders:
+        yield ports
+        if not network.is_directed:
+            yield tuple((minus, plus) for plus, minus in ports)
+
+
+def _sketch(form: NormalForm) -> object:
+    """What isomorphic forms share."""
+    labels = Counter(label for *_, label in form.edges), Counter(label for _, label in form.nodes)
+    return labels
+
+
+def _is_isomorphic(one: NormalForm, left: Network, other: NormalForm, ports: Ports) -> bool:
+    """Whether one graph is the other, edges, nodes and ports included."""
+    import networkx  # late: it takes longer than most of what is asked
+
+    mine = tuple((p.plus, p.minus) for p in left.ports)
+    graphs = [_graph(form, ends, left.is_directed) for form, ends in ((one, mine), (other, ports))]
+
+    def alike(a: dict[str, object], b: dict[str, object]) -> bool:
+        """Labels of two nodes, or of two edges."""
+        return a["label"] == b["label"]
+
+    first, second = graphs
+    return bool(networkx.is_isomorphic(first, second, node_match=alike, edge_match=alike))
+
+
+def _graph(form: NormalForm, ports: Ports, is_directed: bool) -> Any:
+    """The graph with the ends of ports in the labels of its nodes; an outside, where flows enter
+    from, is no node.
+    """
+    import networkx
+
+    graph: networkx.DiGraph[int] = networkx.DiGraph()
+    for a, b, label in form.edges:
+        graph.add_edge(a, b, label=label)
+        if not is_directed:
+            graph.add_edge(b, a, label=label)
+    graph.add_nodes_from(i for port in ports for i in port[: 1 if is_directed else 2])
+    hanging = dict(form.nodes)
+    for i in graph.nodes:
+        ends = tuple(
+            (k, side) for k, port in enumerate(ports) for side, j in enumerate(port) if i == j
+        )
+        graph.nodes[i]["label"] = (hanging.get(i), ends)
+    return graph

@@ -1,0 +1,88 @@
+"""Networks as people write them, each notation told apart by its signs or named."""
+
+import re
+
+from disting.errors import InputError, listed, of_type, shown
+from disting.model.chain import Sensor, as_sensor
+from disting.network.network import Network
+from disting.network.notation.circuit import AUTOEIS, BOUKAMP, IMPEDANCE, circuit, dialects_of
+from disting.network.notation.compartments import CALL, compartments
+from disting.network.notation.machine import DRAWN, machine
+from disting.network.notation.netlist import LINE, netlist
+
+DIALECTS = {d.name: d for d in (IMPEDANCE, AUTOEIS, BOUKAMP)}
+NOTATIONS = (*DIALECTS, "spice", "machine", "compartments")
+LONGEST = 5_000  # characters
+
+
+def notations_of(text: str) -> list[str]:
+    """The notations in which a text may be written, by its signs alone; none for what is no
+    network, such as the name 3:1 of a chain.
+
+    >>> notations_of("R0-[R1,C1]"), notations_of("1>2; in 1; out 2"), notations_of("3:1+b2")
+    (['autoeis'], ['compartments'], [])
+    """
+    if len(text) > LONGEST or re.fullmatch(r"\s*(A|\d+:)\d+(\+\w+)*\s*", text):
+        return []
+    if any(LINE.fullmatch(part.strip()) for part in re.split(r"[;\n]", text)):
+        return ["spice"]
+    if ">" in text or CALL.fullmatch(text):
+        return ["compartments"]
+    if re.search(r"[=~#]|;\s*[FS]\d", text) or DRAWN.search(text):
+        return ["machine"]
+    if re.match(r"\s*[\[(]*(p\()?[A-Z]", text) and not re.search(r"[.:/\\]", text):
+        return [d.name for d in dialects_of(text)]
+    return []
+
+
+def network_of(
+    text: str,
+    notation: str = "",
+    *,
+    name: str = "",
+    quantity: Sensor | str = Sensor.ACCELERATION,
+) -> Network:
+    """The network that a text describes, in the notation that is named or that its signs show:
+    "impedance", "autoeis", "boukamp", "spice", "machine", "compartments". `quantity`: what the
+    sensors of a machine show unless the text says it. `name`: the text, unless another one is
+    given. Raises InputError with the place and what to write instead.
+
+    >>> network_of("R(RC)").parameters, network_of("1=2, 2=3, 2=4; F1; S4").shape
+    (('C1', 'R1', 'R2'), (1, 1))
+    """
+    of_type(text, str, "a network is described by a text such as R0-p(R1,C1)")
+    if notation and notation not in NOTATIONS:
+        raise InputError(f"notations are {listed(NOTATIONS)}, not {shown(notation)}")
+    if len(text) > LONGEST:
+        raise InputError(f"a network is written in {LONGEST} characters at most; use a file")
+    found = [notation] if notation else notations_of(text)
+    if not found:
+        raise InputError(
+            f"{shown(text)} is no network: write a circuit as R0-p(R1,C1), a machine as 1=2=3; F1;"
+            " S3, or compartments as 1>2, 2>0; in 1; out 2"
+        )
+    lines = filter(None, map(str.strip, text.split("\n")))
+    called = name or ("; " if found == ["spice"] else " ").join(lines)
+    read = {what: _read(text, what, called, as_sensor(quantity)) for what in found}
+    good = {what: made for what, made in read.items() if isinstance(made, Network)}
+    if len(set(good.values())) > 1:
+        raise InputError(
+            f"{shown(text)} means one circuit in {' and another one in '.join(good)} notation; say"
+            f" which: --notation {next(iter(good))}, or notation= in Python"
+        )
+    if not good:
+        raise next(made for made in read.values() if isinstance(made, InputError))
+    return next(iter(good.values()))
+
+
+def _read(text: str, notation: str, name: str, quantity: Sensor) -> Network | InputError:
+    try:
+        if notation in DIALECTS:
+            return circuit(text, DIALECTS[notation], name)
+        if notation == "spice":
+            return netlist(text, name)
+        if notation == "machine":
+            return machine(text, name, quantity)
+        return compartments(text, name)
+    except InputError as problem:
+        return InputError(f"{shown(text)}: {problem}")

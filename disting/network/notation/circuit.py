@@ -1,0 +1,179 @@
+"""Circuits as strings: elements in series and parallel, in three dialects.
+
+    impedance.py, many tools    R0-p(R1,C1)-W1       - series, p(,) parallel
+    AutoEIS, EquivalentCircuits R0-[R1,C1]-W1        - series, [,] parallel
+    Boukamp (CDC)               R(RC)W, R(C[RW])     side by side and [ ] series, ( ) parallel
+
+An element is R, L, C or W and a number; Boukamp's may have none and are numbered. The port is at
+both ends of the circuit.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import count, islice, pairwise
+
+from disting.errors import InputError
+from disting.network.element import Element, Port
+from disting.network.network import Network
+
+WORDS = re.compile(r"\s*(p\(|[-,()\[\]]|[A-Za-z]+\d*|\S)")
+LETTER = re.compile(r"\s*([()\[\]]|[A-Z][a-z]*\d*|\S)")  # where elements stand side by side
+LETTERS = "RLCW"
+DEEPEST = 30
+IRRATIONAL = ("CPE", "Q", "P", "Wo", "Ws", "G", "T", "O")  # elements of other programs
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """How a notation writes parallel parts and series in brackets; `dashes`: series has dashes,
+    parallel parts commas.
+    """
+
+    name: str
+    parallel: tuple[str, str]
+    series: tuple[str, str] = ("", "")
+    dashes: bool = True
+
+
+IMPEDANCE = Dialect("impedance", ("p(", ")"))
+AUTOEIS = Dialect("autoeis", ("[", "]"))
+BOUKAMP = Dialect("boukamp", ("(", ")"), ("[", "]"), dashes=False)
+
+
+def dialects_of(text: str) -> list[Dialect]:
+    """The dialects in which a text may be written, by its signs alone."""
+    plain = text.replace(" ", "")
+    if "p(" in plain:
+        return [IMPEDANCE]
+    if "-" in plain or "," in plain:
+        return [AUTOEIS] if "[" in plain else [IMPEDANCE]
+    if "(" in plain:
+        return [BOUKAMP]
+    return [AUTOEIS, BOUKAMP] if "[" in plain else [BOUKAMP]
+
+
+def circuit(text: str, dialect: Dialect, name: str) -> Network:
+    """The one-port that a text describes; raises InputError with the place.
+
+    >>> print(*circuit("R0-p(R1,C1)", IMPEDANCE, "cell").elements, sep=", ")
+    R0 1 2, R1 2 0, C1 2 0
+    """
+    token = WORDS if dialect.dashes else LETTER
+    reader = _Reader(dialect, list(token.finditer(text.rstrip())), text)
+    whole = reader.series()
+    if reader.next:
+        raise reader.problem("what stands before it is whole; remove it or join it")
+    port = (Port(1),)
+    return Network(tuple(_placed(whole, 1, 0, count(2))), port, port, name=name)
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Parts one after the other."""
+
+    parts: tuple["Part", ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Parallel:
+    """Parts side by side."""
+
+    parts: tuple["Part", ...]
+
+
+Part = str | Series | Parallel
+
+
+def _placed(part: Part, start: int, end: int, new: Iterator[int]) -> Iterator[Element]:
+    """Yield the elements of a part between two nodes; `new` numbers further ones."""
+    match part:
+        case Parallel(parts):
+            for each in parts:
+                yield from _placed(each, start, end, new)
+        case Series(parts):
+            nodes = [start, *islice(new, len(parts) - 1), end]
+            for each, (a, b) in zip(parts, pairwise(nodes), strict=True):
+                yield from _placed(each, a, b, new)
+        case str():
+            yield Element(part, part[0], (start, end))
+
+
+@dataclass(slots=True)
+class _Reader:
+    """Tokens, the place in them, and how often a letter stood without a number."""
+
+    dialect: Dialect
+    tokens: list[re.Match[str]]
+    text: str
+    at: int = 0
+    depth: int = 0
+    unnumbered: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def next(self) -> str:
+        """The next token, "" at the end."""
+        return self.tokens[self.at][1] if self.at < len(self.tokens) else ""
+
+    def series(self) -> Part:
+        """Parts up to a bracket, a comma or the end."""
+        parts = [self.part()]
+        while self.next == "-" if self.dialect.dashes else self.next not in ("", ")", "]"):
+            self.at += self.dialect.dashes
+            parts.append(self.part())
+        return Series(tuple(parts)) if len(parts) > 1 else parts[0]
+
+    def part(self) -> Part:
+        """An element, or what is in brackets."""
+        opening = self.next
+        for (first, last), read in (
+            (self.dialect.parallel, self.parallel),
+            (self.dialect.series, self.series),
+        ):
+            if opening and opening == first:
+                self.at, self.depth = self.at + 1, self.depth + 1
+                if self.depth > DEEPEST:
+                    raise InputError(f"brackets are nested more than {DEEPEST} deep")
+                found = read()
+                if self.next != last:
+                    raise self.problem(f"{last} is missing, which closes {opening}")
+                self.at, self.depth = self.at + 1, self.depth - 1
+                return found
+        return self.element()
+
+    def parallel(self) -> Part:
+        """Parts between commas, or side by side."""
+        parts = [self.series() if self.dialect.dashes else self.part()]
+        while self.next == "," if self.dialect.dashes else self.next not in ("", ")", "]"):
+            self.at += self.dialect.dashes
+            parts.append(self.series() if self.dialect.dashes else self.part())
+        if len(parts) < 2:
+            raise self.problem("at least two parts are parallel")
+        return Parallel(tuple(parts))
+
+    def element(self) -> str:
+        """The name of an element; one without a number gets one."""
+        name = self.next
+        if not re.fullmatch(rf"[{LETTERS}]\d*", name):
+            opening, closing = self.dialect.parallel
+            example = f"R0-{opening}R1,C1{closing}" if self.dialect.dashes else "R(RC)"
+            said = f"write R, L, C or W (Warburg) and a number here, as in {example}"
+            if name.rstrip("0123456789") in IRRATIONAL:
+                said = (
+                    f"no verdicts are known for this element; take C or W for it, as in {example}"
+                )
+            raise self.problem(said)
+        self.at += 1
+        if len(name) > 1:
+            return name
+        self.unnumbered[name] += 1
+        return f"{name}{self.unnumbered[name]}"
+
+    def problem(self, remedy: str) -> InputError:
+        """What is wrong at the next token."""
+        if not self.next:
+            return InputError(f"the circuit ends too early: {remedy}")
+        at = self.tokens[self.at]
+        place = f"character {at.start(1) + 1} ({at[1]})"
+        return InputError(f"the circuit goes wrong at {place}: {remedy}")

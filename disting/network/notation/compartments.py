@@ -1,0 +1,92 @@
+"""Compartments as arrows: `1>2, 2>1, 2>0; in 1; out 1`, 0 being the outside; and as the lists of
+StructuralIdentifiability.jl: `linear_compartment_model([[2], [1]], inputs=[1], outputs=[1],
+leaks=[2])`, where entry i has the compartments to which i flows.
+
+The flow from i to j is a_ij times what is in i. Inputs enter compartments, outputs show what is in
+them.
+"""
+
+import re
+from ast import literal_eval
+from collections import Counter
+
+from disting.errors import InputError, shown
+from disting.network.element import Element, Port
+from disting.network.network import Network
+
+CALL = re.compile(r"\s*linear_compartment_model\s*\((.*)\)\s*;?\s*", re.DOTALL)
+LISTS = (
+    "linear_compartment_model has a list of lists such as [[2], [1]], then inputs=[..],"
+    " outputs=[..], leaks=[..]"
+)
+LIST = re.compile(r"(inputs|outputs|leaks)\s*=\s*(\[[\d\s,]*\])", re.ASCII)
+# numbers of up to four digits, as of nodes in files
+PORTS = re.compile(r"(in|out)\s+(\d{1,4}(?:\s*,\s*\d{1,4})*)", re.ASCII)
+ARROW = re.compile(r"\s*(\d{1,4})\s*(<?>)\s*(\d{1,4})\s*", re.ASCII)
+
+
+def compartments(text: str, name: str) -> Network:
+    """The network that arrows or lists describe; raises InputError.
+
+    >>> print(*compartments("1>2, 2>1, 2>0; in 1; out 1", "drug").elements, sep=", ")
+    v 1, v 2, a12 1 2, a21 2 1, a20 2 0
+    """
+    call = CALL.fullmatch(text)
+    if call:
+        return _of_lists(call[1], name)
+    flows, ports = list[tuple[int, int]](), dict[str, list[int]]()
+    for part in filter(None, (p.strip() for p in text.split(";"))):
+        port = PORTS.fullmatch(part)
+        if port:
+            ports.setdefault(port[1], []).extend(map(int, port[2].split(",")))
+            continue
+        for arrow in part.split(","):
+            found = ARROW.fullmatch(arrow)
+            if not found:
+                raise InputError(
+                    f"{shown(arrow.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
+                    " 1; out 1"
+                )
+            a, b = int(found[1]), int(found[3])
+            flows += [(a, b), (b, a)] if found[2] == "<>" else [(a, b)]
+    return of_flows(flows, ports.get("in", []), ports.get("out", []), name)
+
+
+def of_flows(
+    flows: list[tuple[int, int]], inputs: list[int], outputs: list[int], name: str
+) -> Network:
+    """Compartments with these flows (0: the outside), inputs and outputs; raises InputError."""
+    for a, b in sorted(flow for flow, times in Counter(flows).items() if times > 1):
+        raise InputError(f"the flow from {a} to {b} is there twice: leave one away")
+    nodes = sorted({i for flow in flows for i in flow} - {0} | {*inputs, *outputs})
+    elements = [Element("", "v", (i,)) for i in nodes]
+    elements += [Element(_named(a, b), "a", (a, b)) for a, b in flows]
+    ports = [tuple(Port(i) for i in side) for side in (inputs, outputs)]
+    return Network(tuple(elements), ports[0], ports[1], name=name)
+
+
+def _named(a: int, b: int) -> str:
+    return f"a{a}{b}" if max(a, b) < 10 else f"a{a}_{b}"
+
+
+def _of_lists(text: str, name: str) -> Network:
+    graph = LIST.sub("", text).strip(" ,\n")
+    try:
+        sides = {key: literal_eval(value) for key, value in LIST.findall(text)}
+        lists = literal_eval(graph) if re.fullmatch(r"[][\d\s,]+", graph, re.ASCII) else None
+    except (SyntaxError, ValueError):  # two commas, or no comma
+        raise InputError(LISTS) from None
+    if not isinstance(lists, list) or not all(map(_is_list_of_numbers, lists)):
+        raise InputError(LISTS)
+    flows = [(i, j) for i, there in enumerate(lists, 1) for j in there]
+    flows += [(i, 0) for i in sides.get("leaks", [])]
+    named = {j for _, j in flows}.union(*sides.values())
+    if max(named, default=0) > len(lists):
+        raise InputError(
+            f"{max(named)} is none of the {len(lists)} compartments, which have a list each"
+        )
+    return of_flows(flows, sides.get("inputs", []), sides.get("outputs", []), name)
+
+
+def _is_list_of_numbers(given: object) -> bool:
+    return isinstance(given, list) and all(isinstance(i, int) for i in given)

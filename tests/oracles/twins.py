@@ -1,0 +1,92 @@
+"""Positive values of one network that give the response of another one, by plain least squares from
+many starts on the coefficients of the transfer functions; what is found is put into Kirchhoff's and
+Newton's laws of both.
+"""
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from disting.general.any_model import of_network
+from tests.oracles.plain_network import equations
+
+STARTS = 60
+FREQUENCIES = (0.31, 0.77, 1.3, 2.9, 7.1)
+CLOSE = 1e-9
+FARTHEST = 30.0  # logarithm of a value: farther away it runs to zero or infinity
+
+
+def twin(given, other, draw, starts=STARTS):
+    """Values of `given` and of `other` with one response; no second ones if none are found."""
+    one, there = of_network(given), of_network(other)
+    if _shape(one) != _shape(there):
+        return None, None
+    mine = [draw.uniform(0.5, 2) for _ in one.parameters]
+    goal = _coefficients(one, np.array(mine))
+    if len(goal) == 0:
+        return mine, [1.0] * len(there.parameters)
+
+    def residual(logs):
+        return _coefficients(there, _values(logs)) / goal - 1
+
+    def slopes(logs):
+        return _jacobian(there, _values(logs)) / goal[:, None]
+
+    for _ in range(starts):
+        start = np.array([draw.uniform(-1.5, 1.5) for _ in there.parameters])
+        found = least_squares(
+            residual, start, slopes, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=300
+        )
+        if np.max(np.abs(found.fun)) < CLOSE / 100 and np.max(np.abs(found.x)) < FARTHEST:
+            theirs = list(_values(found.x))
+            if respond_alike(given, mine, other, theirs):
+                return mine, theirs
+    return mine, None
+
+
+def respond_alike(given, mine, other, theirs):
+    """Whether both responses are the same at some frequencies, by the laws alone."""
+    for omega in FREQUENCIES:
+        x, y = (_response(n, v, 1j * omega) for n, v in ((given, mine), (other, theirs)))
+        if abs(x - y) > CLOSE * max(abs(x), abs(y)):
+            return False
+    return True
+
+
+def _response(network, values, s):
+    at = dict(zip(network.parameters, values, strict=True))
+    sides = equations(network, at.__getitem__, s, np.sqrt(s))
+    a, b, c = (np.array(side, dtype=complex) for side in sides)
+    return complex((c @ np.linalg.solve(a, b.T))[0, 0] * s**network.order)
+
+
+def _values(logs):
+    """Values that no power of which is too large for a number of 64 bits."""
+    return np.exp(np.clip(logs, -FARTHEST, FARTHEST))
+
+
+def _shape(model):
+    """Which coefficients are there."""
+    sides = model.numerator_terms, model.denominator_terms
+    return model.halves, *(tuple(map(bool, side)) for side in sides)
+
+
+def _every(model):
+    return [t for side in (model.numerator_terms, model.denominator_terms) for t in side if t]
+
+
+def _coefficients(model, values):
+    """Those that are there, over the leading one."""
+    every = [sum(c * np.prod(values ** np.array(e)) for e, c in terms) for terms in _every(model)]
+    return np.array(every[:-1]) / every[-1]
+
+
+def _jacobian(model, values):
+    """Derivatives of these by the logarithms of the values."""
+    parts, slopes = [], []
+    for terms in _every(model):
+        each = [(c * np.prod(values ** np.array(e)), np.array(e)) for e, c in terms]
+        parts.append(sum(x for x, _ in each))
+        slopes.append(sum(x * e for x, e in each))
+    lead, along = parts[-1], slopes[-1]
+    rows = [(g * lead - x * along) / lead**2 for x, g in zip(parts[:-1], slopes[:-1], strict=True)]
+    return np.array(rows)
