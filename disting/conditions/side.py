@@ -26,6 +26,7 @@ from disting.model.structure import Structure
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""
 S = TypeVar("S")
+HALVES = "degrees count powers of s^(1/2)"  # a note on models with Warburg elements
 
 
 @dataclass(frozen=True)
@@ -65,6 +66,11 @@ class Side(ABC, Generic[S]):
     def premise(self) -> Premise | None:
         """What its name leaves to be said; None of models whose name says all."""
         return None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of all that is told of it."""
+        return ()
 
     @property
     def chain(self) -> Chain | None:

@@ -2,6 +2,8 @@
 formulas.
 """
 
+from disting.equivalence.duplicates import Gate as Gate
+from disting.equivalence.duplicates import gate as gate
 from disting.equivalence.inputs import assignments as assignments
 from disting.equivalence.inputs import chains_of as chains_of
 from disting.equivalence.listing import NONE as NONE

@@ -21,6 +21,10 @@ THEOREMS = {
         "{left} and {right} are undamped with force and sensor at one place: both give any such"
         " resonances (Foster's theorem)"
     ),
+    "replacement": (
+        "{left} and {right} are the same but for parts that can replace each other (one-ports of"
+        " two kinds of elements, or trees that hang at a compartment)"
+    ),
     "parts": (
         "{left} and {right} are undamped and their rows at both sides of the gap can be exchanged"
         " one by one"
@@ -29,11 +33,15 @@ THEOREMS = {
 RATIONAL = ("symmetry", "duality")
 """Theorems whose maps are rational, so that they take real parameters to real ones."""
 
+REPLACEMENT = "replacement"
+"""The theorem on networks of `disting.network.normal_form`."""
+
 TITLES = {
     "Foster and Cauer": "Foster's and Cauer's theorems",
     "symmetry": "symmetry",
     "duality": "duality theorem",
     "Foster": "Foster's theorem",
+    "replacement": "replacement of parts",
     "parts": "reversal of undamped rows",
 }
 
@@ -72,7 +80,7 @@ class Theorem(Kind):
         known = {
             Domain.COMPLEX: True,
             Domain.REAL: self.name in RATIONAL,
-            Domain.POSITIVE: self.name == "Foster and Cauer",
+            Domain.POSITIVE: self.name in ("Foster and Cauer", REPLACEMENT),
         }
         return Relation.INDISTINGUISHABLE if known[domain] else Relation.UNDECIDED
 

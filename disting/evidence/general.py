@@ -90,12 +90,12 @@ class NoEquivalent(_OverDomain):
     def sentence(self, left: str, right: str) -> str:
         """What would have to hold."""
         given, searched = (left, right) if self.left_given else (right, left)
-        some = "; ".join(self.contradictions[:SHOWN]) + (
-            "; .." if len(self.contradictions) > SHOWN else ""
-        )
+        first = (c if set("<>=") & set(c) else f"{c} = 0" for c in self.contradictions[:SHOWN])
+        some = " or ".join([*first, *[".."] * (len(self.contradictions) > SHOWN)])
         return (
-            f"{given} with parameters p0, p1, .. has no equivalent in {searched} with {self.domain}"
-            f" parameters q0, q1, ..: impossible are {some}."
+            f"{given} has no equivalent in {searched} with {self.domain} parameters: that asks for"
+            f" {some}, which is impossible (p0, p1, .. parameters of {given} by the alphabet, q0,"
+            f" q1, .. those of {searched})."
         )
 
     @property

@@ -14,6 +14,7 @@ from disting.evidence.kind import read
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
+    Minor,
     MissingElements,
     Outside,
     RelativeDegrees,
@@ -31,6 +32,7 @@ InclusionEvidence = (
     | LargerProjection
     | FullImage
     | MissingElements
+    | Minor
     | RelativeDegrees
     | DeadTime
     | Outside

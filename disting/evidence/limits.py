@@ -209,6 +209,39 @@ class MissingElements(Kind):
 
 
 @dataclass(frozen=True, slots=True)
+class Minor(Kind):
+    """One network is what remains of the other one when elements tend to zero or grow without bound
+    (see `disting.network.minors`).
+
+    `places`: (node of the whole, node of the part), 0 being the ground: several nodes of the whole
+    at one node of the part are one. `missing` and `rigid`: values of the whole whose elements are
+    not there, and of those in whose place nodes are connected directly.
+    """
+
+    kind: ClassVar[str] = "minor"
+    claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
+    left_is_part: bool
+    places: tuple[tuple[int, int], ...]
+    missing: tuple[str, ...]
+    rigid: tuple[str, ...]
+
+    def sentence(self, left: str, right: str) -> str:
+        """Which network is part of which."""
+        part, whole = (left, right) if self.left_is_part else (right, left)
+        how = [f"without {', '.join(self.missing)}"] * bool(self.missing)
+        how += [f"with a direct connection in place of {', '.join(self.rigid)}"] * bool(self.rigid)
+        return (
+            f"{whole} {' and '.join(how)} is {part}; as the elements come near to that, every"
+            f" response of {part} is approached."
+        )
+
+    @property
+    def formula(self) -> str:
+        """Nodes of the whole in the part."""
+        return ", ".join(f"{a} → {b}" for a, b in self.places)
+
+
+@dataclass(frozen=True, slots=True)
 class FullImage(Kind):
     """The model of the larger rank has as many determinable parameters as non-constant
     invariants.

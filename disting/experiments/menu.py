@@ -6,7 +6,7 @@ moved show the same: transfer functions of one machine with one parameter vector
 measured at once or one after the other. So they are one item, at the cheaper price.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import isfinite
@@ -103,18 +103,25 @@ class Costs:
         """
         return min(self.of[price] for price in kind.prices)
 
+    def of_kinds(self, kinds: Iterable[Kind]) -> dict[str, float]:
+        """The costs that count where these kinds are on the menu."""
+        used = {price for kind in kinds for price in kind.prices}
+        return {price: cost for price, cost in self.of.items() if price in used}
+
     @property
     def cheapest_first(self) -> tuple[Kind, ...]:
         """All kinds that have a cost; of equal cost in their order."""
-        priced = (kind for kind in KINDS if set(kind.prices) <= self.of.keys())
-        return tuple(sorted(priced, key=self.cost))
+        return tuple(sorted(self.priced(KINDS), key=self.cost))
+
+    def priced(self, kinds: Iterable[Kind]) -> tuple[Kind, ...]:
+        """Those of them that have a cost."""
+        return tuple(kind for kind in kinds if set(kind.prices) <= self.of.keys())
 
     def kinds(self, n_masses: int) -> tuple[Kind, ...]:
         """What can be done on chains of this size, in the order of the table: a single mass cannot
         be held still.
         """
-        priced = set(self.cheapest_first)
-        return tuple(k for k in KINDS if k in priced and (n_masses > 1 or not k.holds))
+        return tuple(k for k in self.priced(KINDS) if n_masses > 1 or not k.holds)
 
 
 def measured(chain: Chain, *items: Item) -> MeasuredChain:

@@ -10,7 +10,7 @@ drawn to be looked at only; what is said of them is said of all points around th
 
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import islice
+from itertools import islice, repeat
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.groebner.rational import Bounds, TooLarge
@@ -20,6 +20,7 @@ from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import NoEquivalent, Point, Witnesses
+from disting.general import listed
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
 from disting.general.formulas import explicit, fit
@@ -31,6 +32,7 @@ from disting.general.which_models import Way, way
 from disting.model.question import Domain
 
 POINTS = 40  # of either model
+FIRST, LISTED = 3, 24  # of either model, whose equivalents are all listed
 GUARDS = 4  # of either model, where no equivalents are to be found
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
 TOO_LARGE = "the search for all equivalents grew too large"
@@ -41,7 +43,11 @@ Found = tuple[bool, Point, Point]
 
 
 def admissible_finding(left: AnyModel, right: AnyModel, domain: Domain, seed: str) -> Finding:
-    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen."""
+    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen. Lists of all
+    equivalents of points cost milliseconds, so a few come first.
+    """
+    if domain is Domain.POSITIVE and (found := _by_lists(left, right, seed, FIRST)):
+        return _sometimes(found)
     return of_ways(left, right, (way(left, right, domain), way(right, left, domain)), domain, seed)
 
 
@@ -71,14 +77,11 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
             f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none"
         )
     if having and lacking:
-        return Finding(
-            ADMISSIBLE,
-            Outcome.SOMETIMES,
-            Certainty.PROVEN,
-            evidence=_witnesses(ways, having, lacking, domain),
-        )
+        return _sometimes(_witnesses(left, right, having, lacking, domain))
     if not lacking and all(one and (one.covering or one.path()) for one in ways):
         return _always(ways, domain)
+    if domain is Domain.POSITIVE and (found := _by_lists(left, right, seed, LISTED)):
+        return _sometimes(found)
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
@@ -102,14 +105,34 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
     Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
     """
     domain = Domain(evidence.domain)
-    ways = {True: way(left, right, domain), False: way(right, left, domain)}
-    with_, without = ways[evidence.with_left_given], ways[evidence.without_left_given]
-    points_ = [
+    with_, without = (
         {name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)
-    ]
-    if any(x == 0 or (x < 0 and domain is Domain.POSITIVE) for p in points_ for x in p.values()):
+    )
+    if any(
+        x == 0 or (x < 0 and domain is Domain.POSITIVE)
+        for p in (with_, without)
+        for x in p.values()
+    ):
         return False
-    return bool(with_ and without and with_.having(points_[0]) and without.lacking(points_[1]))
+    sides = {True: (left, right), False: (right, left)}
+    first, second = sides[evidence.with_left_given], sides[evidence.without_left_given]
+    return _has(*first, with_, domain) and _has_none(*second, without, domain)
+
+
+def _has(given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain) -> bool:
+    if domain is Domain.POSITIVE and listed.having(given, values, other):
+        return True
+    one = way(given, other, domain)
+    return bool(one and one.having(values))
+
+
+def _has_none(
+    given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
+) -> bool:
+    if domain is Domain.POSITIVE and listed.lacking(given, values, other):
+        return True
+    one = way(given, other, domain)
+    return bool(one and one.lacking(values))
 
 
 def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
@@ -186,21 +209,47 @@ def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | 
     return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
 
 
-def _witnesses(ways: Ways, having: Found, lacking: Found, domain: Domain) -> Witnesses:
-    one = ways[0 if lacking[0] else 1]
-    count = _count(one, lacking[1]) if one else -2
-    return Witnesses(domain.value, *having, *lacking[:2], count)
+def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesses | None:
+    """A point with and one without a positive equivalent, among so many of either model, by lists
+    of all.
+    """
+    having, lacking = list[Found](), list[Found]()
+    drawn = [
+        zip(repeat(side), islice(points(one, Domain.POSITIVE, seed), count))
+        for side, one in ((True, left), (False, right))
+    ]
+    for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
+        given, other = (left, right) if left_given else (right, left)
+        found = listed.having(given, values, other)
+        if found:
+            having.append((left_given, _written(values), _rounded(other, found)))
+        elif listed.lacking(given, values, other):
+            lacking.append((left_given, _written(values), ()))
+        if having and lacking:
+            return _witnesses(left, right, having[0], lacking[0], Domain.POSITIVE)
+    return None
 
 
-def _count(one: Way, point: Point) -> int:
+def _sometimes(evidence: Witnesses) -> Finding:
+    return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=evidence)
+
+
+def _witnesses(
+    left: AnyModel, right: AnyModel, having: Found, lacking: Found, domain: Domain
+) -> Witnesses:
+    sides = (left, right) if lacking[0] else (right, left)
+    return Witnesses(domain.value, *having, *lacking[:2], _count(*sides, lacking[1]))
+
+
+def _count(given: AnyModel, other: AnyModel, point: Point) -> int:
     """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
     at once.
     """
-    if not (isinstance(one.given, Model) and isinstance(one.other, Model)):
+    if not (isinstance(given, Model) and isinstance(other, Model)):
         return -2
-    goal = target(one.given, rational_values(one.given, dict(point)))
+    goal = target(given, rational_values(given, dict(point)))
     try:
-        found = solved(fibre_equations(goal, one.other), one.other.parameters, "count", Bounds())
+        found = solved(fibre_equations(goal, other), other.parameters, "count", Bounds())
     except TooLarge:
         return -2
     return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(found.extent, len(found.equivalents))

@@ -2,6 +2,7 @@
 maps, and the exact decision where conditions 1 to 7 stay silent: one fibre as a polynomial ideal.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from disting.conditions.finding import Finding
@@ -15,10 +16,11 @@ from disting.fibres.ideals import (
     stacked_maps,
 )
 from disting.fibres.ideals import Fraction as Ratio
-from disting.general.matrix_model import AnyModel
+from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model, Terms
 from disting.model.chain import Chain
 from disting.model.question import Settings
+from disting.network.network import Network
 from disting.questions.same.exact import SAFETY, decided
 
 LIMITS = Limits(safety=SAFETY)
@@ -29,6 +31,39 @@ def as_chain(model: Chain | AnyModel) -> Chain | None:
     if isinstance(model, Chain):
         return model
     return model.chain if isinstance(model, Model) else None
+
+
+def of_network(network: Network) -> AnyModel:
+    """The transfer function of a network, or the matrix of all; raises InputError."""
+    single = network.shape == (1, 1)
+    return Model.from_network(network) if single else MatrixModel.from_network(network)
+
+
+def on_one_variable(models: Sequence[AnyModel]) -> list[AnyModel]:
+    """The same models, all in powers of s^(1/2) where one of them has such."""
+    if not any(model.halves for model in models):
+        return list(models)
+    return [model if model.halves else _in_halves(model) for model in models]
+
+
+def _in_halves(model: AnyModel) -> AnyModel:
+    """The model written in powers of s^(1/2): every other coefficient is zero."""
+    if isinstance(model, Model):
+        lifted: AnyModel = replace(
+            model,
+            numerator_terms=_spread(model.numerator_terms),
+            denominator_terms=_spread(model.denominator_terms),
+            halves=True,
+        )
+    else:
+        entries = (tuple(None if e is None else _in_halves(e) for e in row) for row in model.rows)
+        lifted = replace(model, rows=tuple(entries))  # type: ignore[arg-type]
+    object.__setattr__(lifted, "network", model.network)
+    return lifted
+
+
+def _spread(side: tuple[Terms, ...]) -> tuple[Terms, ...]:
+    return tuple(c for terms in side for c in (terms, ()))[:-1]
 
 
 def unnamed(model: AnyModel, name: str = "model") -> AnyModel:

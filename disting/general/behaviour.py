@@ -94,10 +94,12 @@ class GeneralModel:
         Coefficients of numerator and denominator have a degree of d at most in the parameters, and
         numbers whose sizes sum to 2^h at most. Entry i of the summary is a polynomial over power w
         of the leading coefficient: w = 1 for coefficients of the monic form, w = i + 1 for Markov
-        parameters, whose recurrence adds at most 2^i products of w coefficients. So a cleared
-        derivative has degree (w + 1) d and numbers whose sizes add up to 2 w d 2^(i + (w + 1) h).
+        parameters, whose recurrence adds at most 2^i products of w coefficients (i counts from
+        G_-k, if the numerator has a degree larger by k). So a cleared derivative has degree (w + 1)
+        d and numbers whose sizes add up to 2 w d 2^(i + (w + 1) h).
         """
-        power, rank = 2 if markov is None else markov + 2, len(self.parameters)
+        above = max(0, *(top - bottom for top, bottom in self.degrees))
+        power, rank = 2 if markov is None else markov + above + 2, len(self.parameters)
         sizes = [size_of_minors(power, *_largest(entry), rank) for entry in self.model.entries]
         twice = 1 + (len(sizes) > 1)
         return Size(twice * max(s.degree for s in sizes), twice * max(s.bits for s in sizes))
@@ -180,7 +182,10 @@ def _constants(model: Model, markov: int | None) -> dict[str, Fraction]:
         for side in (model.numerator_terms, model.denominator_terms)
     )
     sides = {"b": top, "a": bottom[:-1]} if markov is None else {"G": _series(top, bottom, markov)}
-    named = ((f"{x}{i}", value) for x, side in sides.items() for i, value in enumerate(side))
+    first = {"b": 0, "a": 0, "G": min(0, len(bottom) - len(top))}
+    named = (
+        (f"{x}{i}", value) for x, side in sides.items() for i, value in enumerate(side, first[x])
+    )
     return {name: value for name, value in named if value is not None}
 
 
@@ -197,10 +202,11 @@ def _ratio(terms: Terms, lead: Terms) -> Known:
 
 def _series(top: Sequence[Known], bottom: Sequence[Known], count: int) -> list[Known]:
     m = len(bottom) - 1
+    start = max(m, len(top) - 1)
     found: list[Known] = []
-    for k in range(count + 1):
+    for k in range(start - m + count + 1):
         terms = [_product(bottom[m - j], found[k - j]) for j in range(1, min(k, m) + 1)]
-        first = top[m - k] if 0 <= m - k < len(top) else Fraction(0)
+        first = top[start - k] if 0 <= start - k < len(top) else Fraction(0)
         known = [term for term in terms if term is not None]
         sure = first is not None and len(known) == len(terms)
         found.append(first - sum(known) if first is not None and sure else None)
@@ -218,7 +224,7 @@ def _differences(entry: Model, first: Model) -> dict[str, Fraction]:
     found: dict[str, Fraction] = {}
     one, other = entry.denominator, first.denominator
     mine, theirs = (_constants(m, None) for m in (entry, first))
-    for k in range(entry.n_states):
+    for k in range(entry.degrees[1]):
         name = f"a{k}"
         if one[k] * other[-1] == other[k] * one[-1]:
             found[name] = Fraction(0)

@@ -1,5 +1,7 @@
 """Equivalents as formulas: written down as evidence, and put into the transfer function again."""
 
+from collections.abc import Iterator
+
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.rational_function import RationalFunction
@@ -19,13 +21,18 @@ def explicit(ways: list[Way], domain: Domain) -> Explicit:
     """The evidence of two ways in which all generic parameters have an equivalent: the left
     model's first.
     """
-    formulas: list[Formula] = []
-    for left_given, one in zip((True, False), ways, strict=True):
-        if one.covering:
-            formulas += [_of_section(left_given, one, section) for section in one.covering]
-        elif found := one.path():
-            formulas.append(_of_path(left_given, one, found))
-    return Explicit(domain.value, tuple(formulas))
+    both = zip((True, False), ways, strict=True)
+    return Explicit(domain.value, tuple(f for side, one in both for f in of_way(side, one)))
+
+
+def of_way(left_given: bool, one: Way) -> Iterator[Formula]:
+    """Yield the formulas that give every generic parameter an equivalent, none where none are
+    known.
+    """
+    if one.covering:
+        yield from (_of_section(left_given, one, section) for section in one.covering)
+    elif found := one.path():
+        yield _of_path(left_given, one, found)
 
 
 def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:

@@ -18,18 +18,21 @@ from disting.general.model import (
     entry_of,
     fraction,
     frequency,
+    network_ratios,
     parameters_of,
     refuse_name,
     transfer_functions,
 )
 from disting.model.presentation import Shown, plural, summary
+from disting.network.network import Network
 
 MOST_ENTRIES = 100
 
 
 @dataclass(frozen=True, slots=True)
 class MatrixModel(Shown):
-    """A matrix of transfer functions, made by `from_state_space` or `from_transfer_functions`.
+    """A matrix of transfer functions, made by `from_state_space`, `from_transfer_functions` or
+    `from_network`.
 
     `rows`: a row for each output, an entry for each input; each is a `Model` in all `parameters`,
     or None where it is zero. Immutable and hashable; equal if parameters and entries are, whatever
@@ -43,6 +46,7 @@ class MatrixModel(Shown):
     parameters: tuple[str, ...]
     rows: tuple[tuple[Model | None, ...], ...]
     name: str = field(default="model", compare=False)
+    network: Network | None = field(default=None, init=False, compare=False)
 
     def __repr__(self) -> str:
         outputs, inputs = self.shape
@@ -76,14 +80,14 @@ class MatrixModel(Shown):
         G(s) = [[1/(k + m*s**2)], [s/(k + m*s**2)]]
         """
         ratios, parameters = transfer_functions(a, b, c, d, s)
-        return _matrix(ratios, parameters, name)
+        return of_ratios(ratios, parameters, name)
 
     @staticmethod
     def from_transfer_functions(
         rows: object, *, s: object = "s", name: str = "model"
     ) -> "MatrixModel":
         """Model of a matrix of expressions in s, a SymPy matrix or a list of rows, one for each
-        output. Raises InputError, also for entries that are not proper.
+        output. Raises InputError.
         """
         variable = frequency(s)
         given = rows_of(rows)
@@ -93,7 +97,21 @@ class MatrixModel(Shown):
         parameters = parameters_of((top for row in sides for top, _ in row), variable)
         ring = symbols([variable, *parameters])
         expansion = Expansion(ring, ring[variable] ** 0)
-        return _matrix([[fraction(e, expansion) for e in row] for row in sides], parameters, name)
+        return of_ratios([[fraction(e, expansion) for e in row] for row in sides], parameters, name)
+
+    @staticmethod
+    def from_network(network: Network) -> "MatrixModel":
+        """The transfer functions of a network, a row for each output, a column for each input;
+        raises InputError.
+        """
+        found = of_ratios(network_ratios(network), network.parameters, network.name, network.halves)
+        object.__setattr__(found, "network", network)
+        return found
+
+    @property
+    def halves(self) -> bool:
+        """Whether powers of s are counted in halves."""
+        return any(entry.halves for entry in self.entries)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -134,11 +152,15 @@ def _written(row: tuple[Model | None, ...]) -> Iterator[str]:
         yield "0" if entry is None else str(entry).removeprefix("G(s) = ")
 
 
-def _matrix(
-    ratios: Sequence[Sequence[RationalFunction]], parameters: tuple[str, ...], name: str
+def of_ratios(
+    ratios: Sequence[Sequence[RationalFunction]],
+    parameters: tuple[str, ...],
+    name: str,
+    halves: bool = False,
 ) -> MatrixModel:
+    """The model of transfer functions in the ring of s and the parameters, s first."""
     rows = tuple(
-        tuple(None if r.num.is_zero() else entry_of(r, parameters, "entry") for r in row)
+        tuple(None if r.num.is_zero() else entry_of(r, parameters, "entry", halves) for r in row)
         for row in ratios
     )
     return MatrixModel(parameters, rows, name)

@@ -26,6 +26,9 @@ from disting.general.response import responses
 from disting.model.chain import Chain
 from disting.model.names import name_of, names_another
 from disting.model.presentation import Shown, plural, summary
+from disting.network.chains import as_chain, of_chain
+from disting.network.expansion import transfer_functions as network_functions
+from disting.network.network import Network
 
 MOST_SYMBOLS = 300
 Terms = tuple[tuple[tuple[int, ...], int], ...]
@@ -36,15 +39,16 @@ lexicographic order.
 
 @dataclass(frozen=True, slots=True)
 class Model(Shown):
-    """A transfer function in lowest terms, made by `from_state_space`, `from_transfer_function` or
-    `from_chain`.
+    """A transfer function in lowest terms, made by `from_state_space`, `from_transfer_function`,
+    `from_network` or `from_chain`.
 
     `parameters` by name; `numerator_terms` and `denominator_terms` hold the coefficients of s^0,
-    s^1, .. Immutable and hashable; two models are equal if their parameters and coefficients are,
-    whatever they are called. `chain`: the chain that it is, in the chain's own parameters, where it
-    was made of one by `from_chain`; such models are compared as chains. What is made of one by
-    `dataclasses.replace` is a transfer function alone: it may be another one. Raises InputError for
-    a name that is not printable, which could say more than a name.
+    s^1, ..; with `halves` of s^0, s^(1/2), s^1, .. Immutable and hashable; two models are equal if
+    their parameters and coefficients are, whatever they are called. `network`: the network that it
+    is, where it was made of one; `chain`: the chain that it is, in the chain's own parameters;
+    such models are compared as chains. What is made of one by `dataclasses.replace` is a transfer
+    function alone: it may be another one. Raises InputError for a name that is not printable, which
+    could say more than a name.
 
     >>> str(Model.from_transfer_function(["k"], ["m", "d", "k"]))
     'G(s) = k/(k + d*s + m*s**2)'
@@ -54,7 +58,9 @@ class Model(Shown):
     numerator_terms: tuple[Terms, ...]
     denominator_terms: tuple[Terms, ...]
     name: str = field(default="model", compare=False)
+    halves: bool = False
     chain: Chain | None = field(default=None, init=False, compare=False)
+    network: Network | None = field(default=None, init=False, compare=False)
 
     def __post_init__(self) -> None:
         refuse_name(self.name)
@@ -96,8 +102,8 @@ class Model(Shown):
         """Model num/den: lists of coefficients, the highest power first (as in scipy and
         python-control), or expressions in s.
 
-        An expression may be all of G(s). Entries as in `from_state_space`. Raises InputError, also
-        for a numerator of higher degree than the denominator.
+        An expression may be all of G(s). Entries as in `from_state_space`. The numerator may have
+        the higher degree. Raises InputError.
 
         >>> Model.from_transfer_function("k*s", "(s + p)*(s + q)*k").denominator
         (p*q, p + q, 1)
@@ -126,6 +132,27 @@ class Model(Shown):
         num, den = (renamed(part, ring, {}) for part in expanded(chain.structure))
         made = _model(RationalFunction(num, den), parameters, name or name_of(chain))
         object.__setattr__(made, "chain", chain)
+        if not chain.lag:
+            object.__setattr__(made, "network", of_chain(chain, made.name))
+        return made
+
+    @staticmethod
+    def from_network(network: Network) -> "Model":
+        """The transfer function of a network with one input and one output, in all its parameters;
+        raises InputError. A network that is a chain in the chain's own names is that chain.
+
+        >>> from disting.network import network_of
+        >>> str(Model.from_network(network_of("R0-p(R1,C1)")))
+        'G(s) = (R0 + R1 + C1*R0*R1*s)/(1 + C1*R1*s)'
+        """
+        if network.shape != (1, 1):
+            raise InputError("this network has several inputs or outputs: it is a MatrixModel")
+        ((ratio,),) = network_ratios(network)
+        made = _model(ratio, network.parameters, network.name, network.halves)
+        object.__setattr__(made, "network", network)
+        chain = as_chain(network)
+        if chain is not None and not names_another(network.name, chain):
+            object.__setattr__(made, "chain", chain)
         return made
 
     @property
@@ -140,10 +167,10 @@ class Model(Shown):
 
     @property
     def n_states(self) -> int:
-        """Order: the degree of the denominator in lowest terms, the number of states of a
-        minimal realisation.
+        """Order: the larger degree of numerator and denominator in lowest terms; of a proper
+        transfer function the number of states of a minimal realisation.
         """
-        return len(self.denominator_terms) - 1
+        return max(self.degrees)
 
     @property
     def entries(self) -> tuple["Model", ...]:
@@ -163,15 +190,20 @@ class Model(Shown):
     @property
     def content(self) -> tuple[object, ...]:
         """All that tells two models apart: their names do not."""
-        return self.parameters, self.numerator_terms, self.denominator_terms
+        halves = ("halves",) * self.halves
+        return self.parameters, self.numerator_terms, self.denominator_terms, *halves
 
     @property
     def degrees(self) -> tuple[int, int]:
         """Degrees in s of numerator and denominator."""
-        return len(self.numerator_terms) - 1, self.n_states
+        return len(self.numerator_terms) - 1, len(self.denominator_terms) - 1
 
     def __str__(self) -> str:
-        return f"G(s) = {printed(quotient(self.numerator, self.denominator, evaluate=False))}"
+        return f"G(s) = {printed(self.expression(evaluate=False))}"
+
+    def expression(self, *, evaluate: bool = True) -> object:
+        """G(s) as a SymPy expression."""
+        return quotient(self.numerator, self.denominator, evaluate=evaluate, halves=self.halves)
 
     def _polynomials(self, coefficients: tuple[Terms, ...]) -> tuple[fmpz_mpoly, ...]:
         context = fmpz_mpoly_ctx.get(self.parameters, Ordering.lex)
@@ -204,7 +236,19 @@ def fraction(sides: tuple[Tree, ...], expansion: Expansion) -> RationalFunction:
     return expansion.quotient(top, bottom)
 
 
-def _model(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> Model:
+def network_ratios(network: Network) -> tuple[tuple[RationalFunction, ...], ...]:
+    """The transfer functions in lowest terms, outputs x inputs, in the ring of s, or s^(1/2), and
+    the parameters, s first; raises InputError.
+    """
+    ring = symbols(["s", *network.parameters])
+    expansion = Expansion(ring, ring["s"] ** 0)
+    sides = network_functions(network, ring, "s", expansion.times)
+    return tuple(tuple(expansion.ratio(*entry) for entry in row) for row in sides)
+
+
+def _model(
+    ratio: RationalFunction, parameters: tuple[str, ...], name: str, halves: bool = False
+) -> Model:
     """The model of a transfer function in the ring of s and the parameters, s first."""
     if ratio.num.is_zero():
         raise InputError(
@@ -213,10 +257,12 @@ def _model(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> M
         )
     if not parameters:
         raise InputError("a parametric model has at least one parameter")
-    return entry_of(ratio, parameters, name)
+    return entry_of(ratio, parameters, name, halves)
 
 
-def entry_of(ratio: RationalFunction, parameters: tuple[str, ...], name: str) -> Model:
+def entry_of(
+    ratio: RationalFunction, parameters: tuple[str, ...], name: str, halves: bool = False
+) -> Model:
     """The same without asking for parameters: of a matrix not every entry has some."""
     top, bottom = (_coefficients(side) for side in (ratio.num, ratio.den))
     if any(
@@ -225,12 +271,7 @@ def entry_of(ratio: RationalFunction, parameters: tuple[str, ...], name: str) ->
         for _, number in terms
     ):
         raise InputError(f"numbers of a model have {LONGEST_NUMBER} bits at most in lowest terms")
-    if len(top) > len(bottom):
-        raise InputError(
-            f"the transfer function is not proper: degree {len(top) - 1} over degree"
-            f" {len(bottom) - 1}"
-        )
-    return Model(parameters, top, bottom, name)
+    return Model(parameters, top, bottom, name, halves)
 
 
 def _coefficients(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:

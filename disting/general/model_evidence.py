@@ -18,6 +18,7 @@ from disting.general.any_model import is_renamed, maps_of
 from disting.general.behaviour import GeneralModel
 from disting.general.formulas import is_explicit, is_without
 from disting.general.matrix_model import AnyModel
+from disting.general.model_inclusions import numberings
 from disting.model.question import Settings
 from disting.questions.same.exact import by_labels
 
@@ -38,6 +39,9 @@ def confirms_models(
         right=seen(GeneralModel(right)),
         renames=partial(is_renamed, left, right),
         found_again=partial(_found_again, left=left, right=right),
+        numberings=lambda left_is_part: numberings(
+            *((left, right) if left_is_part else (right, left))
+        ),
     )
     return evidence.holds(pair, representation)
 

@@ -5,7 +5,11 @@
       {"name": "low pass", "num": ["k"], "den": ["T", 1]},
       {"name": "notch", "G": "(s**2 + w**2)/(s**2 + 2*z*w*s + w**2)"},
       {"name": "two sensors", "G": [["1/(m*s**2 + k)"], ["s/(m*s**2 + k)"]]},
-      {"name": "drive", "chain": "3:1+b2", "damped": true}]}
+      {"name": "drive", "chain": "3:1+b2", "damped": true},
+      {"name": "cell", "circuit": "R0-p(R1,C1)"},
+      {"name": "branched", "machine": "1=2=3, 2=4; F1; S4"}]}
+
+Networks have more forms: see `disting.network.notation.entries`.
 
 Numbers are read as they are written: 0.1 is 1/10 and never a float. What is not understood is
 refused in one sentence that names the model: an unknown key or a doubled name would otherwise be a
@@ -19,6 +23,7 @@ from pathlib import Path
 
 from disting.errors import InputError, listed, printable, shown
 from disting.files import as_path, read_bounded, write_whole
+from disting.general.any_model import as_chain, of_network
 from disting.general.expression import polynomial_text
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
@@ -27,22 +32,25 @@ from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of, name_of
 from disting.model.presentation import Shown, plural, summary
+from disting.network.notation.entries import FORMS as NETWORKS
+from disting.network.notation.entries import entry_of, network_of_entry
 from disting.schemas import Format
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
 LARGEST_CHAIN = 6  # masses: coefficients of some hundred terms
-LONGEST_NAME = 40  # characters, of a name that stands at the edge of a figure
+LONGEST_NAME = 60  # characters, of a name that stands at the edge of a figure
 LONGEST_TITLE = 200
 KINDS = {
     "A": ("A", "B", "C", "D"),
     "num": ("num", "den"),
     "G": ("G",),
     "chain": ("chain", "damped", "sensor"),
+    **NETWORKS,
 }  # by the key that a model of this kind always has: all its keys
 FORMS = (
-    'a state space "A", "B", "C", "D", a transfer function "num" and "den" or "G", or a "chain"'
-    ' such as "3:1+b2"'
+    'a state space "A", "B", "C", "D", a transfer function "num" and "den" or "G", a "chain"'
+    ' such as "3:1+b2", or a "circuit", "machine", "network", "flows" or "elements"'
 )
 
 
@@ -129,14 +137,17 @@ def models_text(found: ModelList) -> str:
 
 
 def as_entry(model: AnyModel) -> dict[str, object]:
-    """A model as a file has it: a chain by its name, another one by its transfer function in lowest
-    terms; a matrix as its expressions, parameters that they lack beside them. Raises InputError for
-    a parameter s.
+    """A model as a file has it: a chain by its name, a network by its elements, another one by its
+    transfer function in lowest terms; a matrix as its expressions, parameters that they lack beside
+    them. Raises InputError for a parameter s.
     """
     _refuse_s(model)
+    chain = as_chain(model)
+    if chain is not None and _can_be_listed(chain):
+        return {"name": model.name, **_of_listed(chain)}
+    if model.network is not None:
+        return {"name": model.name, **entry_of(model.network)}
     if isinstance(model, Model):
-        if model.chain is not None and _can_be_listed(model.chain):
-            return {"name": model.name, **_of_listed(model.chain)}
         return {"name": model.name, **_of_entry(model)}
     rows = [["0" if e is None else _ratio(_of_entry(e)) for e in row] for row in model.rows]
     return {"name": model.name, "G": rows}
@@ -144,9 +155,10 @@ def as_entry(model: AnyModel) -> dict[str, object]:
 
 def read_entry(entry: Mapping[str, object]) -> AnyModel:
     """Inverse of `as_entry`, whatever the model is called; raises InputError."""
-    name, kinds = entry.get("name"), [kind for kind in ("num", "G") if kind in entry]
+    written = ("num", "G", "flows", "elements")
+    name, kinds = entry.get("name"), [kind for kind in written if kind in entry]
     if type(name) is not str or len(kinds) != 1:
-        raise InputError('a model has a name and "num" and "den", or "G"')
+        raise InputError('a model has a name and "num" and "den", "G", "flows" or "elements"')
     return _of_kind(entry, name, "s")
 
 
@@ -209,7 +221,9 @@ def _of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
             if isinstance(given["G"], list):
                 return MatrixModel.from_transfer_functions(given["G"], s=variable, name=name)
             return Model.from_transfer_function(given["G"], s=variable, name=name)
-    return _of_chain(given, name)
+        case "chain":
+            return _of_chain(given, name)
+    return of_network(network_of_entry(given, name))
 
 
 def _single(model: MatrixModel) -> AnyModel:

@@ -1,10 +1,10 @@
 """A general model as one side of a comparison: what conditions and verdicts ask of it.
 
-It has no masses, springs and dampers: conditions 8 and 9 do not apply, and which of its models lie
-in another one of larger rank is not asked. Verdicts are over complex parameters first; over real
-or positive ones a pair that is distinguishable stays so, one that a renaming makes identical stays
-identical, and points with and without an admissible equivalent are looked for otherwise (see
-`admissible`).
+Condition 8 applies where both are networks, condition 9 never; which of its models are limits of
+another one of larger rank is told where elements or profiles show it. Verdicts are over complex
+parameters first; over real or positive ones a pair that is distinguishable stays so, one that a
+renaming makes identical stays identical, and points with and without an admissible equivalent are
+looked for otherwise (see `admissible`).
 """
 
 import re
@@ -12,25 +12,34 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+from disting.algebra.certainty import Certainty
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.conditions.side import Ask, Side
+from disting.conditions.side import HALVES, Ask, Side
 from disting.evidence.conditions import Renaming
-from disting.evidence.general import Constants
-from disting.evidence.kinds import Evidence
+from disting.evidence.decision import REPLACEMENT, Theorem
+from disting.evidence.general import Constants, Witnesses
+from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import as_chain, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
+from disting.general.model_inclusions import (
+    confirms_inclusion,
+    inclusions_of,
+    n_elements,
+    numberings,
+)
+from disting.general.replacement import replaceable, sign_of_one_port
 from disting.model.chain import Chain, Premise
 from disting.model.question import Domain, Question, Settings
-from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
+from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
-NOT_ASKED = "of general models only equality is asked for"
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
@@ -77,6 +86,20 @@ class ComparedModel(Side[AnyModel]):
         """That of the chain that it is, if it is one."""
         return None if self.chain is None else self.chain.premise
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Whether degrees are counted in halves."""
+        return (HALVES,) * self.subject.halves
+
+    @property
+    def n_elements(self) -> int | None:
+        """Number of elements that are seen, if it is a network."""
+        return n_elements(self.subject.network)
+
+    def part_of(self, other: "ComparedModel") -> dict[int, int] | None:
+        """The numbering under which it is the other one with elements missing."""
+        return next(numberings(self.subject, other.subject), None)
+
     def is_renamed(self, other: "ComparedModel", renaming: dict[str, str]) -> bool:
         """Whether renaming the parameters turns this transfer function into the other: exact."""
         return is_renamed(self.subject, other.subject, renaming)
@@ -97,7 +120,12 @@ class ComparedModel(Side[AnyModel]):
 
     def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both."""
-        return model_evidence.confirms_models(evidence, *_models(self, other), representation)
+        if evidence == Theorem(REPLACEMENT):
+            return _replaceable(self, other)
+        pair = _models(self, other)
+        if isinstance(evidence, Witnesses):
+            pair = _unnamed(self, other, Domain(evidence.domain))
+        return model_evidence.confirms_models(evidence, *pair, representation)
 
     def exact_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
         """What `exact` finds with evidence of this kind."""
@@ -117,14 +145,23 @@ class ComparedModel(Side[AnyModel]):
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
-        found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
+        if domain is Domain.POSITIVE and _replaceable(self, other):
+            return Finding(
+                ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(REPLACEMENT)
+            )
+        found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
         names = {LEFT: self.name, RIGHT: other.name}
         note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
         return replace(found, note=note)
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
-        """Not asked."""
-        return Inclusions(*(InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED),) * 2)
+        """Both statements on two models of unequal rank."""
+        profiles = tuple(s.profile(Representation.TF, 0) for s in (self, other))
+        return inclusions_of(self.subject, other.subject, (profiles[0], profiles[1]))
+
+    def includes(self, other: "ComparedModel", evidence: InclusionEvidence) -> bool:
+        """Whether evidence of an inclusion is true of both."""
+        return confirms_inclusion(evidence, self.subject, other.subject, self.rank < other.rank)
 
     def positive(self, other: "ComparedModel") -> PositiveFinding:
         """Not asked."""
@@ -138,21 +175,48 @@ class ComparedModel(Side[AnyModel]):
     @classmethod
     def prepare_admissible(cls, pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
-        ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in pairs if not _renamed(a, b)])
+        known = domain is Domain.POSITIVE
+        left = [(a, b) for a, b in pairs if not (_renamed(a, b) or (known and _replaceable(a, b)))]
+        ask(ADMISSIBLY[domain], [_unnamed(a, b, domain) for a, b in left])
+
+
+def positive_question(
+    left: ComparedModel, right: ComparedModel
+) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
+    """What is asked where positive equivalents are looked for, as an engine keeps the answer."""
+    return ADMISSIBLY[Domain.POSITIVE], _unnamed(left, right, Domain.POSITIVE)
 
 
 def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
     return left.model.model, right.model.model
 
 
-def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
-    return unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
+def _unnamed(
+    left: ComparedModel, right: ComparedModel, domain: Domain
+) -> tuple[AnyModel, AnyModel]:
+    """Both as they are asked about: over positive parameters as the one-ports that they are."""
+    found = unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
+    if domain is Domain.POSITIVE:
+        return _as_network(found[0], left), _as_network(found[1], right)
+    return found
+
+
+def _as_network(model: AnyModel, of: ComparedModel) -> AnyModel:
+    network = of.subject.network
+    if network is not None and sign_of_one_port(network):
+        object.__setattr__(model, "network", replace(network, name="network"))
+    return model
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
     """Whether the exact decision is asked: ranks and degrees are equal, and something varies."""
     one, other = left.transfer_profile, right.transfer_profile
     return one.rank == other.rank > 0 and one.degrees == other.degrees
+
+
+def _replaceable(left: ComparedModel, right: ComparedModel) -> bool:
+    """Whether both are networks that give the same functions, special ones aside."""
+    return replaceable(left.subject, right.subject)
 
 
 def _renamed(left: ComparedModel, right: ComparedModel) -> bool:

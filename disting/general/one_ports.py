@@ -64,7 +64,11 @@ def fills(model: Model) -> bool:
     """
     order, at_oo, at_0 = _kind(model)
     count = 2 * order + at_oo - at_0
-    if not 0 < order <= ORDER or model.degrees[0] < order - 1 or len(model.parameters) < count:
+    if (
+        not 0 < order <= ORDER
+        or not order - 1 <= model.degrees[0] <= order
+        or len(model.parameters) < count
+    ):
         return False
     ring = Orthant(count, len(model.parameters), Domain.POSITIVE)
     num, den = (
@@ -76,7 +80,8 @@ def fills(model: Model) -> bool:
 
 def _kind(model: Model) -> tuple[int, bool, bool]:
     """Order, and whether there are a constant at infinity and a pole at 0."""
-    return model.n_states, model.degrees[0] == model.n_states, not model.denominator_terms[0]
+    top, bottom = model.degrees
+    return bottom, top == bottom, not model.denominator_terms[0]
 
 
 def _reaches(ring: Orthant, coordinates: list[RationalFunction] | None) -> bool:

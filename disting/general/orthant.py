@@ -112,7 +112,7 @@ class Orthant:
         )
         lead = bottom[-1]
         monic = [RationalFunction(c, lead) for c in bottom[:-1]]
-        if len(top) < len(bottom):
+        if len(top) != len(bottom):
             return [*(RationalFunction(c, lead) for c in top), *monic]
         rest = [b * lead - top[-1] * a for a, b in zip(bottom[:-1], top[:-1], strict=True)]
         return [

@@ -59,7 +59,7 @@ def target(model: Model, values: Sequence[tuple[str, Fraction]]) -> Target:
         fmpq_poly([_fmpq(_at(c, point)) for c in side])
         for side in (model.numerator_terms, model.denominator_terms)
     )
-    if den.degree() < model.n_states:
+    if den.degree() < model.degrees[1]:
         raise InputError(
             f"{model.name}: the leading denominator coefficient is zero at these values"
         )

@@ -238,6 +238,7 @@ def verdict_of(
         safety=f.safety,
         evidence=f.evidence,
         domain=domain,
+        notes=left.notes,
         premises=(left.premise, right.premise),
     )
 

@@ -10,12 +10,14 @@ from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, shown
 from disting.experiments import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general.any_model import as_chain, unnamed
+from disting.general.any_model import as_chain, of_network, unnamed
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import chains_named, name_of
+from disting.network import Network, network_of
+from disting.network.notation import notations_of
 from disting.questions.identifiability import Identifiability, ParameterIdentifiability
 from disting.verdict.cascade import Step, steps
 from disting.verdict.engine import Engine
@@ -24,12 +26,14 @@ from disting.verdict.result import Verdict
 
 NAMED = "experiments are a list of Experiment, or of pairs of them, left and right"
 SIDES = 2
+Given = Chain | AnyModel | Network | str
+"""What can be compared: a text is the name of a chain, or a network in a notation."""
 NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
 def compare(
-    left: Chain | AnyModel | str,
-    right: Chain | AnyModel | str,
+    left: Given,
+    right: Given,
     *,
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
@@ -43,8 +47,9 @@ def compare(
 
     Chains are also named: "3:1+b2", "A4" of as many masses as the other one has; `damped` and
     `sensor` say how names are meant, else they are taken from the chain beside them (see
-    `model.names`). General models (`Model`, `MatrixModel`) are compared likewise, with each other
-    or with chains.
+    `model.names`). General models (`Model`, `MatrixModel`) and networks (`Network`, or a text such
+    as "R0-p(R1,C1)" or "1=2, 2=3, 2=4; F1; S4") are compared likewise, with each other or with
+    chains.
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
     representation and raises ContradictionError where two decide differently; `engine` brings
@@ -73,8 +78,8 @@ def compare(
 
 
 def findings(
-    left: Chain | AnyModel | str,
-    right: Chain | AnyModel | str,
+    left: Given,
+    right: Given,
     *,
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
@@ -100,18 +105,29 @@ def asked_of(query: Query | None, engine: Engine | None) -> tuple[Query, Engine]
 
 
 def models_named(
-    left: Chain | AnyModel | str,
-    right: Chain | AnyModel | str,
+    left: Given,
+    right: Given,
     damped: bool | None,
     sensor: Sensor | str | None,
 ) -> tuple[Chain | AnyModel, Chain | AnyModel]:
-    """Both models, names as the chains that they mean; raises InputError."""
+    """Both models, names as the chains that they mean, texts as the networks; raises InputError."""
+    wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
     for one in (left, right):
-        of_type(one, Chain | str | AnyModel, "a model is a chain, a name such as '3:4' or a Model")
-    given = [m for m in (left, right) if isinstance(m, Chain | str)]
+        of_type(one, Chain | str | AnyModel | Network, wanted)
+    beside = next((m.sensor for m in (left, right) if isinstance(m, Chain)), Sensor.ACCELERATION)
+    quantity = beside if sensor is None else as_sensor(sensor)
+    read = [_as_model(m, quantity) for m in (left, right)]
+    given = [m for m in read if isinstance(m, Chain | str)]
     chains = iter(chains_named(given, damped=damped, sensor=sensor))
-    a, b = (next(chains) if isinstance(m, Chain | str) else m for m in (left, right))
+    a, b = (next(chains) if isinstance(m, Chain | str) else m for m in read)
     return a, b
+
+
+def _as_model(given: Given, quantity: Sensor) -> Chain | AnyModel | str:
+    """A network as its transfer functions; chains, models and names as they are."""
+    if isinstance(given, str) and notations_of(given):
+        given = network_of(given, quantity=quantity)
+    return of_network(given) if isinstance(given, Network) else given
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +190,8 @@ def _sides(
         return engine.subject(here, a), engine.subject(there, b)
     models = [_model(left), _model(right)]
     refuse_ports(models)
-    return engine.general_subject(here, models[0]), engine.general_subject(there, models[1])
+    one, other = engine.general_subjects(models, (here, there))
+    return one, other
 
 
 def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, str]:
@@ -235,7 +252,7 @@ def _model(given: Chain | AnyModel) -> AnyModel:
 
 
 def identifiability(
-    model: Chain | AnyModel | str,
+    model: Given,
     *,
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
@@ -262,6 +279,7 @@ def identifiability(
     '7 parameters, all globally identifiable.'
     """
     engine = engine or Engine()
+    model = _as_model(model, Sensor.ACCELERATION if sensor is None else as_sensor(sensor))
     if isinstance(model, Model | MatrixModel):
         if experiments:
             raise InputError(NOT_CHAINS)
@@ -269,7 +287,9 @@ def identifiability(
     if isinstance(model, str):
         (model,) = chains_named([model], damped=damped, sensor=sensor)
     if not isinstance(model, Chain):
-        raise InputError("identifiability is asked of a chain, such as Family(3)[4], or a Model")
+        raise InputError(
+            "identifiability is asked of a chain, such as Family(3)[4], a Model or a Network"
+        )
     if not experiments:
         return engine.identifiabilities([model])[0]
     wrong = [e for e in experiments if not isinstance(e, Experiment)]

@@ -22,6 +22,7 @@ from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
 from disting.experiments import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
+from disting.general.any_model import on_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain
@@ -68,9 +69,15 @@ class Engine:
         """A side of a comparison whose profiles come from this engine."""
         return ComparedChain(name, chain, self.settings, self.profile, self.answer)
 
-    def general_subject(self, name: str, model: AnyModel) -> ComparedModel:
-        """The same for a general model."""
-        return ComparedModel(name, model, self.settings, self.profile, self.answer)
+    def general_subjects(
+        self, models: Sequence[AnyModel], names: Sequence[str] = ()
+    ) -> list[ComparedModel]:
+        """The same for general models that are compared with each other, all in one variable."""
+        named = zip(names or [m.name for m in models], on_one_variable(models), strict=True)
+        return [
+            ComparedModel(name, model, self.settings, self.profile, self.answer)
+            for name, model in named
+        ]
 
     def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
         """The same for a chain under several experiments."""

@@ -10,16 +10,22 @@ from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from itertools import combinations
+from typing import Generic, TypeVar
 
 from disting.errors import InputError
 from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
 from disting.model.presentation import Shown, plural, summary
+from disting.network.element import Sort
+from disting.network.network import Network
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.everywhere import Answer
 from disting.verdict.placement import placed
-from disting.verdict.placement_record import Placed
+from disting.verdict.placement_record import Table
+
+S = TypeVar("S", bound=Chain | Network)
+PLACES = {Sort.MACHINE: "mass", Sort.CIRCUIT: "node", Sort.COMPARTMENTS: "compartment"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,48 +40,55 @@ class Option:
 
 
 @dataclass(frozen=True)
-class Further(Shown):
-    """The menu on structures `chains`, called `names`, that one measurement cannot tell apart."""
+class Further(Shown, Generic[S]):
+    """The menu on `structures`, chains or networks, called `names`, that one measurement cannot
+    tell apart.
+    """
 
     names: tuple[str, ...]
-    chains: tuple[Chain, ...]
-    tables: Mapping[Kind, Placed]
+    structures: tuple[S, ...]
+    tables: Mapping[Kind, Table]
     costs: Costs = field(default_factory=Costs)
 
     def __repr__(self) -> str:
         kinds = ", ".join(kind.name for kind in self.kinds)
-        size = plural(self.n_masses, "mass", "masses")
-        return summary(self, f"{plural(len(self.chains), 'structure')} of {size}: {kinds}")
+        return summary(self, f"{plural(len(self.structures), 'structure')}: {kinds}")
 
-    def only(self, structures: Sequence[int]) -> "Further":
+    def only(self, structures: Sequence[int]) -> "Further[S]":
         """Some of the structures, counted from 0, in this order."""
         return replace(
             self,
             names=tuple(self.names[k] for k in structures),
-            chains=tuple(self.chains[k] for k in structures),
+            structures=tuple(self.structures[k] for k in structures),
             tables={kind: table.only(structures) for kind, table in self.tables.items()},
         )
 
     @property
-    def n_masses(self) -> int:
-        """Number of masses of each."""
-        return self.chains[0].n_masses
+    def place(self) -> str:
+        """What the places are called: "mass", "node" or "compartment"."""
+        first = self.structures[0]
+        return "mass" if isinstance(first, Chain) else PLACES[first.sort]
+
+    def places(self, structure: int) -> tuple[int, ...]:
+        """The masses or nodes of a structure at which something can be done."""
+        return places_of(self.structures[structure])
 
     @property
     def kinds(self) -> tuple[Kind, ...]:
         """What can be done, cheapest first."""
-        return tuple(kind for kind in self.costs.cheapest_first if kind in self.tables)
+        return tuple(sorted(self.tables, key=self.costs.cost))
 
     def items(self, structure: int) -> Iterator[Item]:
         """Yield the experiments that are worth it on this structure, cheapest first."""
         for kind in self.kinds:
-            for item in (Item(kind, at) for at in range(1, self.n_masses + 1)):
-                if item.is_worth(self.tables[kind].gain((structure, item.at))):
+            for at in self.places(structure):
+                item = Item(kind, at)
+                if item.is_worth(self.tables[kind].gain((structure, at))):
                     yield item
 
     def others(self, structure: int) -> tuple[int, ...]:
         """The rest of the group."""
-        return tuple(k for k in range(len(self.chains)) if k != structure)
+        return tuple(k for k in range(len(self.structures)) if k != structure)
 
     def answer(self, structure: int, item: Item, other: int) -> Answer:
         """Whether the item tells the structure from another one."""
@@ -94,12 +107,12 @@ class Further(Shown):
         """Whether this kind tells all structures apart, wherever it is done."""
         spots = [
             (k, item)
-            for k in range(len(self.chains))
+            for k in range(len(self.structures))
             for item in self.items(k)
             if item.kind == kind
         ]
         return (
-            len(self.chains) > 1
+            len(self.structures) > 1
             and bool(spots)
             and all(
                 not self.tables[kind].alike((k, item.at), other)
@@ -142,6 +155,15 @@ class Further(Shown):
         return any((a == b) is same for a in places[0] for b in places[1])
 
 
+def places_of(structure: Chain | Network) -> tuple[int, ...]:
+    """Masses of a chain; nodes of a network but the one that its elements are measured against."""
+    if isinstance(structure, Chain):
+        return tuple(range(1, structure.n_masses + 1))
+    ends = {i for e in structure.elements for i in e.nodes}
+    ground = {0} if structure.sort is Sort.CIRCUIT else set()
+    return tuple(sorted((set(structure.nodes) | (ends & ground)) - {structure.reference}))
+
+
 def further(
     named: Sequence[tuple[str, Chain]],
     engine: Engine,
@@ -149,7 +171,7 @@ def further(
     costs: Costs | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
-) -> Further:
+) -> Further[Chain]:
     """The menu on structures of one size and sensor that are indistinguishable, over complex
     parameters, as they are measured now; raises InputError for other sizes or sensors.
     """

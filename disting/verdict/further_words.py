@@ -6,6 +6,8 @@ from typing import Any
 
 from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING
 from disting.experiments.menu import Gain, Item
+from disting.model.chain import Chain
+from disting.network.network import Network
 from disting.schemas import Format
 from disting.verdict.further import Further, Option
 from disting.verdict.placement_record import REPEATS
@@ -28,13 +30,15 @@ WHY = {
     EXACT.name: "each has parameters with all that the other one shows",
     REPEATS: "it shows in both what is known already",
 }
+UNSEEN = "nothing is seen"  # where nothing moves
+AnyFurther = Further[Chain] | Further[Network]
 NOTHING = {
     Gain.REPEATS: "tells nothing new",
     Gain.SILENT: "the sensor does not move",
 }
 
 
-def left_over(found: Further, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
+def left_over(found: AnyFurther, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
     """The structures that an item does not surely tell from this one, with the masses at which
     it does not.
     """
@@ -43,11 +47,11 @@ def left_over(found: Further, structure: int, item: Item) -> dict[int, tuple[int
     return {k: masses for k, masses in places.items() if masses}
 
 
-def in_words(found: Further, structure: int, item: Item) -> str:
+def in_words(found: AnyFurther, structure: int, item: Item) -> str:
     """What an item tells, for somebody who has this structure in mind."""
     known = found.tables[item.kind].gain((structure, item.at))
     if not item.is_worth(known):
-        return NOTHING[known]
+        return NOTHING[known] if found.place == "mass" or known is Gain.REPEATS else UNSEEN
     left = left_over(found, structure, item)
     if not left:
         return "surely tells it from the rest"
@@ -72,7 +76,7 @@ def option_in_words(option: Option) -> str:
     return f"{' and '.join(item.text for item in option.items)} (cost {option.cost:g})"
 
 
-def conclusion(found: Further, structure: int) -> str:
+def conclusion(found: AnyFurther, structure: int) -> str:
     """The cheapest sets that are enough, or what is left by the best one, and why."""
     least = found.least(structure)
     if least:
@@ -87,35 +91,34 @@ def conclusion(found: Further, structure: int) -> str:
     )
 
 
-def anywhere(found: Further) -> str:
+def anywhere(found: AnyFurther) -> str:
     """The kinds that tell all of them apart wherever they are done; "" if none does."""
     enough = [k for k in found.kinds if found.anywhere(k)]
     told = [f"{k.anywhere} (cost {found.costs.cost(k):g})" for k in enough]
     return "; or ".join(told)
 
 
-def rows(found: Further) -> Iterator[tuple[str, ...]]:
+def rows(found: AnyFurther) -> Iterator[tuple[str, ...]]:
     """Yield a row of CSV_COLUMNS for each kind of experiment and each pair of places."""
-    masses = range(1, found.n_masses + 1)
     for kind in found.kinds:
         table = found.tables[kind]
         for a, left in enumerate(found.names):
             for b, right in enumerate(found.names[a + 1 :], a + 1):
-                for i, j in product(masses, masses):
+                for i, j in product(found.places(a), found.places(b)):
                     relation, rule = table.look_up((a, i), (b, j))
-                    grade = table.certainty(rule) or ""
-                    bound = error_bound(grade, table.safety)
+                    grade, safety = table.grade((a, i), (b, j))
+                    bound = error_bound(grade, safety)
                     row = (kind.name, left, i, right, j, relation.value, rule, grade, bound)
                     yield tuple(map(str, row))
 
 
-def to_dict(found: Further) -> dict[str, Any]:
+def to_dict(found: AnyFurther) -> dict[str, Any]:
     """Plain data, ready for JSON."""
     return {
         "format": Format.NEXT.value,
         "structures": list(found.names),
         "domain": "complex",
-        "costs": dict(found.costs.of),
+        "costs": found.costs.of_kinds(found.kinds),
         "anywhere": [kind.name for kind in found.kinds if found.anywhere(kind)],
         "menu": [_item(found, k, item) for k in range(len(found.names)) for item in found.items(k)],
         "least": {
@@ -125,24 +128,34 @@ def to_dict(found: Further) -> dict[str, Any]:
     }
 
 
-def _item(found: Further, structure: int, item: Item) -> dict[str, Any]:
+def many(found: AnyFurther) -> str:
+    """The name of several places in plain data.
+
+    >>> from disting.catalogs.next_files import next_catalog
+    >>> many(next_catalog(3).further((1, 11)))
+    'masses'
+    """
+    return "masses" if found.place == "mass" else f"{found.place}s"
+
+
+def _item(found: AnyFurther, structure: int, item: Item) -> dict[str, Any]:
     left = left_over(found, structure, item)
     return {
         "structure": found.names[structure],
         "experiment": item.kind.name,
-        "mass": item.at,
+        found.place: item.at,
         "cost": found.costs.cost(item.kind),
         "answer": found.whole(structure, item).value,
-        "not_from": [{"structure": found.names[k], "masses": list(m)} for k, m in left.items()],
+        "not_from": [{"structure": found.names[k], many(found): list(m)} for k, m in left.items()],
     }
 
 
-def _option(found: Further, option: Option) -> dict[str, Any]:
-    items = [{"experiment": i.kind.name, "mass": i.at} for i in option.items]
+def _option(found: AnyFurther, option: Option) -> dict[str, Any]:
+    items = [{"experiment": i.kind.name, found.place: i.at} for i in option.items]
     return {"cost": option.cost, "experiments": items}
 
 
-def _why(found: Further, structure: int, option: Option) -> str:
+def _why(found: AnyFurther, structure: int, option: Option) -> str:
     """The reason for the first structure that is left."""
     item, other = option.items[0], option.left[0]
     table = found.tables[item.kind]
@@ -152,7 +165,7 @@ def _why(found: Further, structure: int, option: Option) -> str:
 
 
 def _only(
-    found: Further, structure: int, item: Item, relation: Relation
+    found: AnyFurther, structure: int, item: Item, relation: Relation
 ) -> dict[int, tuple[int, ...]]:
     """What is left over because of this relation."""
     table, spot = found.tables[item.kind], (structure, item.at)
@@ -163,8 +176,10 @@ def _only(
     return {k: masses for k, masses in left.items() if masses}
 
 
-def _among(found: Further, left: dict[int, tuple[int, ...]]) -> str:
-    return ", or ".join(f"mass {_either(masses)} of {found.names[k]}" for k, masses in left.items())
+def _among(found: AnyFurther, left: dict[int, tuple[int, ...]]) -> str:
+    return ", or ".join(
+        f"{found.place} {_either(at)} of {found.names[k]}" for k, at in left.items()
+    )
 
 
 def _either(masses: tuple[int, ...]) -> str:

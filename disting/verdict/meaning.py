@@ -5,6 +5,7 @@ here is all that is measured, from the force to the sensor or from the inputs to
 parameters are generic, finite and not zero.
 """
 
+from disting.conditions.side import HALVES
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.decision import DeadTime
 from disting.model.question import Domain
@@ -39,7 +40,8 @@ def shown(verdict: Verdict) -> str:
         )
     match verdict.evidence:
         case Counts():
-            return _steeper(verdict.evidence, left, right, machines)
+            halves = HALVES in verdict.notes
+            return _steeper(verdict.evidence, left, right, machines, halves)
         case Ranks():
             return _more_equations(verdict.evidence, left, right, machines)
         case Forms():
@@ -70,8 +72,10 @@ def _the_same(verdict: Verdict) -> str:
     )
 
 
-def _steeper(found: Counts, left: str, right: str, machines: bool) -> str:
-    """Degrees n over m: towards high frequencies |G| falls by 20 (m - n) dB in a decade."""
+def _steeper(found: Counts, left: str, right: str, machines: bool, halves: bool) -> str:
+    """Degrees n over m: towards high frequencies |G| falls by 20 (m - n) dB in a decade, by half of
+    it where powers are counted in halves.
+    """
     (n1, m1), (n2, m2) = found.first
     if n1 < 0 or n2 < 0:
         still, moves = (left, right) if n1 < 0 else (right, left)
@@ -79,13 +83,20 @@ def _steeper(found: Counts, left: str, right: str, machines: bool) -> str:
         return f"The {sensor} of {still} never moves, that of {moves} does."
     if m1 - n1 != m2 - n2:
         steep, flat = (left, right) if m1 - n1 > m2 - n2 else (right, left)
-        fall = DECADE * abs((m1 - n1) - (m2 - n2))
+        fall = DECADE * abs((m1 - n1) - (m2 - n2)) // (1 + halves)
+        if halves:
+            return (
+                f"Towards high frequencies the response of {steep} falls by {fall} dB a decade more"
+                f" than that of {flat}."
+            )
         return (
             f"Towards high frequencies the response of {steep} falls by {fall} dB a decade more"
             f" than that of {flat}"
             f"{_zeros(n2 - n1 if flat == right else n1 - n2, flat, machines)}."
         )
     more, poles = (left, m1 - m2) if m1 > m2 else (right, m2 - m1)
+    if halves:
+        return f"The response of {more} has more coefficients in powers of s^(1/2)."
     return f"The response of {more} has {poles} {'pole' if poles == 1 else 'poles'} more."
 
 

@@ -2,11 +2,12 @@
 tell apart, as it is found (`placement`), shipped and looked up.
 """
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import Certainty, Grade
 from disting.conditions.rule import EXACT
 from disting.conditions.table import NECESSARY
 from disting.experiments.menu import Gain
@@ -21,6 +22,45 @@ Spot = tuple[int, int]
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
+
+
+class Table(Protocol):
+    """What one kind of experiment leaves together, spot against spot."""
+
+    def only(self, structures: Sequence[int]) -> "Table":
+        """Some of the structures, counted from 0, in this order."""
+
+    def gain(self, spot: Spot) -> Gain:
+        """What is gained there."""
+
+    def look_up(self, left: Spot, right: Spot) -> tuple[Relation, str]:
+        """Relation and deciding rule of two spots, "" if undecided."""
+
+    def grade(self, left: Spot, right: Spot) -> Grade | tuple[str, int]:
+        """How sure that is: the certainty, and e where what is said is wrong with a probability of
+        2**-e at most; "" and 0 of what is undecided.
+        """
+
+    def alike(self, spot: Spot, other: int) -> tuple[int, ...]:
+        """Places in another structure at which it is not told from this one at this spot; what is
+        undecided included.
+        """
+
+    def answer(self, spot: Spot, other: int) -> Answer:
+        """Whether the experiment at a spot tells its structure from another one, wherever the
+        place is in that.
+        """
+
+
+def answer_of(found: Set[Relation]) -> Answer:
+    """What the relations to all places of another structure come to."""
+    if found <= {Relation.DISTINGUISHABLE}:
+        return Answer.SURELY
+    if found == {Relation.INDISTINGUISHABLE}:
+        return Answer.NEVER
+    if {Relation.DISTINGUISHABLE, Relation.INDISTINGUISHABLE} <= found:
+        return Answer.DEPENDS
+    return Answer.UNKNOWN
 
 
 @dataclass(frozen=True)
@@ -85,12 +125,13 @@ class Placed:
             return Relation.UNDECIDED, ""
         return Relation.DISTINGUISHABLE, EXACT.name
 
-    def certainty(self, rule: str) -> Certainty | None:
-        """Of what a rule says here."""
+    def grade(self, left: Spot, right: Spot) -> Grade | tuple[str, int]:
+        """Certainty and safety of the table, "" of what is undecided."""
+        rule = self.look_up(left, right)[1]
         if not rule:
-            return None
+            return "", self.safety
         sure = rule in CERTAIN or not self.safety
-        return Certainty.PROVEN if sure else Certainty.BOUNDED
+        return Certainty.PROVEN if sure else Certainty.BOUNDED, self.safety
 
     def alike(self, spot: Spot, other: int) -> tuple[int, ...]:
         """Masses of another structure at which it is not told from this one at this spot; what is
@@ -108,13 +149,7 @@ class Placed:
         place is in that.
         """
         found = {self.look_up(spot, (other, j))[0] for j in range(1, self.n_masses + 1)}
-        if found <= {Relation.DISTINGUISHABLE}:
-            return Answer.SURELY
-        if found == {Relation.INDISTINGUISHABLE}:
-            return Answer.NEVER
-        if {Relation.DISTINGUISHABLE, Relation.INDISTINGUISHABLE} <= found:
-            return Answer.DEPENDS
-        return Answer.UNKNOWN
+        return answer_of(found)
 
     def _rule(self, at: int) -> str:
         return self.links[at].partition("/")[0]

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, bits_in_words
 from disting.conditions.rule import EXACT, RULES, Role, Stage
+from disting.conditions.side import HALVES
 from disting.evidence.conditions import capital
 from disting.evidence.kinds import Evidence
 from disting.evidence.kinds import evidence_from as evidence_from
@@ -127,6 +128,8 @@ class Verdict(Shown):
         return (
             f"{self.models} are {self.told}{over}{depending}{aside} ({self.rule}):"
             f" {self.evidence.sentence(self.left, self.right)} {capital(self.sure)}."
+            + f" {capital(HALVES)}."
+            * (HALVES in self.notes)
         )
 
     @property

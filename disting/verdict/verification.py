@@ -252,7 +252,7 @@ def _unfounded(claim: _Claim) -> Iterator[str]:
         return
     if not follows(v, v.evidence, claim.query):
         yield f"{claim.where}{v.relation}, by {v.rule}, does not follow from evidence of that kind"
-    if v.notes != claim.sides.notes:
+    if v.notes != (*claim.sides.left.notes, *claim.sides.notes):
         yield f"{claim.where}what is decided has notes of what is open"
     equal = claim.equal
     known = equal is None or equal.relation is Relation.INDISTINGUISHABLE

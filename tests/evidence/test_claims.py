@@ -36,7 +36,7 @@ def test_theorems(domain):
         == {
             Domain.COMPLEX: set(THEOREMS),
             Domain.REAL: {"symmetry", "duality"},
-            Domain.POSITIVE: {"Foster and Cauer"},
+            Domain.POSITIVE: {"Foster and Cauer", "replacement"},
         }[domain]
     )
 

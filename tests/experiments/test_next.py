@@ -135,7 +135,7 @@ def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
 def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
     whole = further(named(A, 2, 5), engine)
     tables = {k: whole.tables[k] for k in (LOCK, INERTIA)}
-    found = Further(whole.names, whole.chains, tables)
+    found = Further(whole.names, whole.structures, tables)
     assert found.least(0) == found.least(1) == ()
     assert "by symmetry" in conclusion(found, 0)
     mirrored = {1: 3, 2: 2, 3: 1}
@@ -234,7 +234,7 @@ def test_command_with_dampers_to_the_ground(capsys, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "status", "says"),
     [
-        (["3:1", "3:4"], 0, "told apart by the present force and sensor already"),
+        (["3:1", "3:4"], 0, "told apart by the present measurement already"),
         (["3:3"], 0, "told from all other structures"),
         (["3:1", "4:1"], 2, "different numbers of masses"),
         (["7:1"], 2, "name all structures"),

@@ -39,7 +39,7 @@ class NoWorkers(Executor):
 
 def decided(store, view, executor=None):
     engine = Engine(store=store)
-    subjects = [engine.general_subject(m.name, m) for m in MODELS]
+    subjects = engine.general_subjects(MODELS)
     return engine.decisions(subjects, Query(view), executor=executor)
 
 
@@ -85,10 +85,12 @@ def test_verdicts_that_contradict_a_class_are_refused():
 )
 def test_chains_as_state_spaces_have_the_verdicts_of_the_catalogue(damped, view):
     family, known, engine = Family(3, damped), catalog(3, damped=damped), Engine()
-    subjects = [
-        engine.general_subject(f"A{i}", Model.from_state_space(*plain_state_space(chain)))
-        for i, chain in enumerate(family, 1)
-    ]
+    subjects = engine.general_subjects(
+        [
+            Model.from_state_space(*plain_state_space(chain), name=f"A{i}")
+            for i, chain in enumerate(family, 1)
+        ]
+    )
     found = engine.decisions(subjects, Query(view))
     for low, high in combinations(range(1, len(family) + 1), 2):
         relation = found.relation(low - 1, high - 1)

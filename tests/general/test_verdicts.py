@@ -216,7 +216,7 @@ def test_what_a_store_kept_names_the_rule_that_decided():
             for _ in range(2)
         ]
         engine = Engine(store=store)
-        sides = [engine.general_subject(m.name, m) for m in (IRREVERSIBLE, REVERSIBLE)]
+        sides = engine.general_subjects((IRREVERSIBLE, REVERSIBLE))
         told.append(engine.decisions(sides, Query()).rule(0, 1))
     assert told == ["admissible"] * 3
 

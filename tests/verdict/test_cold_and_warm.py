@@ -162,7 +162,7 @@ def test_evidence_that_is_made_is_that_which_is_read(view, damped):
 @pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT])
 @pytest.mark.parametrize("name", ["single", "matrices"])
 def test_evidence_of_models_is_that_which_is_read(view, name, files):
-    subjects = [Engine().general_subject(m.name, m) for m in read_models(files[name])]
+    subjects = Engine().general_subjects(read_models(files[name]).models)
     refuse_differences(decide(*pair, Query(view)) for pair in combinations(subjects, 2))
 
 

@@ -64,7 +64,7 @@ def doors(chains, engine):
     pairs = list(combinations(range(len(chains)), 2))
 
     def of_list(members):
-        subjects = [engine.general_subject(m.name, m) for m in members]
+        subjects = engine.general_subjects(members)
         decided = engine.decisions(subjects, Query())
         return {pair: decided.verdict(*pair) for pair in pairs}
 
@@ -165,7 +165,7 @@ def test_a_bound_of_a_mixed_list_counts_both_parts():
     engine = Engine()
 
     def safety(entries):
-        subjects = [engine.general_subject(m.name, m) for m in models_of({"models": entries})]
+        subjects = engine.general_subjects(models_of({"models": entries}).models)
         return family_safety(engine.decisions(subjects, Query()))
 
     alone, mixed = safety(chains), safety([*chains, STRANGER])

@@ -21,6 +21,7 @@ from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
+    Minor,
     MissingElements,
     Outside,
     RelativeDegrees,
@@ -64,6 +65,8 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
             return not of_one_size and _across_sizes(evidence, left, right)
         case MissingElements():
             return evidence.left_is_part == left_is_smaller and confirms_missing(evidence, a, b)
+        case Minor():
+            return False  # it speaks of networks
         case DeadTime():
             return (a.dead_time, b.dead_time) == (evidence.left_given, not evidence.left_given)
         case LargerProjection():

@@ -1,0 +1,250 @@
+"""Candidates before they are fitted: which of them are the same, with the values of the one as
+formulas in those of the other, which parameters no data determine, what to measure next.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from disting.algebra.notation import text
+from disting.equivalence.maps import explicit_map
+from disting.errors import ContradictionError, InputError, listed, of_type
+from disting.evidence.conditions import Renaming
+from disting.evidence.general import Explicit, Formula
+from disting.experiments.menu import Costs
+from disting.general.any_model import of_network, unnamed
+from disting.general.formulas import fit, of_way
+from disting.general.identifiability import PARAMETERS
+from disting.general.matrix_model import AnyModel, MatrixModel
+from disting.general.model import Model
+from disting.general.which_models import way
+from disting.model.chain import Chain
+from disting.model.names import chains_named, name_of
+from disting.model.presentation import Shown, plural, summary
+from disting.network.network import Network
+from disting.network.notation import network_of, notations_of
+from disting.questions.identifiability import ParameterIdentifiability
+from disting.schemas import Format
+from disting.verdict.comparison import Given, refuse_ports
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine
+from disting.verdict.further import further
+from disting.verdict.further_words import AnyFurther, to_dict
+from disting.verdict.network_placement import further_networks
+from disting.verdict.query import Query
+from disting.verdict.result import Relation, Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class Duplicate(Shown):
+    """`name` shows what `kept` shows, for all values of the verdict's domain but special ones where
+    the verdict leaves such out.
+
+    `formulas`: values of the duplicate in those of the kept model, one piece for each set of
+    conditions on these; none where no formula is known. Then there are values all the same.
+    """
+
+    kept: str
+    name: str
+    verdict: Verdict
+    formulas: tuple[Formula, ...]
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.name} is {self.kept}, {plural(len(self.formulas), 'formula')}")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, ready for JSON."""
+        return {
+            "name": self.name,
+            "sentence": self.verdict.sentence,
+            "certainty": self.verdict.certainty,
+            "formulas": [
+                {
+                    "where": list(where),
+                    "values": dict(values),
+                    "root": dict(zip(ROOT, root, strict=True)) if root else None,
+                }
+                for _, where, values, root in self.formulas
+            ],
+        }
+
+
+ROOT = ("name", "of", "above", "below")
+
+
+@dataclass(frozen=True)
+class Gate(Shown):
+    """What is known of candidates before any of them is fitted.
+
+    `groups`: names of the models that are the same, the one to be kept first; `duplicates`: the
+    others of them; `parameters`: by name of a kept model, which of its parameters are determined;
+    `next`: by name of the kept model of a group, what to measure to tell the group apart.
+    """
+
+    decisions: Decisions
+    groups: tuple[tuple[str, ...], ...]
+    duplicates: tuple[Duplicate, ...]
+    parameters: Mapping[str, ParameterIdentifiability]
+    next: Mapping[str, AnyFurther]
+
+    def __repr__(self) -> str:
+        found = f"{plural(len(self.decisions.subjects), 'model')}, {len(self.kept)} kept"
+        return summary(self, found)
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """Models that are to be fitted, in the order given: one of each group, and the others."""
+        return tuple(self.parameters)
+
+    @property
+    def not_separate(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of kept models that are the same for some values, or undecided."""
+        names = [s.name for s in self.decisions.subjects]
+        places = [names.index(name) for name in self.kept]
+        apart = Relation.DISTINGUISHABLE
+        return tuple(
+            (names[i], names[j])
+            for at, i in enumerate(places)
+            for j in places[at + 1 :]
+            if self.decisions.relation(i, j) is not apart
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, ready for JSON."""
+        names = [s.name for s in self.decisions.subjects]
+        same = {
+            group[0]: [d.to_dict() for d in self.duplicates if d.kept == group[0]]
+            for group in self.groups
+        }
+        pairs = [(names.index(a), names.index(b)) for a, b in self.not_separate]
+        return {
+            "format": Format.GATE.value,
+            "domain": self.decisions.query.view.domain.value,
+            "models": names,
+            "kept": [
+                {
+                    "name": name,
+                    "parameters": {p: level.value for p, level in found.levels.items()},
+                    "sentence": found.sentence,
+                    "same": same.get(name, []),
+                    "next": to_dict(self.next[name]) if name in self.next else None,
+                }
+                for name, found in self.parameters.items()
+            ],
+            "not_separate": [
+                {
+                    "left": names[i],
+                    "right": names[j],
+                    "relation": self.decisions.relation(i, j).value,
+                    "sentence": self.decisions.verdict(i, j).sentence,
+                }
+                for i, j in pairs
+            ],
+        }
+
+
+def gate(
+    models: Sequence[Given],
+    *,
+    query: Query | None = None,
+    costs: Costs | None = None,
+    engine: Engine | None = None,
+) -> Gate:
+    """Which of these models are worth a fit: chains, networks or texts for them, models.
+
+    Of models that are the same over positive values (or in the domain of the query) the one with
+    the fewest parameters is kept, among those the first. Two models that are no chains have one
+    number of inputs and outputs. What to measure next is told where a group is of networks of one
+    kind, or of chains of one size. Raises InputError.
+
+    >>> found = gate(["R0-p(R1,C1)", "p(R0,R1-C1)", "R0-p(R1,C1)-p(R2,C2)"])
+    >>> found.kept
+    ('R0-p(R1,C1)', 'R0-p(R1,C1)-p(R2,C2)')
+    >>> dict(found.duplicates[0].formulas[0][2])["R1"]
+    '(R0**2 + R0*R1)/R1'
+    """
+    engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
+    made = [_model(m) for m in of_type(models, Iterable, "the models are a list of models")]
+    again = [m.name for i, m in enumerate(made) if m.name in {x.name for x in made[:i]}]
+    if again or not made:
+        raise InputError(
+            f"two models are called {listed(again[:1])}: give each its own name"
+            if again
+            else "there are no models"
+        )
+    refuse_ports(made)
+    asked = query or Query(inclusion=False)
+    decided = engine.decisions(engine.general_subjects(made), asked)
+    sizes = [len(m.parameters) for m in made]
+    groups = [tuple(sorted(g, key=lambda i: (sizes[i], i))) for g in decided.classes()]
+    dropped = {i for group in groups for i in group[1:]}
+    menus = {made[g[0]].name: _menu([made[i] for i in g], engine, costs) for g in groups}
+    return Gate(
+        decided,
+        tuple(tuple(made[i].name for i in group) for group in groups),
+        tuple(_duplicate(decided, made, g[0], i) for g in groups for i in g[1:]),
+        {
+            m.name: engine.answer(PARAMETERS, (unnamed(m),), engine.settings)
+            for i, m in enumerate(made)
+            if i not in dropped
+        },
+        {name: menu for name, menu in menus.items() if menu},
+    )
+
+
+def _model(given: Given) -> AnyModel:
+    if isinstance(given, str):
+        given = network_of(given) if notations_of(given) else chains_named([given])[0]
+    if isinstance(given, Network):
+        return of_network(given)
+    if isinstance(given, Chain):
+        return Model.from_chain(given, name=name_of(given))
+    wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
+    return of_type(given, Model | MatrixModel, wanted)
+
+
+def _duplicate(decided: Decisions, made: Sequence[AnyModel], kept: int, other: int) -> Duplicate:
+    verdict = decided.verdict(kept, other)
+    domain = decided.query.view.domain
+    left, right = made[kept], made[other]
+    formulas = _renamed(verdict, kept < other) or _chains(left, right)
+    if not formulas:
+        found = way(left, right, domain)
+        formulas = tuple(of_way(True, found)) if found else ()
+        if not fit(Explicit(domain.value, formulas), left, right):
+            raise ContradictionError(f"the formulas from {left.name} to {right.name} are wrong")
+    return Duplicate(left.name, right.name, verdict, formulas)
+
+
+def _renamed(verdict: Verdict, forwards: bool) -> tuple[Formula, ...]:
+    """The renaming that a verdict rests on."""
+    if not isinstance(verdict.evidence, Renaming):
+        return ()
+    pairs = [(b, a) if forwards else (a, b) for a, b in verdict.evidence.pairs]
+    return ((True, (), tuple(sorted(pairs)), ()),)
+
+
+def _chains(left: AnyModel, right: AnyModel) -> tuple[Formula, ...]:
+    """The theorems on chains."""
+    a, b = (m.chain if isinstance(m, Model) else None for m in (left, right))
+    found = explicit_map(a, b) if a and b else None
+    if found is None:
+        return ()
+    values = tuple(sorted((name, text(value)) for name, value in found.formulas.items()))
+    return ((True, (), values, ()),)
+
+
+def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs | None) -> AnyFurther | None:
+    """What to measure next, where all are networks of one kind or chains of one size."""
+    chains = [m.chain for m in models if isinstance(m, Model) and m.chain]
+    networks = [m.network for m in models if m.network]
+    names = [m.name for m in models]
+    try:
+        if len(chains) == len(models):
+            return further(list(zip(names, chains, strict=True)), engine, costs=costs)
+        if len(networks) == len(models):
+            named: list[tuple[str, Network]] = list(zip(names, networks, strict=True))
+            return further_networks(named, engine, costs=costs)
+    except InputError:  # no menu in common
+        return None
+    return None

@@ -1,0 +1,171 @@
+"""Points with and without positive equivalents, from lists of all equivalents of a rational point;
+what holds at such a point is proven to hold near it.
+
+WITH. Let both have the same degrees, the searched model Y n parameters and n + 1 coefficients, and
+at a point x of the given model X an equivalent y, positive, at which the matrix of the coefficients
+of Y and their derivatives is not singular. Then all transfer functions of these degrees near that
+of y are those of parameters near y, which are positive, so all x near by have an equivalent.
+
+WITHOUT. Let Y be a one-port of positive elements, and let the function g of X at x be that of no
+positive values of Y, and of no positive values of a minor of Y (elements deleted or contracted).
+THEOREM. Then all x near by have no positive equivalent in Y. Proof. Else there are positive values
+of Y whose functions converge to g. Of each element let its admittance p s^r converge in [0, oo],
+for a part of the sequence (p alone decides that, s > 0). At every s > 0 the admittance of a network
+of positive ones is least energy over potentials, so upper semicontinuous on [0, oo]^n, and by
+Thomson's principle its inverse is least energy over flows, so it is lower semicontinuous too: it
+converges to that of the limit, where elements of admittance 0 are deleted and those of oo are
+contracted. So g is the function of Y or of a minor, at all s > 0, with positive values.
+A limit of functions has no larger degree (the larger one of numerator and denominator), so a minor
+of smaller degree has no function g, nor do its own minors.
+"""
+
+from fractions import Fraction
+from functools import lru_cache
+
+from flint import Ordering, fmpq, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx
+
+from disting.algebra.determinants import minors as subdeterminants
+from disting.algebra.groebner.rational import Bounds, TooLarge
+from disting.errors import InputError
+from disting.general.equivalent import Equivalent
+from disting.general.fibre import Extent, solved
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.general.replacement import moved, sign_of_one_port
+from disting.general.target import Target, fibre_equations, rational_values, target
+from disting.model.question import Domain
+from disting.network.element import Port
+from disting.network.graph import seen_by_blocks
+from disting.network.network import Network
+
+REMEMBERED = 512
+MOST_ELEMENTS = 6  # of a network of which all minors are looked at
+Values = dict[str, Fraction]
+
+
+def having(given: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...] | None:
+    """A positive equivalent (rounded) in the other model of a point around which all have some;
+    None where that is not shown.
+    """
+    if not (isinstance(given, Model) and isinstance(other, Model)):
+        return None
+    if given.degrees != other.degrees or len(other.parameters) != sum(other.degrees) + 1:
+        return None
+    goal = _goal(given, values)
+    found = (goal and _positive(goal, other)) or ()
+    regular = (e for e in found if _is_regular(other, e))
+    return next((tuple(x.real for x in e.numbers) for e in regular), None)
+
+
+def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
+    """Whether no point around this one has a positive equivalent in the other model, as far as is
+    shown.
+    """
+    if not (isinstance(given, Model) and isinstance(other, Model)) or given.halves != other.halves:
+        return False
+    network = other.network
+    if network is None or not sign_of_one_port(network) or len(network.seen) > MOST_ELEMENTS:
+        return False
+    goal = _goal(given, values)
+    if goal is None or _positive(goal, other) != ():
+        return False
+    degree = max(len(goal.numerator), len(goal.denominator)) - 1
+    minors = _of_degree(network, degree, other.halves)
+    return minors is not None and all(_positive(goal, m) == () for m in minors)
+
+
+def _goal(given: Model, values: Values) -> Target | None:
+    """None where a pole runs to infinity."""
+    try:
+        return target(given, rational_values(given, values))
+    except InputError:
+        return None
+
+
+def _positive(goal: Target, other: Model) -> tuple[Equivalent, ...] | None:
+    """All positive equivalents; None where they are not all known."""
+    try:
+        found = solved(fibre_equations(goal, other), other.parameters, "list", Bounds())
+    except TooLarge:
+        return None
+    if found.extent in (Extent.NONE, Extent.FINITE):
+        return tuple(e for e in found.equivalents if e.domain is Domain.POSITIVE)
+    return () if Domain.POSITIVE in found.excluded or Domain.REAL in found.excluded else None
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _of_degree(network: Network, degree: int, halves: bool) -> tuple[Model, ...] | None:
+    """The minors of at least this degree, one for each function; None where not all are known."""
+    todo, met, kept = [network], {network}, dict[object, Model]()
+    while todo:
+        whole = todo.pop()
+        for at in range(len(whole.elements)):
+            for contracted in (False, True):
+                try:
+                    found = _one_less(whole, at, contracted)
+                    if found is None or found in met:
+                        continue
+                    met.add(found)
+                    model = Model.from_network(found)
+                except InputError:
+                    return None
+                if halves and not model.halves:
+                    model = _in_halves(model)
+                if max(model.degrees) >= degree:
+                    kept.setdefault(model.content, model)
+                    todo.append(found)
+    return tuple(kept.values())
+
+
+def _in_halves(model: Model) -> Model:
+    """The same in powers of s^(1/2)."""
+    spread = [
+        tuple(part for terms in side for part in (terms, ()))[:-1]
+        for side in (model.numerator_terms, model.denominator_terms)
+    ]
+    return Model(model.parameters, spread[0], spread[1], model.name, True)
+
+
+def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:
+    """A one-port with an element deleted or contracted, as far as it is seen; None where the port
+    is open or shorted then.
+    """
+    places = {i: i for e in whole.elements for i in (*e.nodes, 0)}
+    places |= {i: i for p in whole.ports for i in (p.plus, p.minus)}
+    if contracted:
+        low, high = sorted((*whole.elements[at].nodes, 0)[:2])
+        places[high] = low
+    (force,), (sensor,) = whole.inputs, whole.outputs
+    if places[force.plus] == places[force.minus]:
+        return None
+    rest = [e for i, e in enumerate(whole.elements) if i != at]
+    kept = [m for e in rest if (m := moved(e, places)) is not None]
+    ports = [Port(places[p.plus], places[p.minus]) for p in (force, sensor)]
+    seen = [kept[i] for i in sorted(seen_by_blocks(kept, ports[:1], ports[1:]))]
+    if not seen:
+        return None
+    return Network(tuple(seen), (ports[0],), (ports[1],), whole.order)
+
+
+def _is_regular(model: Model, at: Equivalent) -> bool:
+    """Whether the matrix of its n + 1 coefficients and their derivatives is not singular there:
+    the determinant is zero at a root of an irreducible polynomial only where that divides it.
+    """
+    modulus = fmpq_poly(list(at.polynomial))
+    values = [fmpq_poly([fmpq(x.numerator, x.denominator) for x in c]) for c in at.coordinates]
+    total = fmpq_poly([0])
+    for powers, number in _jacobian(model).to_dict().items():
+        term = fmpq_poly([int(number)])
+        for x, e in zip(values, powers, strict=True):
+            term = term * x ** int(e) % modulus
+        total += term
+    return bool((total % modulus).degree() >= 0)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _jacobian(model: Model) -> fmpz_mpoly:
+    context = fmpz_mpoly_ctx.get(model.parameters, Ordering.lex)
+    row = [*model.numerator, *model.denominator]
+    derivatives = [[c.derivative(i) for c in row] for i in range(len(model.parameters))]
+    found = subdeterminants([row, *derivatives], {0: context.constant(1)})
+    return found.get((1 << len(row)) - 1, context.constant(0))

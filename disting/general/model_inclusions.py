@@ -1,0 +1,97 @@
+"""Which general models of unequal rank lie in the closure of one another: where missing elements of
+networks show it, and where degrees, ranks and free invariants do. No fibre is looked at.
+
+Over complex parameters. The lemma of `questions.inclusion.profiles` speaks of any rational
+functions, the theorem of `network.minors` of networks.
+"""
+
+from collections.abc import Iterator
+
+from disting.algebra.certainty import Certainty
+from disting.behaviour.profile import Profile, profile
+from disting.behaviour.sample import Representation
+from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
+from disting.evidence.kinds import InclusionEvidence
+from disting.evidence.limits import Minor
+from disting.general.behaviour import GeneralModel
+from disting.general.matrix_model import AnyModel
+from disting.model.question import Settings
+from disting.network.minors import Places, is_minor, left_out, minors
+from disting.network.network import Network
+from disting.questions.inclusion.profiles import by_profiles, inside, ordered
+
+IMAGE_NOT_ASKED = "of general models only limits are asked for"
+NOT_SETTLED = "neither missing elements nor the profiles settle it"
+FRESH = Settings(seed="checked again")
+
+
+def inclusions_of(left: AnyModel, right: AnyModel, profiles: tuple[Profile, Profile]) -> Inclusions:
+    """Both statements on two models of unequal rank."""
+    first = profiles[0].rank < profiles[1].rank
+    closure = _by_minors(*ordered(left, right, first), first)
+    if closure is None:
+        closure = _by_profiles(profiles, first)
+    if closure is None:
+        closure = InclusionFinding(Inclusion.UNKNOWN, reason=NOT_SETTLED)
+    if closure.inclusion is Inclusion.NEITHER:
+        return Inclusions(closure, closure)
+    return Inclusions(InclusionFinding(Inclusion.UNKNOWN, reason=IMAGE_NOT_ASKED), closure)
+
+
+def confirms_inclusion(
+    evidence: InclusionEvidence, left: AnyModel, right: AnyModel, left_is_smaller: bool
+) -> bool:
+    """Whether evidence of an inclusion holds: places of missing elements are looked at again, all
+    else is found again at fresh points.
+    """
+    if isinstance(evidence, Minor):
+        part, whole = (left, right) if evidence.left_is_part else (right, left)
+        a, b = part.network, whole.network
+        places = dict(evidence.places)
+        if a is None or b is None or not is_minor(a.grounded, b.grounded, places):
+            return False
+        as_told = evidence == _minor(a.grounded, b.grounded, places, evidence.left_is_part)
+        return as_told and evidence.left_is_part == left_is_smaller
+    fresh = [profile(GeneralModel(m), Representation.TF, 0, FRESH) for m in (left, right)]
+    found = _by_profiles((fresh[0], fresh[1]), left_is_smaller)
+    return found is not None and found.evidence == evidence
+
+
+def numberings(part: AnyModel, whole: AnyModel) -> Iterator[dict[int, int]]:
+    """Yield the numberings {node of the part: node of the whole} under which the one network is the
+    other one with elements missing, nothing rigid or at rest.
+    """
+    a, b = part.network, whole.network
+    if a is None or b is None:
+        return
+    for places in minors(a.grounded, b.grounded):
+        if len(set(places.values())) == len(places):
+            yield {at: i for i, at in sorted(places.items(), key=lambda x: x[1])}
+
+
+def n_elements(network: Network | None) -> int | None:
+    """Number of elements of a network that are seen."""
+    return None if network is None else len(network.grounded.elements)
+
+
+def _by_minors(small: AnyModel, large: AnyModel, left_is_part: bool) -> InclusionFinding | None:
+    """The part is a limit of the whole, its elements at these places."""
+    if small.network is None or large.network is None:
+        return None
+    part, whole = small.network.grounded, large.network.grounded
+    places = next(minors(part, whole), None)
+    if places is None:
+        return None
+    evidence = _minor(part, whole, places, left_is_part)
+    return InclusionFinding(inside(left_is_part), Certainty.THEOREM, evidence=evidence)
+
+
+def _minor(part: Network, whole: Network, places: Places, left_is_part: bool) -> Minor:
+    return Minor(left_is_part, tuple(sorted(places.items())), *left_out(part, whole, places))
+
+
+def _by_profiles(
+    profiles: tuple[Profile, Profile], left_is_smaller: bool
+) -> InclusionFinding | None:
+    small, large = ordered(*profiles, left_is_smaller)
+    return by_profiles(small, large, left_is_smaller=left_is_smaller)

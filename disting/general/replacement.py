@@ -1,0 +1,136 @@
+"""Whether two networks give the same transfer functions for all positive values, special ones
+aside: as they are made of parts that replace each other, or as both are one-ports of two kinds of
+elements that give all functions of one set K(n, c, z) (see `disting.network.normal_form`).
+
+One-ports that are not made in series and parallel, such as bridges. Let N be a one-port of two
+kinds of elements, and let one of its minors, in series and parallel, be of the same n, c, z.
+
+THEOREM. For generic values N gives functions of K(n, c, z) only, and all of them but special ones.
+Proof. P = s^(r_A) (A + x B) with A, B positive semidefinite, so the compliance is s^(-r_A) F(x),
+F = b^T (A + x B)^-1 b. Bringing A and B to diagonal form at once shows that F is a sum of positive
+multiples of 1, 1/x and 1/(x + a_i), a_i > 0; n, c, z are those of generic values. The minor gives
+all of K(n, c, z) by values p; let F_0 be a regular value of its map, as all but special ones are
+(Sard). The values of elements that are deleted, and the inverses of those that are contracted, are
+e >= 0: the map of N depends smoothly on p and e, and at e = 0 it is that of the minor, whose
+derivatives by p have full rank at the p of F_0. So for small e > 0 some p near by gives F_0
+(implicit function theorem).
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from itertools import combinations, product
+
+from disting.errors import InputError
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.network.element import Element, Port
+from disting.network.network import Network
+from disting.network.normal_form import Part, normal_form, same_parts
+
+MOST_LEFT_OUT = 3  # elements, of the minors that are looked at
+REMEMBERED = 4096
+
+
+def replaceable(left: AnyModel, right: AnyModel) -> bool:
+    """Whether both are networks that give the same functions by the theorems; False says nothing.
+
+    >>> from disting.network import network_of
+    >>> bridge = Model.from_network(network_of("R1 1 2; C1 1 3; R2 2 3; R3 2 0; C2 3 0"))
+    >>> replaceable(bridge, Model.from_network(network_of("p(R1,C1)-p(R2,C2)")))
+    True
+    """
+    one, other = left.network, right.network
+    if one is None or other is None or (one.sort, one.order) != (other.sort, other.order):
+        return False
+    if same_parts(one, other):
+        return True
+    found = full_set(left)
+    return found is not None and found == full_set(right)
+
+
+def full_set(model: AnyModel) -> tuple[int, Part] | None:
+    """The set K(n, c, z) of which a one-port of two kinds of elements gives all, as a part that
+    gives it, and the sign before it: -1 where the sensor is turned against the force; None where
+    that is not shown.
+    """
+    network = model.network
+    if network is None or not isinstance(model, Model):
+        return None
+    sign = sign_of_one_port(network)
+    if not sign:
+        return None
+    kinds = sorted({e.kind.halves for e in network.seen})
+    if len(kinds) != 2:
+        return None
+    whole = _set_of(model, network.order, kinds[0], kinds[1])
+    return (sign, whole) if whole is not None and _has_minor(network.grounded, whole) else None
+
+
+def sign_of_one_port(network: Network) -> int:
+    """1 where force and sensor, or current and voltage, are at the same two nodes, -1 where one is
+    turned; 0 of another network, and of one with gears.
+    """
+    (force, *more), (sensor, *others) = network.inputs, network.outputs
+    if network.is_directed or any(e.ratio for e in network.elements) or more or others:
+        return 0
+    ways = {(force.plus, force.minus): 1, (force.minus, force.plus): -1}
+    return ways.get((sensor.plus, sensor.minus), 0)
+
+
+def _set_of(model: Model, order: int, low: int, high: int) -> Part | None:
+    """n, c, z of F = s^(r_A - q) G, from the degrees of G; None of what is no such F."""
+    unit = 1 if model.halves else 2
+    step, shift = (high - low) // unit, (low - 2 * order) // unit
+    top, bottom = (
+        [i for i, terms in enumerate(side) if terms]
+        for side in (model.numerator_terms, model.denominator_terms)
+    )
+    at_zero, at_oo = top[0] - bottom[0] + shift, top[-1] - bottom[-1] + shift
+    if at_zero not in (0, -step) or at_oo not in (0, -step):
+        return None
+    count = (bottom[-1] - bottom[0]) // step
+    single = [r for r, there in ((low, at_oo == 0), (high, at_zero == -step)) if there]
+    return Part("S", tuple(single), (((low, high), count),) if count else ())
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _has_minor(network: Network, wanted: Part) -> bool:
+    """Whether the network, or a minor in series and parallel, is a part that gives all of a set."""
+    port = network.inputs[0]
+    elements = network.elements
+    for count in range(MOST_LEFT_OUT + 1):
+        for left_out in combinations(range(len(elements)), count):
+            for contracted in product((False, True), repeat=count):
+                chosen = dict(zip(left_out, contracted, strict=True))
+                minor = _minor(elements, chosen, port)
+                form = None if minor is None else normal_form(minor)
+                if form and len(form.edges) == 1 and form.edges[0][2] == wanted:
+                    return True
+    return False
+
+
+def _minor(elements: Sequence[Element], left_out: dict[int, bool], port: Port) -> Network | None:
+    """The one-port with elements deleted, or contracted where True; None where there is none."""
+    places = {i: i for e in elements for i in (*e.nodes, 0)} | {port.plus: port.plus}
+    for at, contracted in left_out.items():
+        if contracted:
+            a, b = (places[i] for i in (*elements[at].nodes, 0)[:2])
+            low, high = sorted((a, b))
+            places = {i: low if j == high else j for i, j in places.items()}
+    kept = [moved(e, places) for i, e in enumerate(elements) if i not in left_out]
+    there = Port(places[port.plus], places[port.minus])
+    try:
+        return Network(tuple(e for e in kept if e is not None), (there,), (there,))
+    except InputError:
+        return None
+
+
+def moved(e: Element, places: Mapping[int, int]) -> Element | None:
+    """The element at other nodes; None of one whose ends are the same node."""
+    nodes = tuple(places[i] for i in e.nodes)
+    if len(nodes) == 1:
+        return None if nodes[0] == 0 else replace(e, nodes=nodes)
+    if nodes[0] == nodes[1]:
+        return None
+    return replace(e, nodes=nodes if nodes[0] else nodes[::-1])

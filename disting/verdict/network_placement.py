@@ -1,0 +1,125 @@
+"""One kind of further experiment on networks that one measurement cannot tell apart: every node of
+every network against every node of every other one.
+
+A spot is a network as it is and with the experiment at one of its nodes, a matrix of transfer
+functions; all of them are decided together, over generic complex parameters.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from disting.errors import InputError
+from disting.experiments.menu import Costs, Gain
+from disting.experiments.on_networks import measured
+from disting.model.kinds import CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS
+from disting.network.element import Sort
+from disting.network.network import Network
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.everywhere import Answer
+from disting.verdict.further import Further, places_of
+from disting.verdict.placement_record import Spot, answer_of
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
+
+MENUS = {
+    Sort.MACHINE: KINDS,
+    Sort.CIRCUIT: CIRCUIT_KINDS,
+    Sort.COMPARTMENTS: COMPARTMENT_KINDS,
+}
+MOST_SPOTS = 400
+QUERY = Query(View.EXACT, inclusion=False)
+
+
+@dataclass(frozen=True)
+class NetworkTable:
+    """What one kind of experiment leaves together (a `Table`).
+
+    `places[k]`: nodes of network k; `spots[s]`: subject s of `decided`; `gains[s]`: what is gained.
+    """
+
+    places: tuple[tuple[int, ...], ...]
+    spots: tuple[Spot, ...]
+    gains: tuple[Gain, ...]
+    decided: Decisions
+
+    def only(self, structures: Sequence[int]) -> "NetworkTable":
+        """Some of the networks, counted from 0, in this order."""
+        new = {old: k for k, old in enumerate(structures)}
+        places = tuple(self.places[k] for k in structures)
+        spots = tuple((new.get(k, -1), i) for k, i in self.spots)  # -1: not asked for any more
+        return replace(self, places=places, spots=spots)
+
+    def gain(self, spot: Spot) -> Gain:
+        """What is gained there."""
+        return self.gains[self._at[spot]]
+
+    def look_up(self, left: Spot, right: Spot) -> tuple[Relation, str]:
+        """Relation and deciding rule of two spots, "" if undecided."""
+        a, b = self._at[left], self._at[right]
+        return self.decided.relation(a, b), self.decided.rule(a, b)
+
+    def grade(self, left: Spot, right: Spot) -> tuple[str, int]:
+        """Certainty and safety of the verdict."""
+        a, b = sorted((self._at[left], self._at[right]))
+        return self._grades[a, b]
+
+    def alike(self, spot: Spot, other: int) -> tuple[int, ...]:
+        """Nodes of another network at which it is not told from this one at this spot."""
+        apart = Relation.DISTINGUISHABLE
+        return tuple(
+            j for j in self.places[other] if self.look_up(spot, (other, j))[0] is not apart
+        )
+
+    def answer(self, spot: Spot, other: int) -> Answer:
+        """Whether the experiment at a spot tells its network from another one, wherever the place
+        is in that.
+        """
+        return answer_of({self.look_up(spot, (other, j))[0] for j in self.places[other]})
+
+    @cached_property
+    def _at(self) -> dict[Spot, int]:
+        return {spot: s for s, spot in enumerate(self.spots)}
+
+    @cached_property
+    def _grades(self) -> dict[tuple[int, int], tuple[str, int]]:
+        return {(i, j): (grade, bits) for i, j, _, _, grade, bits in self.decided.grades()}
+
+
+def further_networks(
+    named: Sequence[tuple[str, Network]],
+    engine: Engine,
+    *,
+    costs: Costs | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> Further[Network]:
+    """The menu on networks of one sort that are indistinguishable, over complex parameters, as
+    they are measured now; raises InputError for those that have no menu in common, and for groups
+    that are too large.
+    """
+    names, networks = zip(*named, strict=True)
+    if len({(n.sort, n.shape, n.order) for n in networks}) > 1:
+        raise InputError(
+            "what to measure next is told of networks of one sort with the same numbers of inputs"
+            " and outputs and one sensor quantity: ask for those apart"
+        )
+    costs = costs or Costs()
+    places = tuple(map(places_of, networks))
+    spots = tuple((k, i) for k, nodes in enumerate(places) for i in nodes)
+    if len(spots) > MOST_SPOTS:
+        raise InputError(
+            f"these networks have {len(spots)} nodes together; {MOST_SPOTS} at most are looked at:"
+            " name some of them only"
+        )
+    tables = {}
+    for kind in costs.priced(MENUS[networks[0].sort]):
+        if kind.holds and max(map(len, places)) < 2:
+            continue
+        found = [measured(networks[k], kind, i, f"{names[k]} at {i}") for k, i in spots]
+        sides = engine.general_subjects([m.model for m in found])
+        decided = engine.decisions(sides, QUERY, executor=executor, progress=progress)
+        tables[kind] = NetworkTable(places, spots, tuple(m.gain for m in found), decided)
+    return Further(names, networks, tables, costs)
