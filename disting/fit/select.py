@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 CROSS_VALIDATION = f"{FOLDS}-fold cross-validation over the frequency lines"
+MOST_LINES = 10_000  # of a response that are fitted, unless more are asked for
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
 
 Progress = Callable[[str, int, int], object]
@@ -147,6 +148,7 @@ def select(
     fixed: Mapping[str, float] | None = None,
     seed: str = "disting",
     prune: bool = True,
+    most_lines: int = MOST_LINES,
     controller: Controller | None = None,
     method: Method | None = None,
     engine: Engine | None = None,
@@ -159,9 +161,9 @@ def select(
     or by the weights that `lines` gives, such as `lines_by_deviation`, or as much as any other if
     `alike`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
     `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
-    and `fixed`, are fitted once; `controller`: one whose margins
-    are told (`reliance`); `method` as in `estimates`. An engine with a store resumes
-    interrupted work. Raises InputError.
+    and `fixed`, are fitted once; `most_lines`: of a response with more so many are fitted, and its
+    `reading` says so; `controller`: one whose margins are told (`reliance`); `method` as in
+    `estimates`. An engine with a store resumes interrupted work. Raises InputError.
 
     `further`: responses of the same machine that are fitted together with `train`, one parameter
     vector for all; each counts in units of its own scatter (`joint_cost`). Candidates without their
@@ -171,6 +173,8 @@ def select(
     (`joint_verdicts.located`).
     """
     _check(train, test, further, candidates)
+    train, test = train.thinned(most_lines), None if test is None else test.thinned(most_lines)
+    further = [one.thinned(most_lines) for one in further]
     candidates, further, silent = learning(candidates, further, home)
     engine = engine or Engine(store=Store.none())
     weighed = partial(joint_cost, Cost(train, case, weights), further, lines, alike, test)

@@ -21,7 +21,7 @@ from disting.fit.results.confidence import response_of
 from disting.fit.search.candidates import as_listed, reference
 from disting.fit.search.joint import AnyCost
 from disting.fit.select import Selection
-from disting.measurement.time_series import REFERENCED
+from disting.measurement.closed_loop import FOLLOWS
 from disting.model.chain import Chain
 from disting.model.names import damping_option
 
@@ -235,14 +235,19 @@ def _unexplained(found: Selection) -> Iterator[str]:
             " place, a wrong sign or a machine that changed between the measurements"
         )
     elif not found.explanation.noisy and not found.quantities:
-        loop = "" if REFERENCED in found.task.cost.measured.reading else "is the loop closed, "
+        loop = "is the loop closed, " * any(FOLLOWS in said for said in _said(found))
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
-            f" mass makes it fit much better: {loop}is the machine a chain, are other forces at"
-            " work?"
+            f" mass explains it: {loop}is the machine a chain, are other forces at work?"
         )
     yield from _band(found)
     yield from _better(found)
+
+
+def _said(found: Selection) -> tuple[str, ...]:
+    """What the reader says of the data."""
+    data = found.task.cost.measured
+    return (*data.notes, *data.suspicions)
 
 
 def _band(found: Selection) -> Iterator[str]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from disting.measurement.arrays import Real
 
+FOLLOWS = "the input follows the past output"
 ORDER = 32  # of the autoregressive models
 LAGS = 64  # samples into the past and the future
 DEVIATIONS = 8.0  # by which a correlation is none of chance
@@ -32,7 +33,7 @@ def follows_output(u: Real, y: Real) -> str | None:
     if past * np.sqrt(len(one)) < DEVIATIONS or past < SHARE * future:
         return None
     return (
-        f"the input follows the past output (correlation {past:.2g}, {past * np.sqrt(len(one)):.0f}"
+        f"{FOLLOWS} (correlation {past:.2g}, {past * np.sqrt(len(one)):.0f}"
         " times that of chance): a closed loop? then the response is biased; give the controller's"
         " reference signal, --read reference=NAME"
     )

@@ -4,7 +4,8 @@ channels, then the samples.
 TwinCAT Scope (CSV, TXT) has a line for each property, such as Name, SampleTime[ms] and Unit. A
 column that repeats the name of the property in each of these lines is the time [ms] of the channels
 behind it, up to the next such column. Channels of several sample times stand beside each other,
-sample by sample and whatever their times: those of the sample time that most of them have are read.
+sample by sample and whatever their times: those of the sample time that most of them have are read,
+and the others are named.
 
 LabVIEW (LVM) has two headers, the second one with Delta_X, the step of the time [s], and
 Y_Unit_Label of each channel. Columns of times, X_Value, may be missing; comments stand last.
@@ -17,7 +18,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, listed, shown
 from disting.measurement.table import Table
 
 NAME, RATE, UNIT = "Name", "SampleTime[ms]", "Unit"
@@ -54,14 +55,26 @@ def _scope(lines: list[str], origin: str) -> Table | None:
             cells.extend(_numbers(row, columns, f"{origin}, line {n}", mark))
             numbers.append(n)
     values = np.frombuffer(cells, dtype=np.float64).reshape(-1, len(columns))
-    return Table(headers, values, tuple(numbers), (), origin)
+    return Table(headers, values, tuple(numbers), (), origin, left_out=_left_out(told, columns[1:]))
+
+
+def _left_out(told: dict[str, list[str]], kept: list[int]) -> str:
+    """The channels of other sample times."""
+    rates = told[RATE]
+    others = [f"{_header(told, j)} (each {r} ms)" for j, r in _sampled(rates) if j not in kept]
+    return f"left out: {listed(others)}, not each {rates[kept[0]]} ms" if others else ""
+
+
+def _sampled(rates: list[str]) -> list[tuple[int, str]]:
+    """Columns of channels and their sample times [ms]."""
+    return [(j, rate) for j, rate in enumerate(rates) if re.fullmatch(r"\d+([.,]\d+)?", rate)]
 
 
 def _columns(rates: list[str], origin: str) -> list[int]:
     """The column of a time and those of the channels of the sample time that most have, of two the
     first one.
     """
-    channels = {j: rate for j, rate in enumerate(rates) if re.fullmatch(r"\d+([.,]\d+)?", rate)}
+    channels = dict(_sampled(rates))
     kept: list[int] = []
     for wanted, _ in Counter(channels.values()).most_common(1):
         kept = [j for j, rate in channels.items() if rate == wanted]

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from disting.errors import InputError, listed
 from disting.measurement.column_words import Role, meaning
 from disting.measurement.exports import exported
+from disting.measurement.impedance import is_impedance, read_impedance
 from disting.measurement.matlab import responses, variables
 from disting.measurement.matlab_models import chosen_response, from_stored
 from disting.measurement.response import FrequencyResponse
@@ -119,6 +120,11 @@ def _from_universal(file: Source, options: Options) -> FrequencyResponse:
     return checked(read_uff, options, file)(file, **options)
 
 
+def _from_impedance(file: Source, *, sensor: str = "") -> FrequencyResponse:
+    """An impedance has no other quantity."""
+    return read_impedance(file)
+
+
 def _table(file: Source) -> Table:
     text = decoded(file.content, file.name)
     return exported(text, file.name) or table(text, file.name)
@@ -166,6 +172,11 @@ FORMATS = (
         fits=_is_matlab,
         response=_from_matlab,
         records=Records(_matlab_series, variables, _is_matlab_record),
+    ),
+    Format(
+        name="impedance",
+        fits=is_impedance,
+        response=lambda file, options: checked(_from_impedance, options, file)(file, **options),
     ),
     Format(name="universal", fits=_is_universal, response=_from_universal),
     Format(

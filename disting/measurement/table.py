@@ -20,7 +20,8 @@ from disting.model.chain import Sensor
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
     """Columns of numbers, shape (rows, columns), their headers ("" without one), the line
-    number of each row, the comments; `transposed`: the file has a line for each column.
+    number of each row, the comments; `transposed`: the file has a line for each column; `left_out`
+    says which other columns the file has, "" for none.
     """
 
     headers: tuple[str, ...]
@@ -29,6 +30,7 @@ class Table:
     comments: tuple[str, ...]
     origin: str
     transposed: bool = False
+    left_out: str = ""
 
     def column(self, at: int) -> Real:
         """Numbers of column `at` (from 0); raises InputError naming the line of one that is not
@@ -73,7 +75,8 @@ class Table:
 
     def listed(self) -> str:
         """All headers, for messages."""
-        return listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
+        found = listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
+        return f"{found}; {self.left_out}" if self.left_out else found
 
 
 BRACKETED = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")
@@ -114,7 +117,9 @@ def time_series(
     quantity, notes = said(sensor, labels[1].unit)
     wanted = None if reference is None else table.column(table.at(reference))
     samples = table.column(u), table.column(y) * as_sign(sign)
-    return TimeSeries(*samples, sampling_rate, quantity, *labels, origin, notes, wanted)
+    return TimeSeries(
+        *samples, sampling_rate, quantity, *labels, origin, notes, wanted, table.left_out
+    )
 
 
 def named(header: str) -> Signal:

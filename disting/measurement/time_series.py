@@ -19,17 +19,14 @@ ASSUMED_POSITION = (
 )
 
 
-REFERENCED = "with a reference, which holds in closed loop"
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class TimeSeries:
     """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by
     content.
 
     `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked
-    for, or None. Raises InputError for samples that are not finite, constant signals and unequal
-    lengths.
+    for, or None; `left_out` says what else the file has. Raises InputError for samples that are not
+    finite, constant signals and unequal lengths.
     """
 
     u: Real
@@ -41,6 +38,7 @@ class TimeSeries:
     origin: str = ""
     notes: tuple[str, ...] = ()
     reference: Real | None = None
+    left_out: str = ""
 
     def __post_init__(self) -> None:
         for name in ("u", "y", *["reference"] * (self.reference is not None)):
@@ -151,7 +149,8 @@ class TimeSeries:
             notes=(*self.notes, *found.notes, *([doubt] if doubt else [])),
             distortion=found.distortion,
             reading=f"record in time, input {self.input}, output {self.output}"
-            + f", {REFERENCED}" * (self.reference is not None),
+            + ", with a reference, which holds in closed loop" * (self.reference is not None)
+            + (self.left_out and f"; {self.left_out}"),
             freedom=found.freedom,
             doubts=found.doubts,
         )

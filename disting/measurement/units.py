@@ -70,6 +70,7 @@ SPELLINGS = {
     "hours": "h", "sek": "s", "sec": "s", "msec": "ms",
     "lin": "1", "linear": "1", "abs": "1", "-": "1", "a.u.": "1", "percent": "%", "pct": "%",
     "decibel": "dB", "neper": "Np",
+    "ohm": "1", "ohms": "1", "ω": "1", "v/a": "1",  # an impedance in SI; Ω in small letters is ω
 }  # fmt: skip
 POWER = re.compile(r"(?:10\s*(?:\^|\*\*)\s*|1e)([+-]?\d{1,2})\s*[*·x]?\s*(.+)")
 REFERRED = re.compile(r"(dB|Np|%)(?:\s+re[fl]?\.?:?)?(?:\s+1?\s*|(?=\())(.+)", re.IGNORECASE)

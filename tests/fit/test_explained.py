@@ -20,6 +20,7 @@ from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.model.chain import Chain, Sensor
+from disting.simulation import Bench, Friction, simulate
 from tests.fit.drives import OMEGA, bench, response, truth
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,))
@@ -111,6 +112,51 @@ def test_what_would_fit_is_named_with_its_cost(data, chain, words):
     )
     assert f"what would fit better: {words} the cost falls from" in first_lines(found)[2]
     assert "missed most at " in first_lines(found)[1]
+
+
+def notch(hertz, narrow, wide):
+    s, w = 1j * OMEGA, 2 * np.pi * hertz
+    return (s * s + 2 * narrow * w * s + w * w) / (s * s + 2 * wide * w * s + w * w)
+
+
+def rod(first=30.0, damping=0.02):
+    """A free rod driven at one end: its resonances do not end."""
+    q = 1j * OMEGA / (2 * first) / np.sqrt(1 + 1j * OMEGA * damping / (2 * first))
+    return q / np.tanh(q)
+
+
+def with_friction():
+    """A record of a drive with dry friction at the motor."""
+    values = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08}
+    stuck = Bench(periods=4, friction={1: Friction(0.1, 0.02, 0.05)}, seed=3)
+    series = simulate(Chain(2, damped=True, sensor="velocity"), values, bench=stuck)
+    return series.response("acceleration", period=2500, transient=1)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        noisy(EXACT * notch(70, 0.05, 0.5)),
+        noisy(rod()),
+        noisy(EXACT * (1 + 0.3 * np.exp(-0.03j * OMEGA))),
+        with_friction(),
+    ],
+    ids=["notch", "rod", "ripple", "friction"],
+)
+def test_a_lead_that_does_not_explain_the_data_is_none(data):
+    """A mass more fits each of them better, at most by a factor of four in J."""
+    found = select(data, [Chain(1, damped=False), ONE, DRIVE])
+    told(data, found)
+    said = " ".join(suspicions(found))
+    assert found.readings == () and "is the loop closed" not in said
+    assert "no further mass explains it: is the machine a chain" in said
+
+
+def test_a_mass_more_is_named_where_it_explains_the_data():
+    three = Chain(3, damped=True, ground_dampers=(2,))
+    values = VALUES | {"m3": 0.4, "k23": 1e4, "d23": 3.0}
+    found = select(noisy(response(three, values).G), [ONE, DRIVE])
+    assert [r.words for r in found.readings] == ["with one mass more"]
 
 
 def test_gains_in_db_are_named_where_a_gain_has_no_unit():

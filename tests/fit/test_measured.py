@@ -16,6 +16,7 @@ from disting.model.chain import Chain
 from disting.report.fit import fit_page, waterfall
 from tests.cli.process import called
 from tests.fit.drives import OMEGA, response
+from tests.measurement.bench_data import measured_data
 
 VALUES = {"m1": 5e-3, "m2": 4e-3, "k12": 800.0, "d12": 0.02, "b1": 0.05, "Td": 1e-4}
 
@@ -70,6 +71,14 @@ def test_a_free_mass_is_no_speed_under_a_damper(tmp_path, masses):
     assert fitted(tmp_path / "a.csv", masses).quantities == ()
 
 
+@pytest.mark.slow
+def test_an_axis_with_dry_friction_is_no_speed():
+    """Neither quantity explains the data, so none is named."""
+    data = read(measured_data("EMPS.mat"), input="vir", output="qm", reference="qg", segment=4096)
+    found = select(data, chosen_ports((1, 2), "1", "1", 0, data.sensor))
+    assert found.quantities == () and not found.explanation.explains
+
+
 def test_a_quantity_that_is_said_is_not_doubted(tmp_path):
     path = file_of(
         tmp_path / "a.csv", "acceleration", header="f [Hz],Re [rad/s^2/A],Im [rad/s^2/A]"
@@ -111,7 +120,7 @@ def test_the_command_says_first_how_the_file_was_read(tmp_path):
     done = called(
         "fit", path, "--masses", "1", "--quantity", "velocity", "--json", tmp_path / "fit.json"
     )
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 1, done.stderr  # one mass does not explain it
     assert done.stdout.splitlines()[0] == (
         "a.csv, column 2 (Re): frequency in Hz (column 1), real part (column 2), imaginary part"
         " (column 3); sensor: velocity"

@@ -25,7 +25,7 @@ from disting.fit.noise.scatter import changed, scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.whitened import Whitened
 from disting.fit.sentences import commands, suspicions
-from disting.measurement import FrequencyResponse, mean_of
+from disting.measurement import FrequencyResponse, TimeSeries, mean_of
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from tests.cli.process import called
@@ -44,6 +44,7 @@ from tests.fit.monte_carlo import (
     true_scatter,
     truth,
 )
+from tests.measurement.test_closed_loop import RATE, closed_loop
 
 DRIVES = [drive(2, seed) for seed in range(12)]
 
@@ -84,7 +85,10 @@ def test_the_reader_of_every_kind_of_record_is_a_few_lines_of_numpy(kind):
     machine = drive(2, 1, kind)
     data, (omega, response) = measured(machine, 2), by_hand(machine, 2)
     np.testing.assert_allclose(data.omega, omega, rtol=1e-12)
-    np.testing.assert_allclose(data.G, response, rtol=1e-9)
+    if kind == "random":  # but for the bias of short segments, which is taken out
+        assert np.all(np.abs(data.G - response) < 2 * data.deviation)
+    else:
+        np.testing.assert_allclose(data.G, response, rtol=1e-9)
 
 
 @pytest.mark.parametrize("repeats", [1, 2, 10])
@@ -279,15 +283,15 @@ def test_data_that_are_noise_but_for_a_band_name_it():
     assert line.startswith("from 5 to ") and "fits these alone" in line
 
 
-def test_a_reference_is_not_asked_for_twice():
-    machine = DRIVES[0]
-    series = recorded(machine, 3)
-    with_reference = replace(series, reference=series.u)
-    plain = [
-        s.response("acceleration", period=BENCH.samples, transient=0)
-        for s in (series, with_reference)
-    ]
-    found = [replace(select(d, [Chain(1)]), readings=(), quantities=()) for d in plain]
+def test_a_loop_is_asked_for_where_it_is_seen():
+    """In a record whose input follows its output; not with a reference, not in open loop."""
+    u, y, r = closed_loop(0.12)
+    cut = {"segment": 250, "band": (5, 200), "least_coherence": 0.0}
+    alone, referenced = (
+        TimeSeries(u, y, RATE, reference=x).response("acceleration", **cut) for x in (None, r)
+    )
+    data = alone, referenced, measured(DRIVES[0], 3)
+    found = [replace(select(d, [Chain(1)]), readings=(), quantities=()) for d in data]
     said = [" ".join(suspicions(one)) for one in found]
-    assert "is the loop closed" in said[0] and "is the loop closed" not in said[1]
+    assert ["is the loop closed" in one for one in said] == [True, False, False]
     assert all("is the machine a chain" in one for one in said)

@@ -61,12 +61,12 @@ def test_power_of_several_parameters_is_what_sampling_shows():
     assert power(13.0, 3) == pytest.approx(seen, abs=0.004)
 
 
-def test_published_example_allows_a_noise_of_23_percent():
+def test_published_example_allows_a_noise_of_24_percent():
     found = plan(MODEL, VALUES, RIVAL, OMEGA, alike(0.2))
-    assert np.sum(found.rival.apart**2) == pytest.approx(0.95, abs=0.005)
-    assert typical(found.rival.rho) / np.sqrt(found.factor) == pytest.approx(0.231, abs=0.001)
+    assert np.sum(found.rival.apart**2) == pytest.approx(1.049, abs=0.001)
+    assert typical(found.rival.rho) / np.sqrt(found.factor) == pytest.approx(0.243, abs=0.001)
     assert found.answer is Answer.ENOUGH and found.rival.trust is Trust.AGREED
-    assert found.noncentrality == pytest.approx(0.9516 / 0.04, rel=1e-3)
+    assert found.noncentrality == pytest.approx(1.0493 / 0.04, rel=1e-3)
 
 
 def test_best_fit_of_the_rival_is_no_worse_than_that_of_another_optimiser(planned):
@@ -76,7 +76,7 @@ def test_best_fit_of_the_rival_is_no_worse_than_that_of_another_optimiser(planne
     def cost(logarithms):
         values = dict(zip(RIVAL.parameters, np.exp(logarithms), strict=True))
         ratio = predicted(RIVAL, values, OMEGA) / exact
-        return np.sum(np.abs(np.log(ratio)) ** 2 / rival.rho**2)
+        return np.sum(np.abs(ratio - 1) ** 2 / rival.rho**2)
 
     start = np.log([VALUES.get(n, VALUES["b1"]) for n in RIVAL.parameters])
     ends = [
@@ -154,13 +154,14 @@ def test_where_the_model_contains_the_rival_the_test_is_the_difference_of_the_co
     rival = fitted_rival(MODEL, VALUES, plain, OMEGA, alike(0.05))
     source = np.random.default_rng(8)
     noise = 0.05 * (source.normal(size=120) + 1j * source.normal(size=120))
-    data = FrequencyResponse(OMEGA, predicted(MODEL, VALUES, OMEGA) * (1 + noise))
+    exact = predicted(MODEL, VALUES, OMEGA)
+    data = FrequencyResponse(OMEGA, exact * (1 + noise))
 
     def lowest(chain, start):
         def cost(logarithms):
             values = dict(zip(chain.parameters, np.exp(logarithms), strict=True))
-            ratio = predicted(chain, values, OMEGA) / data.G
-            return np.sum(np.abs(np.log(ratio)) ** 2) / 0.05**2
+            missed = predicted(chain, values, OMEGA) - data.G
+            return np.sum(np.abs(missed / exact) ** 2) / 0.05**2
 
         begin = np.log([start[n] for n in chain.parameters])
         found = minimize(cost, begin, method="Nelder-Mead", options={"maxfev": 6000, "fatol": 1e-8})

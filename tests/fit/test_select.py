@@ -145,6 +145,13 @@ def test_a_profile_rises_on_both_sides(selection):
         profile(selection.selected, selection.task, "m9")
 
 
+def test_of_more_lines_so_many_are_fitted_and_the_reading_says_so():
+    found = select(planted(1), [Chain(1, damped=True)], test=planted(2), most_lines=40)
+    for data in (found.task.cost.measured, found.test):
+        assert len(data) == 40 and "40 of 120 lines, evenly spaced" in data.reading
+    assert selection_to_dict(found)["frequencies"]["lines"] == 40
+
+
 def test_without_test_data_lines_are_left_out_in_turn():
     found = select(planted(1), [c for c in figure_1((2,)) if not c.lag])
     assert "cross-validation" in found.validation and found.selected.chain.n_masses == 2

@@ -42,8 +42,8 @@ def random_spectra(count, seed=3):
 
 def refitted(rival, shares, starts):
     """Noncentrality by a route of its own: a fit from each start, summed up here."""
-    weights = np.sqrt(len(shares) * shares) / rival.rho
     task = rival.task
+    weights = np.sqrt(len(shares) * shares) / (rival.rho * np.abs(task.cost.measured.G))
     cost = type(task.cost)(task.cost.measured, task.cost.case, task.cost.weights, weights)
     found = []
     for start in starts:

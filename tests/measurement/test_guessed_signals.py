@@ -110,8 +110,11 @@ def test_an_export_of_twincat_scope(tmp_path, mark, decimal, own):
     series = read_time_series(path, "iq [A]", "motorSpeed")
     assert series.sampling_rate == pytest.approx(1000.0) and series.input == ("iq", "A")
     assert np.array_equal(series.u, U) and np.array_equal(series.y, Y)
-    assert np.allclose(read(path).frequency, np.arange(2, 22))
-    with pytest.raises(InputError, match="no columns are called 'torque'"):
+    found = read(path)
+    assert np.allclose(found.frequency, np.arange(2, 22))
+    left_out = f"left out: torque [N m] (each 0{decimal}2 ms), not each 1 ms"
+    assert found.reading.endswith(f"; {left_out}")
+    with pytest.raises(InputError, match=r"no columns are called 'torque'.*left out: torque"):
         read_time_series(path, "torque", "motorSpeed")
     path.write_text(
         path.read_text().replace(f"{mark}3{decimal}0{mark}", f"{mark}3{decimal}0{mark}x", 1)

@@ -287,7 +287,7 @@ def test_units_on_the_command_line(tmp_path, capsys):
         "--unit",
         "frequency=rad/s",
     ]
-    assert main([*mass, "--torque-constant", "0.02", "--repeat", str(path), "--scale", "2"]) == 0
+    assert main([*mass, "--torque-constant", "0.02", "--repeat", str(path), "--scale", "2"]) == 1
     said = capsys.readouterr()
     assert (
         "kg\n" in said.out

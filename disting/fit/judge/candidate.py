@@ -10,7 +10,7 @@ import numpy as np
 from disting.fit.judge.exclusion import Exclusion
 from disting.fit.judge.explanation import chi2
 from disting.fit.judge.practical import Practical, Seen, practical
-from disting.fit.judge.responses import noises, yardsticks
+from disting.fit.judge.responses import explained, noises, scatters, together, yardsticks
 from disting.fit.judge.structural import with_structure
 from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter
@@ -108,6 +108,32 @@ def judged(
         for c, found in known.items()
     ]
     return sorted(fitted, key=lambda c: c.j_test), (inside, outside)
+
+
+def explains(found: Estimate, task: Task, most: Real) -> bool:
+    """Whether an estimate explains the data of its task, of one response, at lines that its fit has
+    not seen (`explanation`), if these scatter as they do about it and by no more than the shares
+    `most` of the measured amplitudes, shape (n_f,).
+    """
+    own, size = _scatter_about(found, task), np.abs(task.cost.measured.G)
+    sigma = np.minimum(own.sigma, most * size)
+    known = replace(own, rho=sigma / (np.sqrt(2) * own.size))
+    missed = _expected(found, task, task.cost, known, known)
+    response = _cross_validated(found, task, values_of(found, task))
+    residual = Whitened(task.cost, known).residual(response)
+    return explained(task.cost, residual, missed, known).explains
+
+
+def share_about(found: Estimate, task: Task) -> Real:
+    """Scatter of the data about one estimate, as shares of the measured amplitudes, shape
+    (n_f,).
+    """
+    return np.asarray(_scatter_about(found, task).sigma / np.abs(task.cost.measured.G))
+
+
+def _scatter_about(found: Estimate, task: Task) -> Scatter:
+    """Scatter of the data about one estimate."""
+    return together(scatters(task.cost, [_response(found, task)]))
 
 
 def values_of(found: Estimate, task: Task) -> Real:

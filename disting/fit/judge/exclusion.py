@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import isfinite
+from typing import Protocol
 
 import numpy as np
 from scipy.stats import chi2
@@ -34,6 +35,24 @@ from disting.questions.identifiability.tangent import proof_tangents
 LEVEL = 0.01  # probability of excluding a structure that is true by another one
 FELT = 0.1  # what a parameter must move, in units of the scatter, when it changes by itself
 REMEMBERED = 1024  # ranks; each pair asks for those of both structures
+
+
+class Residuals(Protocol):
+    """What a fit leaves: whitened residual r, shape (n_y,), an orthonormal basis of the
+    sensitivities, shape (n_y, n), and its noise in units of the scatter.
+    """
+
+    @property
+    def residual(self) -> Real:
+        """r."""
+
+    @property
+    def basis(self) -> Real:
+        """That of the sensitivities."""
+
+    @property
+    def noise(self) -> Seen:
+        """The noise that it leaves."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,7 +95,7 @@ def basis_of(columns: Real) -> Real:
     return np.asarray(left[:, sizes > VANISHING * sizes[0]])
 
 
-def statistic(one: Fitted, other: Fitted) -> float:
+def statistic(one: Residuals, other: Residuals) -> float:
     """T of one structure against another one; 0 where the other one is no step towards the data."""
 
     def beyond(vector: Real) -> Real:

@@ -3,7 +3,8 @@
 The quantity of a sensor is often not said. A speed read as an acceleration is explained all the
 same, by a lag whose corner lies below the band: it integrates. So where the quantity is assumed,
 the small candidates are fitted with the other two. With n residuals and p parameters they are
-compared by n ln(J/n) + p ln n (Schwarz 1978): J in logarithms does not depend on the unit.
+compared by n ln(J/n) + p ln n (Schwarz 1978): J in logarithms does not depend on the unit. One that
+does not explain the data (`explains`) tells nothing: where none does, all quantities miss as much.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -13,7 +14,7 @@ from math import inf, log, pi
 
 import numpy as np
 
-from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.candidate import Candidate, explains, share_about
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import Case
 from disting.fit.search.estimate import Estimate, Task
@@ -73,7 +74,8 @@ def other_quantities(
     if taken is None:
         return ()
     task, known = explored((c.estimate for c in candidates), task)
-    before = min(_criterion(fit, task) for fit in known)
+    nearest = min(known, key=lambda fit: _criterion(fit, task))
+    before, most = _criterion(nearest, task), share_about(nearest, task)
     found = list[tuple[float, Sensor, Estimate]]()
     for quantity in Sensor:
         if quantity is taken:
@@ -83,7 +85,7 @@ def other_quantities(
         seen = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
         fits = estimates(_small(candidates), seen, store=store, executor=executor).values()
         best = min(fits, key=lambda fit: _criterion(fit, seen))
-        if _criterion(best, seen) <= before + AS_WELL:
+        if _criterion(best, seen) <= before + AS_WELL and explains(best, seen, most):
             found.append((_criterion(best, seen), quantity, best))
     return tuple(
         f"read as {quantity.value}, {reference(fit.chain)} fits the data as well or better"

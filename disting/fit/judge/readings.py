@@ -1,9 +1,10 @@
 """What would fit where no candidate does: another sensor quantity, a reversed sensor, phases of
 the other sign, gains in dB, a zero-order hold, other places, one mass more.
 
-A few candidates with a damper, a lag and a dead time, of as many masses as the best one, are
-fitted under each reading. They are compared by J on the training data, which in logarithms does
-not depend on the unit of the quantity.
+A chain with dampers, a lag and a dead time, of as many masses as the best candidate, is fitted
+under each reading. They are compared by J on the training data, which in
+logarithms does not depend on the unit of the quantity. A mass more fits almost everything better, a
+rod, a notch filter, friction: it is named only if it explains the data (`explains`).
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -13,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from disting.errors import ConstraintViolation
-from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.candidate import Candidate, explains, share_about
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.exchange import estimates, explored
 from disting.measurement import FrequencyResponse
@@ -60,25 +61,32 @@ def readings(
     changes first.
     """
     task, known = explored((c.estimate for c in candidates), task)
-    lowest = min(fit.j for fit in known)
     small = [c for c in candidates if c.chain.n_masses <= SMALL] or candidates
-    base = min(small, key=lambda c: c.j_train).chain
+    base = _loose(min(small, key=lambda c: c.j_train).chain)
     largest = max((c.chain for c in candidates), key=lambda c: c.n_masses)
+    nearest = min(known, key=lambda fit: fit.j)
+    lowest, most = nearest.j, share_about(nearest, task)
     found, views = list[Reading](), list(_views(base, largest, task))
     for words, chain, other in views:
         progress("other readings of the data", len(found), len(views))
         fitted = estimates([chain], other, store=store, executor=executor)[chain]
-        found.append(Reading(words, fitted, lowest))
+        if chain.n_masses <= largest.n_masses or explains(fitted, other, most):
+            found.append(Reading(words, fitted, lowest))
     limit = max(min(r.found.j for r in found) / FALLS, NOTHING)
     helpful = [r for r in found if r.found.j < FALLS * lowest and r.found.j <= limit]
     return tuple(helpful[:NAMED])
 
 
-def _views(chain: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chain, Task]]:
-    """Words, a chain and a task for each reading."""
+def _loose(chain: Chain) -> Chain:
+    """With a damper at every mass, a lag and a dead time."""
+    every = tuple(range(1, chain.n_masses + 1))
+    return replace(chain, ground_dampers=every, lag=True, dead_time=True)
+
+
+def _views(loose: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chain, Task]]:
+    """Words, a chain and a task for each reading of a chain."""
     first, reversed_sensor = task.cost.parts[0], replace(task, sign=-task.sign)
     data = first.measured
-    loose = replace(chain, ground_dampers=(1, chain.n_masses), lag=True, dead_time=True)
     yield "with the sign reversed", loose, reversed_sensor
     for quantity in Sensor:
         if quantity is not data.sensor:
@@ -97,11 +105,8 @@ def _views(chain: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
         yield words, other, task
         yield f"{words} and the sign reversed", other, reversed_sensor
     if largest.n_masses < MOST:
-        yield (
-            "with one mass more",
-            replace(largest, n_masses=largest.n_masses + 1, lag=True, dead_time=True),
-            task,
-        )
+        more = replace(largest, n_masses=largest.n_masses + 1)
+        yield "with one mass more", _loose(more), task
 
 
 def _misread(data: FrequencyResponse) -> Iterator[tuple[str, Complex]]:

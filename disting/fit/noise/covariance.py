@@ -77,16 +77,12 @@ def expected(
     if not fitted.shape[1]:
         return there
     length = np.linalg.norm(fitted, axis=0)
-    left, values, right = np.linalg.svd(
-        fitted / np.where(length > 0, length, 1.0), full_matrices=False
-    )
+    length = np.where(length > 0, length, 1.0)
+    left, values, right = np.linalg.svd(fitted / length, full_matrices=False)
     known = values > VANISHING * values[0]
-    half = (
-        (left[:, known] * sigma[:, None])
-        / values[known]
-        @ right[known]
-        / np.where(length > 0, length, 1.0)
-    )
+    half = (left[:, known] * sigma[:, None]) / values[known] @ right[known]
+    # in units of the lengths: the square of a column that hardly matters has no number
+    seen = seen / length
     return np.asarray(
         np.sqrt(there**2 + np.maximum(np.einsum("ij,jk,ik->i", seen, half.T @ half, seen), 0.0))
     )

@@ -6,8 +6,9 @@ since that is no other machine. What behaves exactly the same for the fitted val
 no data with this force and sensor tell it from the selected one.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +51,8 @@ class Named:
     fitted; `left`: the structures that the data leave, the selected one first; `scatter` of a line;
     `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell; `responses`:
     how many were fitted together; `command`: what fits the same data again, "" where it does not
-    tell.
+    tell; `errors`: relative standard errors of the selected structure's parameters, infinite for
+    one that is not determined; `larger`: names of the structures that only contain one of these.
     """
 
     model: Chain
@@ -65,6 +67,8 @@ class Named:
     lines: int
     responses: int
     command: str = ""
+    errors: Mapping[str, float] = field(default_factory=dict)
+    larger: tuple[str, ...] = ()
 
     @property
     def chains(self) -> tuple[Chain, ...]:
@@ -94,11 +98,18 @@ def named_by(path: Path) -> Named:
             _count(range_of["lines"]),
             len(plain.get("responses", [None])),
             str(plain.get("command", "")),
+            dict(_errors(plain["selected"], values)),
+            tuple(str(m["name"]) for m in plain["not_excluded"] if m.get("contains")),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise InputError(
             f"{path} is no whole file of a fit: {reason} is missing or wrong; fit again"
         ) from None
+
+
+def _errors(selected: dict[str, Any], values: Values) -> Iterator[tuple[str, float]]:
+    for name, error in selected.get("standard_errors", {}).items():
+        yield name, inf if error is None else number_of(error, 0.0) / values[name]
 
 
 def _count(value: Any) -> int:

@@ -1,7 +1,7 @@
 """What a further experiment would show on the structures that a fit left, each at its values.
 
-The experiment gives the responses G_A, G_B on lines that scatter by rho in ln |G| and in arg G.
-With r_k = |ln(G_A/G_B)|_k / rho_k
+The experiment gives the responses G_A, of the one that is taken for true, and G_B on lines that
+scatter by rho in ln |G| and in arg G. With r_k = |G_B/G_A - 1|_k / rho_k
 
     largest = max_k r_k,    lambda = sum_k r_k^2.
 
@@ -108,11 +108,10 @@ def shown(chain: Chain, values: Values, item: Item, bench: Bench) -> Complex | N
 
 
 def step(one: Complex | None, other: Complex | None, bench: Bench) -> Step:
-    """How far two responses are apart."""
+    """How far another response is from the one that is taken for true."""
     if one is None or other is None:
         return STILL if one is other else MOVES
-    ratio = one / other
-    apart = np.hypot(np.log(np.abs(ratio)), np.angle(ratio)) / bench.rho
+    apart = np.abs(other / one - 1) / bench.rho
     at = int(apart.argmax())
     return Step(float(np.sum(apart**2)), float(apart[at]), float(bench.hertz[at]))
 
@@ -142,7 +141,9 @@ class Foretold:
         return {name: self.bench.size(power) for name, power in sized if power is not None}
 
     def at(self, kind: Kind, here: Spot, there: Spot) -> Step | None:
-        """The difference of two structures at these masses; None where one has no known values."""
+        """The difference of two structures at these masses, the first taken for true; None where
+        one has no known values.
+        """
         rows = [self.responses.get((Item(kind, i), k), ()) for k, i in (here, there)]
         steps = [step(one, other, self.bench) for one, other in product(*rows)]
         return min(steps, default=None)

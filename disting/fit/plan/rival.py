@@ -4,36 +4,31 @@ without noise, and the test by which data of the model exclude it.
 Lines scatter by rho in ln |G| and in arg G. With G_A of the model at its values and G_B of the
 rival the cost of the fit is
 
-    lambda = min over the rival's parameters of sum_k |ln(G_A/G_B)|_k^2 / rho_k^2,
+    lambda = min over the rival's parameters of sum_k |G_B/G_A - 1|_k^2 / rho_k^2,
 
-the noncentrality of the test below if the model is true. The search is that of a fit to measured
-data, which begins from the model's values too where the rival has the same masses and springs; what
-it finds is never below the smallest one, so lambda is at most what is said. The model
-itself is fitted beside its rival: a search that does not find back the values from which the
-response was computed has missed the rival's best values perhaps too.
+the noncentrality of the test below if the model is true. Distances are those in the complex plane,
+in which `fit` tests (`whitened`): of a noise that is not small logarithms tell another power. The
+search is that of a fit to measured data, which begins from the model's values too where the rival
+has the same masses and springs; what it finds is never below the smallest one, so lambda is at most
+what is said. The model itself is fitted beside its rival: a search that does not find back the
+values from which the response was computed has missed the rival's best values perhaps too.
 
-The test (R. Davidson, J. MacKinnon, Several tests for model specification in the presence of
-alternative hypotheses, 1981): both structures are fitted to the data; r = residual of the rival, d
-= step from the rival's response to the model's, less what the rival's parameters make up for, both
-in units of rho;
-
-    T = (r'd)^2 / d'd.
-
-Where the model contains the rival this is the difference of their two costs. If the rival is true T
-is distributed as chi2 of as many degrees as the model has parameters beyond the rival, if the
-model is, as noncentral chi2 with lambda.
+The test is that of `exclusion`: both structures are fitted to the data, and T is what the step from
+the rival's response to the model's, less what the rival's parameters make up for, explains of the
+rival's residuals. If the rival is true T is distributed as chi2 of as many degrees as the model has
+parameters beyond the rival, if the model is, as noncentral chi2 with lambda.
 """
 
 from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from math import log
 
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.noise.covariance import VANISHING
+from disting.fit.judge.exclusion import Fitted, basis_of, statistic
+from disting.fit.noise.covariance import Noise
 from disting.fit.results.export import predicted
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import Case, Cost
@@ -49,7 +44,6 @@ from disting.model.presentation import summary
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
-NATURAL = (log(10.0), 1.0)  # weights of amplitude and phase with which J is a sum of |ln G/G_M|^2
 ROUNDING = 1e-6  # relative deviation a line below which two responses are the same
 FEWEST = 3  # starts that reach the best fit, for it to be trusted
 WITHOUT_EFFECT = 1e-5  # of the largest sensitivity
@@ -117,7 +111,7 @@ class Rival:
 
     @property
     def apart(self) -> Real:
-        """|ln G_A/G_B| of every line, shape (n_f,)."""
+        """|G_B/G_A - 1| of every line, shape (n_f,)."""
         return apart(self, self.p)
 
     @property
@@ -160,9 +154,9 @@ def _limit(share: float) -> Limit:
 
 
 def apart(rival: Rival, p: Real) -> Real:
-    """|ln G_A/G_B| of every line, shape (n_f,), for parameters `p`, shape (n_p,), of the rival."""
-    ratio = rival.task.plant(rival.chain).response(p) / rival.task.cost.measured.G
-    return np.asarray(np.hypot(np.log(np.abs(ratio)), np.angle(ratio)))
+    """|G_B/G_A - 1| of every line, shape (n_f,), for parameters `p`, shape (n_p,), of the rival."""
+    response = rival.task.plant(rival.chain).response(p)
+    return np.asarray(np.abs(response / rival.task.cost.measured.G - 1))
 
 
 def fitted_rival(
@@ -185,7 +179,8 @@ def fitted_rival(
         raise InputError("a structure is no rival of itself: name another one")
     _check(omega, rho)
     measured = FrequencyResponse(omega, predicted(model, values, omega), sensor=model.sensor)
-    task = Task(Cost(measured, Case.LOGARITHM, NATURAL, 1.0 / rho), seed=seed)
+    cost = Cost(measured, Case.COMPLEX, lines=1.0 / (rho * np.abs(measured.G)))
+    task = Task(cost, seed=seed)
     found = estimates([model, rival], task, store=store, executor=executor, progress=progress)
     own = found[model].j * float(np.mean(rho**2)) / len(omega)
     best = _from_values(found[rival], values, task)
@@ -232,22 +227,12 @@ def gain(rival: Rival, measured: FrequencyResponse) -> float:
         raise InputError("the test needs a response at the planned lines")
     task = replace(rival.task, cost=replace(known, measured=measured))
     own = np.array([rival.values[n] for n in rival.model.parameters])
-    ends = []
-    for chain, start in ((rival.chain, rival.p), (rival.model, own)):
-        plant, box = task.plant(chain), task.box(chain.parameters)
-        ends.append((plant, fine(plant, task.cost, box, start)[0]))
-    (plant, p), (other, q) = ends
+    starts = (rival.chain, rival.p), (rival.model, own)
+    return statistic(*(_fitted(chain, task, start) for chain, start in starts))
+
+
+def _fitted(chain: Chain, task: Task, start: Real) -> Fitted:
+    plant = task.plant(chain)
+    p, _ = fine(plant, task.cost, task.box(chain.parameters), start)
     residual, columns = task.cost.of(plant, p)
-    step = task.cost.residual(other.response(q)) - residual
-    return _projected(residual, step, columns)
-
-
-def _projected(residual: Real, step: Real, columns: Real) -> float:
-    """(r'd)^2 / d'd, d the part of the step that is orthogonal to the columns."""
-    length = np.linalg.norm(columns, axis=0)
-    scaled = columns / np.where(length > 0, length, 1.0)
-    left, sizes, _ = np.linalg.svd(scaled, full_matrices=False)
-    left = left[:, sizes > VANISHING * sizes[0]]
-    d = step - left @ (left.T @ step)
-    r = residual - left @ (left.T @ residual)
-    return float(r @ d) ** 2 / max(float(d @ d), float(np.finfo(float).tiny))
+    return Fitted(chain, residual, basis_of(columns), Noise(np.ones(len(residual))))

@@ -3,7 +3,7 @@
 Shares w_k >= 0 of the power, in all 1, of n_f lines: a line of amplitude a_k scatters by rho_k
 proportional to 1/a_k, so that
 
-    lambda(w) = min over p of sum_k w_k psi_k(p),    psi_k(p) = n_f |ln(G_A/G_B(p))|_k^2 / rho_k^2
+    lambda(w) = min over p of sum_k w_k psi_k(p),    psi_k(p) = n_f |G_B(p)/G_A - 1|_k^2 / rho_k^2
 
 with rho_k of a spectrum whose lines are all alike. It is concave in w. The T-optimal spectrum
 (Atkinson and Fedorov, 1975) has the largest one, and there all psi_k(p) are at most lambda. Every p
@@ -103,9 +103,10 @@ class Adversary:
         return self.bound(shares)
 
     def _task(self, shares: Real) -> Task:
-        cost = self.rival.task.cost
-        weights = np.sqrt(len(shares) * np.maximum(shares, 0.0)) / self.rival.rho
-        return replace(self.rival.task, cost=replace(cost, lines=weights))
+        task = self.rival.task
+        size = np.abs(task.cost.measured.G) * self.rival.rho
+        weights = np.sqrt(len(shares) * np.maximum(shares, 0.0)) / size
+        return replace(task, cost=replace(task.cost, lines=weights))
 
 
 def _distinct(sizes: Real) -> list[int]:

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from disting.fit.search.cost import SquaredCost
-from disting.fit.search.joint import AnyCost, AnyPlant
+from disting.fit.search.joint import AnyCost
+from disting.fit.search.plant import Differentiable
 from disting.measurement.arrays import Real
 
 Indices = NDArray[np.intp]
@@ -57,7 +58,7 @@ class Box:
 
 
 def rough(
-    plant: AnyPlant, cost: AnyCost, box: Box, starts: Real, iterations: int
+    plant: Differentiable, cost: AnyCost, box: Box, starts: Real, iterations: int
 ) -> tuple[Real, Real]:
     """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each
     start.
@@ -98,7 +99,9 @@ def _batches(active: Indices, batch: int) -> list[Indices]:
     return np.array_split(active, -(-len(active) // batch))
 
 
-def _normal(plant: AnyPlant, cost: AnyCost, box: Box, points: Real) -> tuple[Real, Real, Real]:
+def _normal(
+    plant: Differentiable, cost: AnyCost, box: Box, points: Real
+) -> tuple[Real, Real, Real]:
     """Cost J = r'r, shape (n_s,), with S'S and S'r of the free logarithms, shapes (n_s, n_p,
     n_p) and (n_s, n_p).
     """
@@ -123,7 +126,7 @@ def _step(curvature: Real, slope: Real, damping: Real) -> Real:
 
 
 def fine(
-    plant: AnyPlant, cost: SquaredCost, box: Box, start: Real, gain: float = LAST
+    plant: Differentiable, cost: SquaredCost, box: Box, start: Real, gain: float = LAST
 ) -> tuple[Real, float]:
     """A local minimum, shape (n_p,), and its cost: never above that of the start; the search ends
     where a step gains less than the share `gain` of the cost.

@@ -37,6 +37,11 @@ class Further:
     setup: Setup
     test: FrequencyResponse | None = None
 
+    def thinned(self, count: int) -> "Further":
+        """With at most so many lines each."""
+        test = None if self.test is None else self.test.thinned(count)
+        return replace(self, measured=self.measured.thinned(count), test=test)
+
 
 @dataclass(frozen=True, eq=False)
 class JointPlant:

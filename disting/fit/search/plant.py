@@ -35,6 +35,9 @@ ROUNDING = 2.0**-52
 class Differentiable(Protocol):
     """What yields a response and its derivatives: a plant, or several."""
 
+    def response(self, p: Real, /) -> Complex:
+        """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p)."""
+
     def logarithmic_gradient(self, p: Real, /) -> tuple[Complex, Complex]:
         """G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
 

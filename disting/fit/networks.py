@@ -1,0 +1,257 @@
+"""Networks fitted to a measured response: which of them explain it, which the data do not exclude.
+
+Networks that give the same responses for all positive values are fitted once (their verdict is
+theirs, not the data's). Each is searched from random starts in logarithms of its values, then
+brought to the last digit in units of what the lines scatter (`whitened`); the test by which one
+network excludes another one, and the question whether any explains the data, are those of chains.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from disting.errors import InputError, listed
+from disting.fit.judge.exclusion import basis_of, limit, statistic
+from disting.fit.judge.explanation import FEW_CLEAR, Miss, explanation
+from disting.fit.judge.practical import Seen
+from disting.fit.noise.covariance import expected, noise
+from disting.fit.noise.scatter import Scatter, scatter
+from disting.fit.search.cost import Case, Cost
+from disting.fit.search.descent import Box, fine, rough
+from disting.fit.search.network_plant import NetworkPlant, measured_as, random_starts
+from disting.fit.search.whitened import Whitened
+from disting.general.any_model import of_network
+from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Real
+from disting.model.presentation import Shown, summary
+from disting.network.network import Network
+from disting.schemas import Format
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
+
+STARTS, KEPT = 60, 6  # random starts of a network, and how many are searched on
+ITERATIONS = 40
+BAR = " | "  # between names of networks, which have commas
+SEED = 20_240_601  # of the starts
+LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
+Progress = Callable[[str, int, int], object]
+
+
+def silent(what: str, done: int, total: int) -> None:
+    """No progress is shown."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FittedNetwork:
+    """A network with its values of least |r|^2, r whitened, shape (n_y,), and how well it explains
+    the data.
+
+    `same`: other candidates that give the same responses for all positive values; `relative`:
+    standard deviations of the logarithms of the values, infinite of what the data or the network do
+    not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it.
+    """
+
+    network: Network
+    values: dict[str, float]
+    relative: dict[str, float]
+    rank: int
+    chi2: float
+    residual: Real = field(repr=False)
+    basis: Real = field(repr=False)
+    noise: Seen = field(repr=False)
+    same: tuple[str, ...] = ()
+    explains: bool = False
+    excluded_by: str = ""
+    misses: tuple[Miss, ...] = ()
+
+    @property
+    def cost(self) -> float:
+        """|r|^2."""
+        return float(self.residual @ self.residual)
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON; None for a deviation that is infinite."""
+        return {
+            "name": self.network.name,
+            "values": self.values,
+            "relative_deviations": {
+                name: x if np.isfinite(x) else None for name, x in self.relative.items()
+            },
+            "rank": self.rank,
+            "chi2": self.chi2,
+            "explains": self.explains,
+            "excluded_by": self.excluded_by,
+            "same": list(self.same),
+            "misses": [miss.sentence for miss in self.misses],
+        }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NetworkSelection(Shown):
+    """What was found: `fits`, the selected one first, then by chi2; `scatter` of the lines."""
+
+    fits: tuple[FittedNetwork, ...]
+    scatter: Scatter
+    decisions: Decisions = field(repr=False)
+
+    def __repr__(self) -> str:
+        chosen = self.selected
+        return summary(self, chosen.network.name if chosen else "none explains the data")
+
+    @property
+    def left(self) -> tuple[FittedNetwork, ...]:
+        """Those that explain the data and that no other one excludes."""
+        return tuple(f for f in self.fits if f.explains and not f.excluded_by)
+
+    @property
+    def selected(self) -> FittedNetwork | None:
+        """Of those that are left the one with the fewest determinable values, then the best."""
+        return min(self.left, key=lambda f: (f.rank, f.cost), default=None)
+
+    @property
+    def sentence(self) -> str:
+        """The answer in a sentence."""
+        chosen = self.selected
+        if self.scatter.clear < FEW_CLEAR:
+            return "The data are mostly noise: they support no network."
+        if chosen is None:
+            return "None of these networks explains the data."
+        twins = f", which cannot be told from {listed(chosen.same, BAR)}" if chosen.same else ""
+        others = [f.network.name for f in self.left if f is not chosen]
+        more = f" The data do not exclude {listed(others, BAR)} either." if others else ""
+        return f"{chosen.network.name} is the simplest that explains the data{twins}.{more}"
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        chosen = self.selected
+        return {
+            "format": Format.NETWORK_FIT.value,
+            "sentence": self.sentence,
+            "selected": chosen.network.name if chosen else None,
+            "scatter": self.scatter.typical,
+            "fits": [fit.to_dict() for fit in self.fits],
+        }
+
+
+def fit_networks(
+    measured: FrequencyResponse,
+    networks: Sequence[Network],
+    *,
+    engine: Engine | None = None,
+    progress: Progress = silent,
+) -> NetworkSelection:
+    """Fit networks with one input and one output to a measured response; `measured.sensor` says
+    what sensors of machines show, an impedance is that of circuits. Raises InputError.
+
+    >>> import numpy as np
+    >>> from disting.network import network_of
+    >>> omega = np.logspace(0, 4, 60)
+    >>> noisy = 1 + 1e-3 * np.random.default_rng(1).normal(size=(60, 2)) @ [1, 1j]
+    >>> cell = FrequencyResponse(omega, (1 + 2 / (1 + 0.02j * omega)) * noisy, sensor="position")
+    >>> candidates = [network_of(t) for t in ("R1-C1", "R0-p(R1,C1)", "p(R0,R1-C1)")]
+    >>> fit_networks(cell, candidates).sentence
+    'R0-p(R1,C1) is the simplest that explains the data, which cannot be told from p(R0,R1-C1).'
+    """
+    asked = [measured_as(network, measured) for network in networks]
+    for network in asked:
+        if network.shape != (1, 1):
+            raise InputError(f"{network.name} has several inputs or outputs: fit one of each")
+    if not asked:
+        raise InputError("name at least one network to fit")
+    engine = engine or Engine()
+    subjects = engine.general_subjects([of_network(network) for network in asked])
+    decided = engine.decisions(subjects, Query(View.POSITIVE, inclusion=False))
+    first = _first_of_same(decided, len(asked))
+    cost, found = Cost(measured, Case.LOGARITHM), list[tuple[NetworkPlant, Real]]()
+    chosen = [i for i, k in enumerate(first) if i == k]
+    for done, i in enumerate(chosen):
+        progress("networks", done, len(chosen))
+        plant = NetworkPlant(asked[i], measured.omega)
+        found.append((plant, _searched(plant, cost, measured, i)))
+    known = scatter(measured, [plant.response(p) for plant, p in found])
+    fits = [
+        replace(
+            _judged(plant, p, cost, known, subjects[i].rank),
+            same=tuple(asked[j].name for j, k in enumerate(first) if k == i != j),
+        )
+        for i, (plant, p) in zip(chosen, found, strict=True)
+    ]
+    fits = [replace(f, excluded_by=_excluding(f, fits, known)) for f in fits]
+    whole = NetworkSelection(tuple(sorted(fits, key=lambda f: f.chi2)), known, decided)
+    order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left, f.chi2))
+    return replace(whole, fits=tuple(order))
+
+
+def _first_of_same(decided: Decisions, count: int) -> list[int]:
+    """For each network the first one that gives the same responses for all positive values."""
+    first = list(range(count))
+    for i in range(count):
+        for k in range(i):
+            if first[k] == k and decided.relation(i, k) is Relation.INDISTINGUISHABLE:
+                first[i] = k
+                break
+    return first
+
+
+def _searched(plant: NetworkPlant, cost: Cost, measured: FrequencyResponse, number: int) -> Real:
+    """The best values found."""
+    draw = np.random.default_rng((SEED, number))
+    starts = random_starts(plant, measured, STARTS, draw)
+    size = len(plant.parameters)
+    box = Box(np.zeros(size), np.full(size, np.inf))
+    with np.errstate(all="ignore"):  # far from the data responses may overflow
+        points, costs = rough(plant, cost, box, starts, ITERATIONS)
+        kept = np.argsort(costs)[:KEPT]
+        ends = [fine(plant, cost, box, points[k]) for k in kept]
+    return min(ends, key=lambda end: end[1])[0]
+
+
+def _judged(
+    plant: NetworkPlant, start: Real, cost: Cost, known: Scatter, rank: int
+) -> FittedNetwork:
+    """Brought to the last digit in units of the scatter, and seen beside it."""
+    size, whitened = len(plant.parameters), Whitened(cost, known)
+    p, _ = fine(plant, whitened, Box(np.zeros(size), np.full(size, np.inf)), start)
+    residual, columns = whitened.of(plant, p)
+    ones = np.ones(len(residual))
+    missed = expected(columns, ones)
+    seen = explanation(residual, missed, cost, known)
+    level = seen.chi2
+    return FittedNetwork(
+        network=plant.network,
+        values=dict(zip(plant.parameters, map(float, p), strict=True)),
+        relative=dict(zip(plant.parameters, _deviations(columns, level), strict=True)),
+        rank=rank,
+        chi2=level,
+        residual=residual,
+        basis=basis_of(columns),
+        noise=noise(residual, ones, missed),
+        explains=seen.explains,
+        misses=seen.misses,
+    )
+
+
+def _deviations(columns: Real, level: float) -> list[float]:
+    """Standard deviations of the logarithms: sqrt of the diagonal of (S'S)^-1, times sqrt(chi2)
+    where the fit misses more than the scatter; infinite where a direction is not determined.
+    """
+    _, sizes, right = np.linalg.svd(columns, full_matrices=False)
+    known = sizes > LEAST * sizes[0]
+    lost = np.sum(right[~known] ** 2, axis=0) > LEAST
+    variance = np.sum((right[known] / sizes[known, None]) ** 2, axis=0) * max(level, 1.0)
+    return [float(x) for x in np.where(lost, np.inf, np.sqrt(variance))]
+
+
+def _excluding(one: FittedNetwork, fits: Sequence[FittedNetwork], known: Scatter) -> str:
+    """The network that excludes this one, the clearest first; "" if none does."""
+    clear = list[tuple[float, str]]()
+    for other in fits:
+        if other.cost < one.cost:
+            surplus = max(1, other.rank - one.rank)
+            size, most = statistic(one, other), limit(surplus, known.freedom)
+            if size > max(most, limit(1, known.freedom)):
+                clear.append((size / most, other.network.name))
+    return max(clear)[1] if clear else ""

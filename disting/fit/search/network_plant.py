@@ -1,0 +1,195 @@
+"""Frequency response of a network and its derivatives by all parameters: two solutions of one
+matrix a frequency.
+
+With P x = b, P^T y = c and G = s^q c^T x, for a term f(p) s^r u v^T of P, f = p or 1/p:
+
+    dG/dp = -s^q s^r f'(p) (y.u) (v.x),
+    dG/dg = -s^q s^r f ((y.u') (v.x) + (y.u) (v'.x))    for the ratio g of a gear, u' = du/dg.
+
+Everything is vectorised over frequencies and over parameter vectors.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Complex, Real
+from disting.network.element import Element, Port, Sort
+from disting.network.network import Network
+
+Entries = Mapping[int, Fraction | str | int]
+"""Of a vector, by nodes; a text stands for minus a parameter."""
+RATIOS = 3.0  # of gears: starts lie within this factor of 1
+SPREAD = 3.0  # of other values, around their size
+SMALL = 1e-13  # of the largest entry of P: what keeps an undamped one from being singular
+
+
+@dataclass(frozen=True, eq=False)
+class NetworkPlant:
+    """A network with one input and one output at angular frequencies `omega` [rad/s], (n_f,)."""
+
+    network: Network
+    omega: Real
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        """Those that enter, sorted: names in the order of the last axis of a parameter array."""
+        return tuple(p for p in self.network.parameters if p not in self.network.unseen)
+
+    def response(self, p: Real) -> Complex:
+        """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p)."""
+        x = _solved(self._matrix(p), self._input)
+        return np.asarray(self._front * (x @ self._output))
+
+    def logarithmic_gradient(self, p: Real) -> tuple[Complex, Complex]:
+        """G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
+        matrix = self._matrix(p)
+        x = _solved(matrix, self._input)
+        y = _solved(matrix.swapaxes(-1, -2), self._output)
+        whole = x @ self._output
+        # where G is too small for a number its logarithm is taken as constant
+        share = np.divide(1, whole, out=np.zeros_like(whole), where=whole != 0)
+        gradient = np.zeros((*p.shape, self.omega.size), dtype=np.complex128)
+        for e in self._plain.elements:
+            power = self._power(e)
+            feels, pulls = self._placed(e.feels), self._placed(e.pulls)
+            felt, pulled = self._seen(feels, x, p), self._seen(pulls, y, p)
+            if e.value:
+                at = self._at[e.value]
+                slope = -1 / p[..., at, None] ** 2 if e.kind.divides else 1.0
+                gradient[..., at, :] -= slope * power * pulled * felt * share
+            if e.known_ratio is None:
+                size = p[..., self._at[e.value], None] * power
+                moved = -(x[..., e.nodes[1] - 1] * pulled + y[..., e.nodes[1] - 1] * felt)
+                gradient[..., self._at[e.ratio], :] -= size * moved * share
+        return np.asarray(self._front * whole), gradient
+
+    def _matrix(self, p: Real) -> Complex:
+        """P, shape (..., n_f, n, n)."""
+        size = len(self._plain.nodes)
+        found = np.zeros((*p.shape[:-1], self.omega.size, size, size), dtype=np.complex128)
+        for e in self._plain.elements:
+            value = p[..., self._at[e.value], None] if e.value else np.ones(1)
+            term = self._power(e) * (1 / value if e.kind.divides else value)
+            for i, u in self._placed(e.pulls).items():
+                for j, v in self._placed(e.feels).items():
+                    found[..., i - 1, j - 1] += term * self._size(u, p) * self._size(v, p)
+        return found
+
+    def _seen(self, side: Entries, z: Complex, p: Real) -> Complex:
+        """v.x or u.y, shape (..., n_f)."""
+        return np.asarray(sum(self._size(w, p) * z[..., i - 1] for i, w in side.items()))
+
+    def _size(self, entry: object, p: Real) -> Real:
+        """An entry of u or v: a number, or minus a ratio."""
+        if isinstance(entry, str):
+            return np.asarray(-p[..., self._at[entry], None])
+        return np.asarray(float(entry))  # type: ignore[arg-type]
+
+    def _power(self, e: Element) -> Complex:
+        return np.asarray(self._s ** (e.kind.halves / 2))
+
+    @cached_property
+    def _plain(self) -> Network:
+        return self.network.grounded
+
+    @cached_property
+    def _reference(self) -> int:
+        """The node whose potential is zero: the other end of the sensor, so that what it shows is
+        one unknown; a small difference of two large ones would be lost in rounding. Gears and flows
+        feel more than differences: there it is the ground.
+        """
+        (sensor,) = self._plain.outputs
+        more = self._plain.is_directed or any(e.ratio for e in self._plain.elements)
+        return sensor.minus if sensor.plus and not more else 0
+
+    def _placed(self, side: Entries) -> Entries:
+        """A vector u, v, b or c over the unknowns, of which the ground takes the place of the
+        reference.
+        """
+        if not self._reference:
+            return side
+        entries = {i: Fraction(x) for i, x in side.items()}
+        entries |= {self._reference: -sum(entries.values(), Fraction())}
+        return {i: x for i, x in entries.items() if x}
+
+    @cached_property
+    def _at(self) -> dict[str, int]:
+        return {name: i for i, name in enumerate(self.parameters)}
+
+    @cached_property
+    def _s(self) -> Complex:
+        return np.asarray(1j * self.omega, dtype=np.complex128)
+
+    @cached_property
+    def _front(self) -> Complex:
+        return np.asarray(self._s**self.network.order)
+
+    @cached_property
+    def _input(self) -> Complex:
+        return self._vector(self._plain.inputs[0])
+
+    @cached_property
+    def _output(self) -> Complex:
+        return self._vector(self._plain.outputs[0])
+
+    def _vector(self, port: Port) -> Complex:
+        found = np.zeros(len(self._plain.nodes), dtype=np.complex128)
+        for i, x in self._placed(port.ends).items():
+            found[i - 1] = float(x)
+        return found
+
+
+def _solved(matrix: Complex, side: Complex) -> Complex:
+    """Solutions, shape (..., n_f, n); a matrix that is singular, as without damping at a resonance,
+    is moved by a rounding error.
+    """
+    try:
+        return np.asarray(np.linalg.solve(matrix, side[..., None])[..., 0])
+    except np.linalg.LinAlgError:
+        moved = matrix + SMALL * np.abs(matrix).max() * np.eye(matrix.shape[-1])
+        return np.asarray(np.linalg.solve(moved, side[..., None])[..., 0])
+
+
+def measured_as(network: Network, measured: FrequencyResponse) -> Network:
+    """The network with sensors that show what was measured; circuits and compartments are as they
+    are.
+    """
+    is_machine = network.sort is Sort.MACHINE
+    return replace(network, order=measured.sensor.order) if is_machine else network
+
+
+def random_starts(
+    plant: NetworkPlant, measured: FrequencyResponse, count: int, draw: np.random.Generator
+) -> NDArray[np.float64]:
+    """Values, shape (count, n_p), with which each element alone would have the size of the response
+    at a random frequency of the band, within a factor of three.
+    """
+    low, high = np.log(measured.omega[0]), np.log(measured.omega[-1])
+    omega = np.exp(draw.uniform(low, high, (count, len(plant.parameters))))
+    size = np.exp(np.interp(np.log(omega), np.log(measured.omega), np.log(np.abs(measured.G)))) / (
+        omega**plant.network.order
+    )
+    values = np.ones_like(omega)
+    for name, power, divides in _kinds(plant.network):
+        at = plant.parameters.index(name)
+        # p w^r = 1/|G|, where p divides w^r/p = 1/|G|
+        stiffness = omega[:, at] ** -power / size[:, at]
+        values[:, at] = 1 / stiffness if divides else stiffness
+    spread = np.full(len(plant.parameters), np.log(SPREAD))
+    for e in plant.network.elements:
+        if e.known_ratio is None and e.ratio in plant.parameters:
+            spread[plant.parameters.index(e.ratio)] = np.log(RATIOS)
+    return np.asarray(values * np.exp(draw.uniform(-1, 1, values.shape) * spread))
+
+
+def _kinds(network: Network) -> Iterator[tuple[str, float, bool]]:
+    """Yield the values that enter with their powers of s, and whether they divide."""
+    for e in network.seen:
+        if e.value:
+            yield e.value, e.kind.halves / 2, e.kind.divides

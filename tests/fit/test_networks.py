@@ -1,0 +1,200 @@
+"""Networks fitted to responses: truths that are kept, published fits, bad input."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from disting import InputError, Sensor
+from disting.fit.networks import fit_networks
+from disting.fit.noise.covariance import expected
+from disting.fit.search.network_plant import NetworkPlant
+from disting.general.any_model import of_network
+from disting.measurement import FrequencyResponse, read
+from disting.network import Network, network_of
+from disting.network.families import family_of
+
+DATA = Path(__file__).parents[2].parent / "shared" / "data" / "eis"
+needs_data = pytest.mark.skipif(not DATA.is_dir(), reason="no folder with measured impedances")
+TEXTS = [
+    "R0-p(R1,C1)-W1",
+    "L1-p(R1,C1)",
+    "1=2*i, 2=3, 2~4; F1; S4",
+    "1=2*3/2, 2-#; F1; S2:1; position",
+    "1>2, 2>1, 2>0; in 1; out 2",
+    "#=1, #=2, 1=2; F1; S2:1",
+    "1=2; F1; S#:2",
+    "1=2=3; F1:3; S3:2",
+]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_response_and_gradient_are_those_of_the_transfer_function(text):
+    network, draw = network_of(text), np.random.default_rng(1)
+    model, plant = of_network(network), NetworkPlant(network, np.logspace(0, 2, 7))
+    p = np.exp(draw.normal(size=(3, len(plant.parameters))))
+    response, gradient = plant.logarithmic_gradient(p)
+    s = 1j * plant.omega
+    v = np.sqrt(s) if model.halves else s
+    for k, values in enumerate(p):
+        top, bottom = (
+            sum(
+                sum(c * np.prod(values ** np.array(e)) for e, c in terms) * v**i
+                for i, terms in enumerate(side)
+            )
+            for side in (model.numerator_terms, model.denominator_terms)
+        )
+        np.testing.assert_allclose(response[k], top / bottom, rtol=1e-9)
+        for j in range(len(values)):
+            step = 1e-6 * values[j] * np.eye(len(values))[j]
+            moved = np.log(plant.response(values + step) / plant.response(values - step))
+            np.testing.assert_allclose(
+                gradient[k, j], moved / (2e-6 * values[j]), rtol=1e-3, atol=1e-6
+            )
+
+
+def test_a_sensor_between_two_masses_that_move_alike_keeps_its_digits():
+    """G = s^2 (x2 - x1)/F of two masses, stiffly joined: -m2/((m1 + m2) k12) in the limit."""
+    plant = NetworkPlant(network_of("1~2, 2~#; F1; S2:1"), np.array([1.0]))
+    assert plant.parameters == ("k02", "k12", "m1", "m2")
+    far = np.array([1e-3, 1e18, 1.0, 2.0])
+    response, gradient = plant.logarithmic_gradient(far)
+    # x2 - x1 = -F (k02 + m2 s^2) / (k12 (k02 + (m1 + m2) s^2)), s^2 = -1
+    truth = (1e-3 - 2.0) / (1e18 * (1e-3 - 3.0))
+    np.testing.assert_allclose(response, [truth], rtol=1e-12)
+    np.testing.assert_allclose(gradient[1] * 1e18, [-1.0], rtol=1e-12)
+
+
+def test_what_a_fit_is_to_miss_is_a_number_where_values_hardly_matter():
+    columns = np.random.default_rng(1).normal(size=(20, 3))
+    tiny = columns * [1.0, 1e-60, 1e-161]
+    np.testing.assert_allclose(expected(tiny, np.ones(20)), expected(columns, np.ones(20)))
+
+
+def simulated(network: Network, draw: np.random.Generator, noise: float) -> FrequencyResponse:
+    """The response that its sensor shows, at values within a factor of three of 1, with noise of
+    constant size.
+    """
+    omega = np.logspace(-2, 2, 80)
+    plant = NetworkPlant(network, omega)
+    clean = plant.response(np.exp(draw.uniform(-1.1, 1.1, len(plant.parameters))))
+    size = noise * np.abs(clean)
+    noisy = clean + size * (draw.normal(size=(80, 2)) @ np.array([1, 1j]))
+    return FrequencyResponse(omega, noisy, sensor=list(Sensor)[network.order])
+
+
+def kept(name: str, count: int, seed: int) -> int:
+    """How often the truth, or what cannot be told from it, is left, of networks of a family."""
+    draw, family = np.random.default_rng(seed), family_of(name).networks
+    found = 0
+    for _ in range(count):
+        truth = family[draw.integers(len(family))]
+        others = [family[i] for i in draw.choice(len(family), 8)]
+        networks = list(dict.fromkeys([*others, truth]))
+        left = fit_networks(simulated(truth, draw, 0.01), networks).left
+        found += any(truth.name in (f.network.name, *f.same) for f in left)
+    return found
+
+
+def test_the_true_circuit_is_kept():
+    assert kept("cells-4", 4, 1) == 4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["circuits-4", "cells-4", "machines-2-damped"])
+def test_the_truth_is_kept_in_95_of_100(name):
+    assert kept(name, 60, 2) >= 57
+
+
+def test_wrong_networks_are_excluded_or_do_not_explain():
+    truth = network_of("R0-p(R1,C1)-p(R2,C2)")
+    plant = NetworkPlant(truth, np.logspace(0, 4, 60))
+    assert plant.parameters == ("C1", "C2", "R0", "R1", "R2")
+    clean = plant.response(np.array([1e-2, 1e-3, 1.0, 2.0, 3.0]))
+    noisy = clean * (1 + 3e-3 * np.random.default_rng(1).normal(size=(60, 2)) @ [1, 1j])
+    data = FrequencyResponse(plant.omega, noisy, sensor="position")
+    texts = ["R0-p(R1,C1)", "R0-p(R1-W1,C1)", truth.name, "R0-p(C1,R1-p(R2,C2))"]
+    found = fit_networks(data, list(map(network_of, texts)))
+    assert found.selected is not None and found.selected.network.name == truth.name
+    assert found.selected.same == (texts[3],)
+    assert [f.network.name for f in found.left] == [truth.name]
+    low, high = sorted([found.selected.values["C1"], found.selected.values["C2"]])
+    assert (low, high) == pytest.approx((1e-3, 1e-2), rel=0.05)
+
+
+@needs_data
+@pytest.mark.parametrize(
+    ("file", "published"),
+    [
+        ("Circuit2_EIS_1.z", {"R0": 150, "R1": 502, "C1": 3.12e-8}),
+        ("Circuit3_EIS_1.z", {"R0": 1510, "R1": 4630, "C1": 2.02e-8}),
+    ],
+)
+def test_published_values_of_dummy_cells(file, published):
+    (fit,) = fit_networks(read(DATA / file), [network_of("R0-p(R1,C1)")]).fits
+    assert fit.values == pytest.approx(published, rel=0.005)
+
+
+@needs_data
+@pytest.mark.parametrize(
+    ("file", "lines", "first"),
+    [
+        ("exampleDataGamry.DTA", 72, 17007.49 - 6635.557j),
+        ("exampleDataBioLogic.mpt", 43, 110.97003 - 2.3458567j),
+        ("exampleDataZPlot.z", 21, 613.68 - 137.13j),
+    ],
+)
+def test_files_of_instruments(file, lines, first):
+    found = read(DATA / file)
+    assert len(found) == lines and found.G[0] == pytest.approx(first)
+
+
+def run(*words: str) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, "-m", "disting", "fit", *words], capture_output=True, text=True
+    )
+
+
+def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
+    omega = np.logspace(0, 4, 60)
+    cell = 1 + 2 / (1 + 0.02j * omega)
+    cell = cell * (1 + 1e-3 * np.random.default_rng(1).normal(size=(60, 2)) @ [1, 1j])
+    rows = zip(omega / (2 * np.pi), cell.real, -cell.imag, strict=True)
+    file = tmp_path / "cell.csv"
+    file.write_text("\n".join(",".join(map(str, row)) for row in rows))
+    told = tmp_path / "found.json"
+    words = [str(file), "--models", "R0-C1", "--models", "R0-p(R1,C1)", "--json", str(told)]
+    done = run(*words)
+    assert done.returncode == 0, done.stderr
+    assert "R0-p(R1,C1) is the simplest that explains the data." in done.stdout
+    assert "taken as -Im" in done.stderr
+    found = json.loads(told.read_text())
+    assert found["selected"] == "R0-p(R1,C1)" and found["fits"][0]["values"]["R1"] == pytest.approx(
+        2, rel=0.01
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--models", "3:1"], "is no network"),
+        (["--models", "R1-C1", "--models", "1=2; F1; S1"], "fit them apart"),
+        (["--models", "R1-C1", "--masses", "3"], "knows no --masses"),
+        (["--models", "R1-C1", "--models", "R1-C1"], "named twice"),
+        (["--models", "cells-9"], "is no network"),
+    ],
+)
+def test_bad_input_is_one_sentence(tmp_path, words, said):
+    file = tmp_path / "a.csv"
+    file.write_text("\n".join(f"{k},{1 / k},0.1" for k in range(1, 20)))
+    done = run(str(file), *words)
+    assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
+
+
+def test_several_outputs_are_refused():
+    data = FrequencyResponse(np.arange(1.0, 20.0), np.ones(19) + 0j)
+    with pytest.raises(InputError, match="several inputs or outputs"):
+        fit_networks(data, [network_of("1=2; F1; S1 S2")])
