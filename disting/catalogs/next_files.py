@@ -92,7 +92,7 @@ class NextCatalog:
         return {m: at for at, group in enumerate(self.groups, 1) for m in group}
 
     @cached_property
-    def _read(self) -> dict[int, Further]:
+    def _read(self) -> dict[int, Further[Chain]]:
         """Groups that were asked for."""
         return {}
 
@@ -101,7 +101,7 @@ class NextCatalog:
         at = self._place.get(number)
         return self.groups[at - 1] if at else (number,)
 
-    def further(self, numbers: Sequence[int], costs: Costs | None = None) -> Further | None:
+    def further(self, numbers: Sequence[int], costs: Costs | None = None) -> Further[Chain] | None:
         """What to measure next to tell these structures of one group apart, in this order; None
         where they are no two of one group, or a kind with a cost is not in the file. Raises
         CatalogError for a damaged record.
@@ -156,7 +156,7 @@ def build_next(
     for done, members in enumerate(groups, 1):
         named = [empty.named(m) for m in members]
         found = further(named, engine, executor=executor, progress=progress)
-        tables = {kind.name: _plain(table) for kind, table in found.tables.items()}
+        tables = {k.name: _plain(t) for k, t in found.tables.items() if isinstance(t, Placed)}
         records.append({"group": list(members), **tables})
         progress("groups", done, len(groups))
     return lines(records)
@@ -240,7 +240,7 @@ def _plain(table: Placed) -> Record:
     }
 
 
-def _further(stored: NextCatalog, record: Record) -> Further:
+def _further(stored: NextCatalog, record: Record) -> Further[Chain]:
     n, numbers, tests = stored.family.n_masses, record["group"], stored.records[0]["tests"]
     try:
         tables = {

@@ -33,7 +33,7 @@ def test_every_group_of_every_catalogue_is_there(n, damped):
     assert found.groups == stored.classes(View.EXACT)
     for members in found.groups:
         whole = found.further(members)
-        assert whole is not None and whole.chains == tuple(stored.family[m] for m in members)
+        assert whole is not None and whole.structures == tuple(stored.family[m] for m in members)
 
 
 @pytest.mark.parametrize("damped", [False, True])
@@ -56,7 +56,7 @@ def test_every_group_with_dampers_to_the_ground_is_there(damped):
     assert names == [group for group in every if "+" in "".join(group)]
     for group in found.groups:
         whole = found.further(group)
-        assert whole.chains == tuple(stored.found.chains[i] for i in group)
+        assert whole.structures == tuple(stored.found.chains[i] for i in group)
         assert not any(table.open for table in whole.tables.values())
 
 

@@ -1,0 +1,198 @@
+"""What was decided with much work on families of networks, shipped: `disting catalog families`.
+
+`networks-<family>.jsonl`: a header; a line a network with its parameters' identifiability and, as
+`group`, the number of its class over complex parameters, 0 where it is alone; then a line a pair
+that is the same there, with the verdicts over complex and over positive parameters, and `finding`
+where positive equivalents were looked for, which then has the evidence. Other pairs are told apart
+by conditions or by an exact decision in milliseconds: they are decided anew.
+
+A command on a family takes the findings over, so it answers at once, and all that it says has its
+evidence.
+"""
+
+import json
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from itertools import combinations
+from pathlib import Path
+
+from disting.catalogs.files import Record, lines
+from disting.conditions.finding import Finding
+from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.side import AnySide
+from disting.errors import CatalogError
+from disting.evidence.kinds import evidence_from
+from disting.files import intact_text, shipped_folder
+from disting.general.any_model import of_network, unnamed
+from disting.general.identifiability import PARAMETERS
+from disting.general.model_side import ComparedModel, positive_question
+from disting.network.families import NetworkFamily, family_of
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, question_key, silent
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
+
+SCHEMA = 1
+EVIDENCE = 4  # its place in the list that a finding is written as
+COMMAND = "disting catalog families"
+SHIPPED = ("machines-2", "machines-2-damped", "circuits-4", "cells-4", "compartments-2")
+COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
+
+
+def name_of(family: str) -> str:
+    """Name of a file without its suffix.
+
+    >>> name_of("circuits-4")
+    'networks-circuits-4'
+    """
+    return f"networks-{family}"
+
+
+def build_networks(
+    family: NetworkFamily,
+    engine: Engine,
+    *,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> str:
+    """The text of the file of a family, computed; the bytes do not depend on the machine or the
+    order of the work.
+    """
+    sides = engine.general_subjects([of_network(n) for n in family.networks])
+    over_complex, over_positive = (
+        engine.decisions(sides, query, executor=executor, progress=progress)
+        for query in (COMPLEX, POSITIVE)
+    )
+    group = {i: g for g, members in enumerate(over_complex.classes(), 1) for i in members}
+    header: Record = {
+        "schema": SCHEMA,
+        "catalog": name_of(family.name),
+        "family": family.name,
+        "models": len(sides),
+        "command": f"{COMMAND} {family.name}",
+        "settings": engine.settings.to_dict(),
+    }
+    asked = [(unnamed(s.subject),) for s in sides]
+    engine.answer_all(PARAMETERS, asked, executor=executor, progress=progress)
+    models = [
+        {
+            "model": number,
+            "network": s.name,
+            "group": group.get(number - 1, 0),
+            "identifiability": engine.answer(PARAMETERS, model, engine.settings).to_dict(),
+        }
+        for number, (s, model) in enumerate(zip(sides, asked, strict=True), 1)
+    ]
+    pairs = _pairs(engine, sides, over_complex, over_positive)
+    return lines([header, *models, *pairs])
+
+
+def _pairs(
+    engine: Engine, sides: list[ComparedModel], over_complex: Decisions, over_positive: Decisions
+) -> Iterator[Record]:
+    """Yield the lines of the pairs that are the same over complex parameters."""
+    for i, j in combinations(range(len(sides)), 2):
+        if over_complex.relation(i, j) is Relation.DISTINGUISHABLE:
+            continue
+        question, models = positive_question(sides[i], sides[j])
+        finding = engine.answers.get(question_key(question, models, engine.settings))
+        record: Record = {"left": i + 1, "right": j + 1, "complex": _told(over_complex, i, j)}
+        record["positive"] = _told(over_positive, i, j)
+        if isinstance(finding, Finding):
+            del record["positive"]["evidence"]
+            record["finding"] = json.loads(finding.to_json())
+        yield record
+
+
+def _told(decided: Decisions, i: int, j: int) -> Record:
+    """A verdict without its models."""
+    verdict = decided.verdict(i, j)
+    return {
+        "relation": verdict.relation.value,
+        "decided_by": verdict.decided_by,
+        "representation": verdict.representation,
+        "certainty": verdict.certainty or "",
+        "safety": verdict.safety,
+        "evidence": None if verdict.evidence is None else verdict.evidence.to_dict(),
+    }
+
+
+def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
+    """Let the engine know what the shipped file, or that of another folder, holds on a family;
+    nothing where there is none. Raises CatalogError for a damaged file.
+
+    >>> recall("circuits-4", Engine())
+    """
+    path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
+    if not path.is_file():
+        return
+    records = read(path)
+    if records[0]["settings"] != engine.settings.to_dict():
+        return  # other random points: what is known by these is not what is asked
+    sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
+    for r in records[1 + len(sides) :]:
+        question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
+        if "finding" in r:
+            found = Finding.from_json(json.dumps(r["finding"]), rule=ADMISSIBLE)
+            engine.remember(question, models, found)
+
+
+def read(path: Path) -> list[Record]:
+    """The records of a file; raises CatalogError where it is damaged, of another schema, or of
+    other networks than the family has.
+    """
+    try:
+        records = [json.loads(line) for line in intact_text(path).splitlines()]
+        header = records[0]
+        names = [network.name for network in family_of(header["family"]).networks]
+        told = [r["network"] for r in records[1 : 1 + header["models"]]]
+        if header["schema"] != SCHEMA or told != names:
+            raise ValueError("another schema, or other networks")
+        for r in records[1 + len(names) :]:
+            if not 0 < r["left"] < r["right"] <= len(names):
+                raise ValueError(f"no pair: {r['left']}, {r['right']}")
+    except (OSError, ValueError, LookupError, TypeError) as reason:
+        raise CatalogError(f"{path} cannot be read ({reason}); make it with '{COMMAND}'") from None
+    return records
+
+
+def verify_networks(
+    family: NetworkFamily,
+    folder: Path,
+    engine: Engine,
+    *,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> list[str]:
+    """What is wrong with the file of a family, in sentences: its bytes against those that are
+    computed now, and every evidence on a pair by itself, at fresh points.
+    """
+    path = folder / f"{name_of(family.name)}.jsonl"
+    if not path.is_file():
+        raise CatalogError(f"there is no {path}; make it with '{COMMAND} {family.name}'")
+    stored = read(path)
+    wrong = _false_evidence(family, stored, engine)
+    text = build_networks(family, engine, executor=executor, progress=progress)
+    there, now = path.read_text(encoding="utf-8").splitlines(), text.splitlines()
+    for number, (a, b) in enumerate(zip(there, now, strict=False), 1):
+        if a != b:
+            return [*wrong, f"{path.name}, line {number} is not what is computed now"]
+    return wrong if len(there) == len(now) else [*wrong, f"{path.name} has other pairs"]
+
+
+def _false_evidence(family: NetworkFamily, records: list[Record], engine: Engine) -> list[str]:
+    sides = engine.general_subjects([of_network(n) for n in family.networks])
+    wrong = []
+    for r in records[1 + len(sides) :]:
+        left, right = sides[r["left"] - 1], sides[r["right"] - 1]
+        a, b = left.chain, right.chain
+        pair: tuple[AnySide, AnySide] = (left, right)
+        if a is not None and b is not None:
+            pair = engine.subject(left.name, a), engine.subject(right.name, b)
+        for told in (r["complex"], r["positive"]):
+            evidence = told["evidence"] if "evidence" in told else r["finding"][EVIDENCE]
+            if evidence and not pair[0].confirms(
+                pair[1], evidence_from(evidence), told["representation"]
+            ):
+                wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
+    return wrong

@@ -1,0 +1,119 @@
+"""Shipped verdicts on families of networks: what is computed now, byte for byte, and no lies."""
+
+import json
+from itertools import combinations
+
+import pytest
+
+from disting.catalogs.network_files import (
+    POSITIVE,
+    SHIPPED,
+    name_of,
+    recall,
+    verify_networks,
+)
+from disting.cli.run import main
+from disting.errors import CatalogError
+from disting.files import shipped_folder
+from disting.general.any_model import of_network
+from disting.network.families import family_of
+from disting.verdict.engine import Engine
+from disting.verdict.result import Relation
+
+QUICK = ("circuits-4", "compartments-2")
+
+
+@pytest.mark.parametrize(
+    "name", [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in set(SHIPPED) - {*QUICK})]
+)
+def test_what_is_shipped_is_what_is_computed(name):
+    assert verify_networks(family_of(name), shipped_folder(), Engine()) == []
+
+
+@pytest.mark.parametrize("name", ["machines-2", "compartments-2"])
+def test_what_is_looked_up_is_what_is_decided(name):
+    models = [of_network(n) for n in family_of(name).networks]
+    known, fresh = Engine(), Engine()
+    recall(name, known)
+    assert known.answers and not fresh.answers
+    looked_up, decided = (e.decisions(e.general_subjects(models), POSITIVE) for e in (known, fresh))
+    asked = len(fresh.answers)
+    assert asked == len(known.answers)
+    for i, j in combinations(range(len(models)), 2):
+        if decided.rule(i, j) not in ("1", "2", "3"):
+            assert looked_up.verdict(i, j).to_dict() == decided.verdict(i, j).to_dict()
+
+
+def test_circuits_of_four_elements_are_all_decided():
+    text = (shipped_folder() / f"{name_of('circuits-4')}.jsonl").read_text(encoding="utf-8")
+    header, *records = map(json.loads, text.splitlines())
+    pairs = [r["positive"]["relation"] for r in records[header["models"] :]]
+    assert len(pairs) == 96
+    assert Relation.UNDECIDED.value not in pairs
+
+
+def lied(record):
+    """Lies about one pair, each another one."""
+    yield "relation", {"positive": record["positive"] | {"relation": "undecided"}}
+    yield "pair", {"right": record["right"] + 1}
+    if record.get("finding"):
+        kept, outcome, certainty, safety, evidence, note = record["finding"]
+        other = "fails" if outcome == "holds" else "holds"
+        yield "outcome", {"finding": [kept, other, certainty, safety, evidence, note]}
+
+
+def test_a_lie_is_found(tmp_path):
+    name = "compartments-2"
+    family = family_of(name)
+    text = (shipped_folder() / f"{name_of(name)}.jsonl").read_text(encoding="utf-8")
+    lines = text.splitlines()
+    at, record = next(
+        (at, r) for at, line in enumerate(lines) if (r := json.loads(line)).get("finding")
+    )
+    for _, change in lied(record):
+        path = tmp_path / f"{name_of(name)}.jsonl"
+        new = [*lines[:at], json.dumps(record | change), *lines[at + 1 :]]
+        path.write_text("\n".join(new) + "\n", encoding="utf-8")
+        assert verify_networks(family, tmp_path, Engine()), change
+
+
+def test_evidence_that_is_false_is_found_by_itself(tmp_path):
+    name = "compartments-2"
+    path = tmp_path / f"{name_of(name)}.jsonl"
+    text = (shipped_folder() / path.name).read_text(encoding="utf-8")
+    lines = text.splitlines()
+    at, record = next(
+        (at, r)
+        for at, line in enumerate(lines)
+        if (r := json.loads(line)).get("finding") and r["finding"][4]["kind"] == "witnesses"
+    )
+    twin = next(
+        r
+        for line in lines
+        if (r := json.loads(line)).get("finding")
+        and r["finding"][4]
+        and r["finding"][4]["kind"] == "witnesses"
+        and r["finding"] != record["finding"]
+    )
+    new = [*lines[:at], json.dumps(record | {"finding": twin["finding"]}), *lines[at + 1 :]]
+    path.write_text("\n".join(new) + "\n", encoding="utf-8")
+    told = verify_networks(family_of(name), tmp_path, Engine())
+    assert any("the evidence does not hold" in sentence for sentence in told)
+
+
+@pytest.mark.parametrize("damage", ["{", '{"schema": 9}', ""])
+def test_a_damaged_file_is_refused(damage, tmp_path):
+    path = tmp_path / f"{name_of('circuits-4')}.jsonl"
+    path.write_text(damage, encoding="utf-8")
+    with pytest.raises(CatalogError, match="cannot be read"):
+        recall("circuits-4", Engine(), tmp_path)
+
+
+def test_commands(tmp_path, capsys):
+    assert main(["catalog", "families", "compartments-2", "--out", str(tmp_path)]) == 0
+    assert main(["catalog", "verify", "compartments-2", "--catalog", str(tmp_path)]) == 0
+    assert "every byte and every evidence holds" in capsys.readouterr().out
+    assert main(["catalog", "verify", "circuits-4", "--catalog", str(tmp_path)]) != 0
+    assert "there is no" in capsys.readouterr().err
+    shipped = (shipped_folder() / f"{name_of('compartments-2')}.jsonl").read_bytes()
+    assert (tmp_path / f"{name_of('compartments-2')}.jsonl").read_bytes() == shipped
