@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from disting.conditions.table import CONDITIONS as CONDITIONS
     from disting.equivalence import equivalents as equivalents
     from disting.equivalence import explicit_map as explicit_map
+    from disting.equivalence import gate as gate
     from disting.errors import CatalogError as CatalogError
     from disting.errors import ConstraintViolation as ConstraintViolation
     from disting.errors import ContradictionError as ContradictionError
@@ -46,6 +47,10 @@ if TYPE_CHECKING:
     from disting.model.question import Domain as Domain
     from disting.model.question import Settings as Settings
     from disting.model.symmetry import Symmetry as Symmetry
+    from disting.network.element import Element as Element
+    from disting.network.element import Port as Port
+    from disting.network.network import Network as Network
+    from disting.network.notation import network_of as network_of
     from disting.questions.identifiability import Identifiability as Identifiability
     from disting.questions.identifiability import Level as Level
     from disting.questions.identifiability import (
@@ -78,7 +83,7 @@ _NAMES = {
     "disting.catalogs": "Catalog ModelRow catalog",
     "disting.conditions.finding": "Finding Outcome",
     "disting.conditions.table": "CONDITIONS",
-    "disting.equivalence": "equivalents explicit_map",
+    "disting.equivalence": "equivalents explicit_map gate",
     "disting.errors": "CatalogError ConstraintViolation ContradictionError DistingError InputError",
     "disting.experiments": "Experiment",
     "disting.files": "__version__",
@@ -92,6 +97,9 @@ _NAMES = {
     "disting.model.family": "Family",
     "disting.model.question": "Domain Settings",
     "disting.model.symmetry": "Symmetry",
+    "disting.network.element": "Element Port",
+    "disting.network.network": "Network",
+    "disting.network.notation": "network_of",
     "disting.questions.identifiability": "Identifiability Level ParameterIdentifiability",
     "disting.questions.inclusion": "Inclusion",
     "disting.store": "CacheWarning Store",

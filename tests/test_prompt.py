@@ -36,6 +36,7 @@ from disting import (
     global_identifiability,
     identifiability,
     local_identifiability,
+    network_of,
     verdict_file,
     verify,
 )
@@ -79,6 +80,9 @@ def shown() -> list[object]:
         verify(verdict_file(family[1], family[2])),
         compare_everywhere(family[1], family[11], ["sensor=3"]),
         Experiment(sensor=(3, 1), inertias={1: "0.5"}, springs={2: 3}, locked=2),
+        cell := network_of("R0-p(R1,C1)"),
+        *cell.elements,
+        *cell.ports,
         poles,
         long_name,
         MatrixModel.from_transfer_functions([["1/(s + a)", 0], ["b/(s + a)", "1/(s + b)"]]),

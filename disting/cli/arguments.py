@@ -16,6 +16,7 @@ from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
 from disting.model.question import Domain
+from disting.network.notation import NOTATIONS
 
 
 def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
@@ -51,14 +52,30 @@ def sizes(text: str) -> range:
     return range(int(match[1]), int(match[2] or match[1]) + 1)
 
 
-def sizes_or_file(text: str) -> range | Path:
-    """Sizes, or a file of models."""
-    return Path(text) if text.endswith(".json") else sizes(text)
+FAMILY = re.compile(r"[a-z]+-\d+(-damped)?")
+Listed = Path | str
+"""A list of models: a file, or the name of a family of networks."""
 
 
-def size_or_file(text: str) -> int | Path:
-    """One number of masses, or a file of models."""
-    return Path(text) if text.endswith(".json") else MASSES(text)
+def sizes_or_list(text: str) -> range | Listed:
+    """Sizes, or a list of models."""
+    return _list(text) or sizes(text)
+
+
+def size_or_list(text: str) -> int | Listed:
+    """One number of masses, or a list of models."""
+    return _list(text) or MASSES(text)
+
+
+def size_or_family(text: str) -> int | str:
+    """One number of masses, or the name of a family of networks."""
+    return text if FAMILY.fullmatch(text) else MASSES(text)
+
+
+def _list(text: str) -> Listed | None:
+    if FAMILY.fullmatch(text):
+        return text
+    return Path(text) if text.endswith(".json") else None
 
 
 def exact_range(text: str) -> tuple[str, tuple[str, str]]:
@@ -69,14 +86,18 @@ def exact_range(text: str) -> tuple[str, tuple[str, str]]:
     return match[1], (match[2], match[3])
 
 
+FREQUENCY = r"\d+\.?\d*(?:[eE][+-]?\d+)?"
+
+
 def frequency_range(text: str) -> tuple[float, float]:
-    """Two rising numbers such as 11..250; raises ArgumentTypeError."""
-    low, dots, high = text.partition("..")
+    """Two rising numbers such as 11..250, or 11-250; raises ArgumentTypeError."""
+    dashed = re.fullmatch(rf"({FREQUENCY})-({FREQUENCY})", text)
+    low, _, high = (dashed[1], "", dashed[2]) if dashed else text.partition("..")
     try:
         limits = (float(low), float(high))
     except ValueError:
         limits = (1.0, 0.0)
-    if not dots or not limits[0] < limits[1]:
+    if not limits[0] < limits[1]:
         raise argparse.ArgumentTypeError(f"a range is written like 11..250, not {shown(text)}")
     return limits
 
@@ -189,6 +210,12 @@ def add_also(parser: argparse.ArgumentParser) -> None:
         " mass 2 of the right one, else every one is tried); may be repeated"
     )
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+
+
+def add_notation(parser: argparse.ArgumentParser) -> None:
+    """--notation."""
+    text = "how a network is written, where its signs do not tell it"
+    parser.add_argument("--notation", choices=NOTATIONS, default="", help=text)
 
 
 def add_no_cache(parser: argparse.ArgumentParser) -> None:

@@ -8,9 +8,11 @@ from pathlib import Path
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.files import shipped_folder
-from disting.cli.arguments import add_masses, add_out, add_work
+from disting.catalogs.network_files import SHIPPED, build_networks, verify_networks
+from disting.cli.arguments import add_masses, add_out, add_work, size_or_family
 from disting.cli.effort import announced, pairs_by_size, pairs_work
 from disting.cli.workers import engine_for
+from disting.network.families import family_of
 from disting.verdict.engine import Engine, Progress
 
 
@@ -33,6 +35,21 @@ def add_sizes_arguments(parser: argparse.ArgumentParser) -> None:
     add_work(parser)
 
 
+def add_families_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `families`."""
+    text = f"families of networks (default: {' '.join(SHIPPED)})"
+    parser.add_argument("families", nargs="*", metavar="FAMILY", help=text)
+    add_out(parser, "catalog")
+    add_work(parser)
+
+
+def add_menus_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `next`."""
+    add_masses(parser, default="2 3 4 5")
+    add_out(parser, "catalog")
+    add_work(parser)
+
+
 def add_settle_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `settle`."""
     add_masses(parser)
@@ -41,7 +58,8 @@ def add_settle_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_verify_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `verify`."""
-    add_masses(parser)
+    text = "numbers of masses, or families of networks such as circuits-4"
+    parser.add_argument("masses", type=size_or_family, nargs="+", metavar="N|FAMILY", help=text)
     _add_read_folder(parser, shipped_folder(), "the shipped one")
     add_work(parser)
 
@@ -92,6 +110,35 @@ def sizes(options: argparse.Namespace) -> int:
     return 0
 
 
+def families(options: argparse.Namespace) -> int:
+    """Compute what is shipped of families of networks."""
+    from disting.catalogs.next_files import write
+
+    chosen = [family_of(name) for name in options.families or SHIPPED]
+    with engine_for(options) as (engine, pool, progress):
+        for family in chosen:
+            text = build_networks(family, engine, executor=pool, progress=progress)
+            print(write(text, options.out))
+    return 0
+
+
+def menus(options: argparse.Namespace) -> int:
+    """Compute what to measure next for all groups of whole families."""
+    from disting.catalogs.damper_files import damper_catalog
+    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
+    from disting.catalogs.next_files import WITH_DAMPERS, build_next, write
+
+    with engine_for(options) as (engine, pool, progress):
+        for n, damped in product(options.masses or NEXT_SIZES, (False, True)):
+            stored: list[Catalog | DamperFamily] = [catalog(n, damped=damped)]
+            if n in WITH_DAMPERS:
+                stored.append(damper_catalog(n, damped=damped))
+            for one in stored:
+                text = build_next(one, engine, executor=pool, progress=progress)
+                print(write(text, options.out))
+    return 0
+
+
 def settle(options: argparse.Namespace) -> int:
     """Decide pairs of classes with dampers to the ground that are open, of the sizes that have
     files.
@@ -115,11 +162,19 @@ def verify(options: argparse.Namespace) -> int:
     from disting.catalogs.sizes_build import verify_sizes
 
     wrong: list[str] = []
+    sizes = [n for n in options.masses if isinstance(n, int)]
+    networks = [name for name in options.masses if isinstance(name, str)]
     with engine_for(options) as (_, pool, progress):
-        for n, damped in product(options.masses, (False, True)):
+        for name in networks:
+            family = family_of(name)
+            found = verify_networks(
+                family, options.catalog, Engine(), executor=pool, progress=progress
+            )
+            wrong += _told(name, found)
+        for n, damped in product(sizes, (False, True)):
             found = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
             wrong += _told(f"{n} masses, {_kind(damped)}", found)
-        for damped in (False, True) if set(CATALOGUED) <= set(options.masses) else ():
+        for damped in (False, True) if set(CATALOGUED) <= set(sizes) else ():
             found = verify_sizes(
                 damped=damped,
                 folder=options.catalog,

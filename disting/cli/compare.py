@@ -19,6 +19,7 @@ from disting.cli.arguments import (
     add_deciding,
     add_json,
     add_no_cache,
+    add_notation,
     add_quantity,
 )
 from disting.cli.compare_words import both_ways, every_way, explained, in_letters
@@ -28,12 +29,14 @@ from disting.cli.relations import query
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import named
+from disting.general.any_model import of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor
 from disting.model.drawing import text_drawing
-from disting.model.names import chains_named, name_of, read
+from disting.model.names import NAME, chains_named, damping_option, name_of, read
 from disting.model.question import Settings
+from disting.network.notation import network_of, notations_of
 from disting.verdict.comparison import compare, names_of
 from disting.verdict.query import Query, View
 from disting.verdict.result import Verdict
@@ -41,7 +44,8 @@ from disting.verdict.result import Verdict
 FILE = ".json:"  # between a file and the name of a model in it
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
-    " ground; +lag; +delay; or file.json:name, a model of your own"
+    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
+    " file.json:name, a model of your own"
 )
 
 
@@ -57,6 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_bounds(parser, text)
     add_also(parser)
     add_json(parser, "the verdict with all that 'disting verify' needs", alone=True)
+    add_notation(parser)
     add_no_cache(parser)
 
 
@@ -109,15 +114,17 @@ def file_of(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]
 
 
 def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
-    """Two chains, or models of files, named file.json:name, or one and a chain."""
-    if not any(FILE in text for text in texts):
+    """Two of what can be named: a chain, a network in a notation, a model file.json:name."""
+    networks = {text: _network(text, options) for text in texts if FILE not in text}
+    named = [text for text, network in networks.items() if network is None]
+    if len(set(texts)) == len(set(named)):
         if options.also and (options.prove or getattr(options, "bound", ())):
             raise InputError(
                 "with --also the verdict is on several experiments: leave --prove and --bound away"
             )
         return [*chains_named(texts, damped=options.damped, sensor=options.quantity)]
     if options.also:
-        raise InputError("--also belongs to chains: a model of a file has no masses to name")
+        raise InputError("--also belongs to numbered chains: leave it away")
     for name in ("bound", "prove"):
         if getattr(options, name, ()):
             raise InputError(f"--{name} belongs to numbered chains: leave it away")
@@ -125,11 +132,32 @@ def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | An
         from disting.cli.verdicts import refuse_chain_options
 
         refuse_chain_options(options)
-    rest = [text for text in texts if FILE not in text]
-    named = iter(chains_named(rest, damped=options.damped, sensor=options.quantity))
+    if not named and options.damped is not None:
+        raise InputError(
+            f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
+            " dampers itself"
+        )
+    chains = dict(
+        zip(
+            named,
+            chains_named(named, damped=options.damped, sensor=options.quantity),
+            strict=True,
+        )
+    )
     lists = {path: read_models(path) for path, _ in map(_parted, texts) if path}
     keep_apart(model.name for found in lists.values() for model in found)
-    return [lists[path][name] if path else next(named) for path, name in map(_parted, texts)]
+    return [
+        lists[path][name] if path else networks[text] or chains[text]
+        for text, (path, name) in zip(texts, map(_parted, texts), strict=True)
+    ]
+
+
+def _network(text: str, options: argparse.Namespace) -> AnyModel | None:
+    """The model of a network; None of the name of a chain."""
+    if not notations_of(text) and (not options.notation or NAME.fullmatch(text)):
+        return None
+    quantity = Sensor(options.quantity)
+    return of_network(network_of(text, options.notation, quantity=quantity))
 
 
 def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:

@@ -12,6 +12,7 @@ from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.question import Domain
+from disting.network.element import Sort
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict.comparison import names_of
 from disting.verdict.everywhere import Answer, Everywhere
@@ -168,8 +169,11 @@ def in_letters(side: Chain | AnyModel) -> str:
         return text_drawing(chain)
     entries = side.entries if isinstance(side, MatrixModel) else (side,)
     parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
+    circuit = side.network is not None and side.network.sort is Sort.CIRCUIT
+    letter = "Z" if circuit else "G"  # an impedance is called so
     if sum(map(len, parts)) <= MOST_TERMS:
-        return str(side)
+        return letter + str(side).removeprefix("G")
     if isinstance(side, MatrixModel):
-        return "G(s) with {} outputs and {} inputs".format(*side.shape)
-    return "G(s) of degree {} over {}".format(*side.degrees)
+        return "{}(s) with {} outputs and {} inputs, in --json".format(letter, *side.shape)
+    root = ", in powers of sqrt(s)" * side.halves
+    return "{}(s) of degree {} over {}{}, in --json".format(letter, *side.degrees, root)

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from disting.cli.arguments import add_damped, add_json
+from disting.cli.arguments import add_damped, add_json, add_no_cache, add_notation
 from disting.cli.output import emitted
 from disting.equivalence import (
     NONE,
@@ -28,6 +28,7 @@ from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.kinds import EXAMPLES
 from disting.model.names import chains_named, name_of
+from disting.network.notation import notations_of
 
 ABREAST = 3  # parameter sets beside each other
 NONE_HERE = "No experiment with this force and sensor"
@@ -47,12 +48,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to"
         " the ground; +lag; +delay"
     )
-    parser.add_argument("model", metavar="N:I", help=named)
+    named += "; or a network such as 'R0-p(R1,C1)'"
+    parser.add_argument("model", metavar="N:I|NETWORK", help=named)
     others = (
         "another structure, or all of M masses (M+b1: all with this damper to the ground, M+b*:"
-        " with any set of them)"
+        " with any set of them); of a network another network"
     )
-    parser.add_argument("--to", required=True, metavar="M:J|M", help=others)
+    parser.add_argument("--to", default="", metavar="M:J|M|NETWORK", help=others)
+    text = "of a network: all networks of this family, such as circuits-5"
+    parser.add_argument("--family", default="", metavar="FAMILY", help=text)
     text = "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly"
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
@@ -75,10 +79,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--sympy", action="store_true", help="print formulas as Python source for SymPy"
     )
     add_damped(parser)
+    add_notation(parser)
+    add_no_cache(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the equivalents of a model, or formulas for them."""
+    if not (options.to or options.family):
+        raise InputError("say among which: --to 3:11, --to 3, or of a network --family circuits-5")
+    if options.notation or notations_of(options.model):
+        from disting.cli.network_equivalents import run as run_networks
+
+        return run_networks(options)
+    if options.family or not options.to:
+        raise InputError(
+            "--family belongs to networks; of a numbered chain say --to 3 or --to 3:11"
+        )
     if options.formulas or options.latex or options.sympy:
         if options.also:
             raise InputError("--also asks for values, not for formulas: leave one of them away")

@@ -25,7 +25,7 @@ from disting.fit.results.loop import controller_named
 from disting.fit.search.candidates import chosen_ports, whole_family
 from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.search.swarm import by_swarm
-from disting.fit.select import Selection, select
+from disting.fit.select import MOST_LINES, Selection, select
 from disting.fit.selection_json import selection_to_dict
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -41,6 +41,10 @@ FEW = 30  # candidates that are fitted sooner than workers start
 
 def run(options: argparse.Namespace) -> int:
     """Fit, select, print and write."""
+    if options.models:
+        from disting.cli.fit_networks import run as run_networks
+
+        return run_networks(options)
     controller = controller_named(options.controller) if options.controller else None
     given = data(options)
     train, test = given.train, given.test
@@ -66,6 +70,7 @@ def run(options: argparse.Namespace) -> int:
             fixed=dict(options.fix),
             seed=options.seed,
             prune=not options.no_prune,
+            most_lines=options.lines or MOST_LINES,
             controller=controller,
             method=by_swarm if options.optimiser == "swarm" else None,
             engine=engine,
@@ -83,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
         _write(found, train, test, options)
         if options.json != "-":
             print("\n".join(_onward(found, options.out)))
-    return 0
+    return 0 if found.explanation.explains else 1
 
 
 def _onward(found: Selection, out: Path) -> Iterator[str]:

@@ -12,13 +12,13 @@ from disting.errors import InputError, shown
 from disting.experiments.changes import GENERIC, read_changes
 from disting.fit.search.joint import Further
 from disting.fit.search.setup import Setup
+from disting.fit.select import MOST_LINES
 from disting.measurement import FrequencyResponse, beginnings, in_si, mean_of, read
 from disting.measurement.scaling import scaled, with_constant
 from disting.model.kinds import CHANGES
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
 OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
-MOST = 10_000  # lines of a response that are fitted, unless --lines says how many
 OF_READER = ("frequency", "phase", "magnitude")  # units that a reader takes
 EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
 CHANGED = {kind.name: kind for kind in CHANGES}
@@ -48,7 +48,7 @@ def data(options: argparse.Namespace) -> Data:
     else:
         found = _from_files(options)
     found = _each(found, lambda one: one.masked(*options.band)) if options.band else found
-    found = _each(found, lambda one: one.thinned(options.lines or MOST))
+    found = _each(found, lambda one: one.thinned(options.lines or MOST_LINES))
     both = [(found.train, found.test), *((f.measured, f.test) for f in found.further)]
     for response in (one for pair in both for one in pair if one is not None):
         for note in (*response.notes, *response.suspicions):

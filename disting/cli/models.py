@@ -4,22 +4,19 @@ import argparse
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
-from pathlib import Path
 
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.arguments import add_damped, add_work, is_damped, size_or_file
+from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_or_list
 from disting.cli.effort import Work, announced
-from disting.cli.plain import keep_apart
-from disting.cli.verdicts import refuse_chain_options
+from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain, named
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.general.any_model import unnamed
 from disting.general.identifiability import PARAMETERS
-from disting.general.model_files import read_models
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
@@ -35,8 +32,8 @@ COLUMNS = ("model", "gap", "force", "sensor", "n/m", "free", "par", "rank", "set
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    text = "number of masses, or a file of models: what can be determined of each"
-    parser.add_argument("masses", type=size_or_file, metavar="N|FILE.json", help=text)
+    text = f"number of masses; or a file of models, or {LISTS}: what can be determined of each"
+    parser.add_argument("masses", type=size_or_list, metavar="N|FILE.json|FAMILY", help=text)
     parser.add_argument(
         "--identifiability",
         action="store_true",
@@ -55,8 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the models of one size, or of a file."""
-    if isinstance(options.masses, Path):
-        return _of_file(options.masses, options)
+    if isinstance(options.masses, Listed):
+        return _of_list(options.masses, options)
     if options.masses > MOST_LISTED:
         raise InputError(f"models of at most {MOST_LISTED} masses are listed")
     family = Family(options.masses, is_damped(options))
@@ -97,13 +94,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _of_file(path: Path, options: argparse.Namespace) -> int:
-    """Tell what can be determined of the models of a file."""
+def _of_list(source: Listed, options: argparse.Namespace) -> int:
+    """Tell what can be determined of the models of a list."""
     if options.also:
-        raise InputError("--also belongs to chains: a model of a file has no masses to name")
+        raise InputError("--also belongs to chains: a model of a list has no masses to name")
     refuse_chain_options(options)
-    found = read_models(path)
-    keep_apart(model.name for model in found)
+    found = listed_models(source)
     asked = [(unnamed(model),) for model in found]
     with engine_for(options) as (engine, pool, progress):
         engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)

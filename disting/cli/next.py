@@ -7,39 +7,50 @@ import json
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 
-from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs import catalog
 from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-from disting.catalogs.next_files import WITH_DAMPERS, build_next, next_catalog, write
-from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
+from disting.catalogs.next_files import WITH_DAMPERS, next_catalog
+from disting.cli.arguments import (
+    add_damped,
+    add_notation,
+    add_work,
+    is_damped,
+)
 from disting.cli.output import emitted, written_file
 from disting.cli.workers import engine_for
+from disting.conditions.side import AnySide
 from disting.errors import InputError, listed, printable
 from disting.experiments.menu import Costs, Item
+from disting.general.any_model import of_network
 from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import chains_named, name_of, read
+from disting.network.element import Sort
+from disting.network.network import Network
+from disting.network.notation import network_of, notations_of
 from disting.verdict.engine import Engine
-from disting.verdict.further import Further, further
+from disting.verdict.further import Further, further, places_of
 from disting.verdict.further_words import (
     CSV_COLUMNS,
+    AnyFurther,
     anywhere,
     conclusion,
     in_words,
     rows,
     to_dict,
 )
+from disting.verdict.network_placement import further_networks
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
 
 Named = tuple[str, Chain]
 DOMAIN = (
-    "over complex parameters: what is told apart there is told apart over positive ones too; masses"
-    " of another structure can be any, as it is not known which is which"
+    "over complex parameters: what is told apart there is told apart over positive ones too; the"
+    " {place} of another structure can be any, as it is not known which is which"
 )
 
 AGAIN = "with what was measured next, NEW: fit both together"
@@ -51,9 +62,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = (
         "structures (masses:number, as 'disting models' lists them; +b2, +lag, +delay as for"
         " 'compare') that one measurement cannot tell apart; of one, all those that cannot be told"
-        " from it; or a file of 'disting fit --json': the structures that the fit left"
+        " from it; or networks, such as \"R0-p(R1,C1)\"; or a file of 'disting fit --json': the"
+        " structures that the fit left"
     )
-    parser.add_argument("models", nargs="+", metavar="N:I|FIT.json", help=text)
+    parser.add_argument("models", nargs="+", metavar="N:I|NETWORK|FIT.json", help=text)
+    add_notation(parser)
     defaults = ",".join(f"{name}={cost:g}" for name, cost in COSTS.items())
     more = " and ".join(price for price in PRICES if price not in COSTS)
     text = (
@@ -79,6 +92,8 @@ def run(options: argparse.Namespace) -> int:
     costs = Costs.read(options.cost)
     if any(name.lower().endswith(".json") for name in options.models):
         return _from_fit(options, costs)
+    if options.notation or any(map(notations_of, options.models)):
+        return _networks(options, costs)
     with engine_for(options) as (engine, pool, progress):
         group = _group(options, engine)
         if isinstance(group, str):
@@ -87,12 +102,36 @@ def run(options: argparse.Namespace) -> int:
         found = _shipped(group, is_damped(options), costs) or further(
             group, engine, costs=costs, executor=pool, progress=progress
         )
+    return _written(options, found)
+
+
+def _networks(options: argparse.Namespace, costs: Costs) -> int:
+    """Of networks in a notation."""
+    networks = [network_of(text, options.notation) for text in dict.fromkeys(options.models)]
+    if len(networks) < 2:
+        raise InputError(
+            f"{listed(options.models)} is one network: name all that are to be told apart;"
+            " 'disting equivalents .. --family ..' finds those that behave alike"
+        )
+    names = [network.name for network in networks]
+    with engine_for(options) as (engine, pool, progress):
+        sides = engine.general_subjects(list(map(of_network, networks)), names)
+        apart = _told_apart(sides, engine)
+        if apart:
+            print(apart)
+            return 0
+        group = list(zip(names, networks, strict=True))
+        found = further_networks(group, engine, costs=costs, executor=pool, progress=progress)
+    return _written(options, found)
+
+
+def _written(options: argparse.Namespace, found: AnyFurther) -> int:
     if options.csv:
         emitted(options.csv, _table([CSV_COLUMNS, *rows(found)]))
     if options.json:
         emitted(options.json, json.dumps(to_dict(found), indent=1) + "\n")
     if "-" not in (options.csv, options.json):
-        print(told(found))
+        print(printable(told(found)))
     return 0
 
 
@@ -116,9 +155,13 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
         plain = left_to_dict(found) | {"first": first_sentence(found), "again": again(found)}
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
         emitted(options.json, text + "\n")
-    if "-" not in (options.csv, options.json):
+    if "-" in (options.csv, options.json):
+        return 0
+    if len(found.left) == 1:
+        print(printable(first_sentence(found)))
+    else:
         menus = (line for group in found.groups for line in ("", *_told(group, brief=True)))
-        domain = ["", DOMAIN, BRIEF] if found.groups else []
+        domain = ["", DOMAIN.format(place="mass"), BRIEF] if found.groups else []
         first = [first_sentence(found), ""] if found.seen else []
         last = ["", AGAIN, f"  {again(found)}"] if again(found) else []
         lines = [
@@ -134,19 +177,21 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     return 0
 
 
-def told(found: Further) -> str:
+def told(found: AnyFurther) -> str:
     """The menu for each structure, cheapest first, with what its words mean."""
-    return "\n".join(_told(found, ["", LEGEND, DOMAIN]))
+    legend = [LEGEND] if isinstance(found.structures[0], Chain) else []
+    return "\n".join(_told(found, ["", *legend, DOMAIN.format(place=found.place)]))
 
 
-def _told(found: Further, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
+def _told(found: AnyFurther, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
     """The menu of each structure; `brief`: only where something on it is surely enough."""
     width = max(map(len, found.names))
+    structures: tuple[Chain | Network, ...] = found.structures
     drawings = [
-        f"  {name:{width}}  {text_drawing(chain)}"
-        for name, chain in zip(found.names, found.chains, strict=True)
+        f"  {name:{width}}  {_drawn(structure)}".rstrip()
+        for name, structure in zip(found.names, structures, strict=True)
     ]
-    head = f"{len(found.names)} structures that the present force and sensor cannot tell apart:"
+    head = f"{len(found.names)} structures that the present measurement cannot tell apart:"
     enough = anywhere(found)
     told = [f"what tells all of them apart: {enough}"] if enough else []
     lines = [head, *drawings, *words, *told]
@@ -154,31 +199,25 @@ def _told(found: Further, words: Sequence[str] = (), *, brief: bool = False) -> 
         lines += ["", f"if it is {name}:"]
         for kind in found.kinds if found.least(structure) or not brief else ():
             cost = f"{kind.name:8} cost {found.costs.cost(kind):g}"
-            for at in range(1, found.n_masses + 1):
-                lines.append(f"  {cost}  mass {at}: {in_words(found, structure, Item(kind, at))}")
+            for at in found.places(structure):
+                known = in_words(found, structure, Item(kind, at))
+                lines.append(f"  {cost}  {found.place} {at}: {known}")
         lines.append(f"  {conclusion(found, structure)}")
     return lines
 
 
-def add_build_arguments(parser: argparse.ArgumentParser) -> None:
-    """Arguments of `disting catalog next`."""
-    add_masses(parser, default="2 3 4 5")
-    add_out(parser, "catalog")
-    add_work(parser)
-
-
-def build(options: argparse.Namespace) -> int:
-    """Compute what to measure next for all groups of whole families, and write the files."""
-    with engine_for(options) as (engine, pool, progress):
-        for n in options.masses or NEXT_SIZES:
-            for damped in (False, True):
-                stored: list[Catalog | DamperFamily] = [catalog(n, damped=damped)]
-                if n in WITH_DAMPERS:
-                    stored.append(damper_catalog(n, damped=damped))
-                for one in stored:
-                    text = build_next(one, engine, executor=pool, progress=progress)
-                    print(write(text, options.out))
-    return 0
+def _drawn(structure: Chain | Network) -> str:
+    """A chain as a drawing; of a circuit what meets in each node."""
+    if isinstance(structure, Chain):
+        return text_drawing(structure)
+    if structure.sort is not Sort.CIRCUIT:
+        return ""
+    meeting = {
+        i: ", ".join(e.value for e in structure.elements if i in e.nodes)
+        for i in (*places_of(structure), structure.reference)
+    }
+    nodes = "; ".join(f"{i}: {values}" for i, values in meeting.items())
+    return f"(what meets in its nodes, the reference last: {nodes})"
 
 
 def _table(lines: Iterable[Sequence[str]]) -> str:
@@ -187,7 +226,7 @@ def _table(lines: Iterable[Sequence[str]]) -> str:
     return text.getvalue()
 
 
-def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further | None:
+def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further[Chain] | None:
     """The look-up of a shipped catalogue, where all structures are of it."""
     n = group[0][1].n_masses
     if any(chain.lag or chain.dead_time for _, chain in group):
@@ -214,14 +253,20 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
     if len({chain.n_masses for chain in chains}) > 1:
         raise InputError("the structures have different numbers of masses: name some of one size")
     named = list(zip(names, chains, strict=True))
-    for (left, a), (right, b) in combinations(named, 2):
-        sides = engine.subject(left, a), engine.subject(right, b)
-        verdict = engine.verdict(*sides, Query(View.EXACT, inclusion=False))
+    return _told_apart([engine.subject(name, chain) for name, chain in named], engine) or named
+
+
+def _told_apart(sides: Sequence[AnySide], engine: Engine) -> str:
+    """The sentence on two that are told apart as they are measured now, "" where none are; raises
+    InputError where that is not known.
+    """
+    for left, right in combinations(sides, 2):
+        verdict = engine.verdict(left, right, Query(View.EXACT, inclusion=False))
         if verdict.relation is Relation.DISTINGUISHABLE:
-            return f"{left} and {right} are told apart by the present force and sensor already"
+            return f"{left.name} and {right.name} are told apart by the present measurement already"
         if verdict.relation is Relation.UNDECIDED:
-            raise InputError(f"{left} and {right} are undecided as they are measured now")
-    return named
+            raise InputError(f"{left.name} and {right.name} are undecided as they are measured now")
+    return ""
 
 
 def _all_like(name: str, damped: bool) -> list[Named] | str:

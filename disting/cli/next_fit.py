@@ -35,11 +35,6 @@ def onward(
             f"none of the structures of {source} explains its data, so the fit leaves no set: name"
             " the structures to tell apart"
         )
-    if len(named.left) < 2:
-        raise InputError(
-            f"{source} leaves {named.left[0].name} alone: nothing to tell apart; what would exclude"
-            " a structure that you name is told by 'disting plan'"
-        )
     _warn(source, named)
     known = stood(named.left, engine, progress)
     groups = []

@@ -93,11 +93,18 @@ CATALOG = Group(
             "add_build_arguments",
         ),
         Command(
+            "families",
+            "compute the verdicts on families of networks",
+            "catalogs",
+            "families",
+            "add_families_arguments",
+        ),
+        Command(
             "next",
             "compute what to measure next for all groups that one measurement cannot tell apart",
-            "next",
-            "build",
-            "add_build_arguments",
+            "catalogs",
+            "menus",
+            "add_menus_arguments",
         ),
         Command(
             "sizes",

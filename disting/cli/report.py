@@ -9,12 +9,13 @@ from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import SHIPPED_SIZES, name_of
+from disting.catalogs.network_files import recall
 from disting.catalogs.sizes_files import sizes_catalog
-from disting.cli.arguments import add_out, add_work, size_or_file
+from disting.cli.arguments import Listed, add_out, add_work, size_or_list
 from disting.cli.effort import announced, pairs_by_size, pairs_work
 from disting.cli.parser import parser
 from disting.cli.relations import relations_in_words
-from disting.cli.verdicts import list_of
+from disting.cli.verdicts import LISTS, list_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.general.model_files import ModelList
@@ -24,8 +25,9 @@ from disting.verdict.query import View
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    text = "numbers of masses, or files of models"
-    parser.add_argument("masses", type=size_or_file, nargs="*", metavar="N|FILE.json", help=text)
+    text = f"numbers of masses, files of models, or {LISTS}"
+    metavar = "N|FILE.json|FAMILY"
+    parser.add_argument("masses", type=size_or_list, nargs="*", metavar=metavar, help=text)
     text = (
         "the paper's figures and tables from our own data, and its claims one by one, into the"
         " folder paper below DIR"
@@ -47,11 +49,11 @@ def run(options: argparse.Namespace) -> int:
 
     if not (options.masses or options.paper):
         raise InputError("name at least one number of masses, a file of models, or --paper")
-    files = [x for x in options.masses if isinstance(x, Path)]
-    options.masses = [x for x in options.masses if not isinstance(x, Path)]
-    lists = [(page_name(path), path, list_of(path)) for path in files]
-    for _, path, found in lists:
-        refuse_matrices(found, str(path))
+    files = [x for x in options.masses if isinstance(x, Listed)]
+    options.masses = [x for x in options.masses if not isinstance(x, Listed)]
+    lists = [(page_name(Path(file)), file, list_of(file)) for file in files]
+    for _, file, found in lists:
+        refuse_matrices(found, str(file))
     if files and not options.masses and options.damping != "both":
         raise InputError(f"--{options.damping} belongs to numbered chains: leave it away")
     names = [name for name, *_ in lists]
@@ -61,16 +63,19 @@ def run(options: argparse.Namespace) -> int:
         _paper(options)
     if options.masses:
         _catalogues(options)
-    for name, path, found in lists:
-        _model_list(options, found, found.title or path.stem, name)
+    for name, file, found in lists:
+        _model_list(options, found, file, name)
     return 0
 
 
-def _model_list(options: argparse.Namespace, found: ModelList, title: str, name: str) -> None:
-    """Write the page of a file of models."""
+def _model_list(options: argparse.Namespace, found: ModelList, file: Listed, name: str) -> None:
+    """Write the page of a file of models, or of a family of networks."""
     from disting.report.model_list import judged, write_model_list
 
+    title = found.title or Path(file).stem
     with engine_for(options) as (engine, pool, progress):
+        if isinstance(file, str):
+            recall(file, engine)
         decided = judged(found, engine, executor=pool, progress=progress)
     paths = write_model_list(decided, title, name, options.out)
     relations = relations_in_words(v.relation for *_, v in decided.pairs(View.POSITIVE))

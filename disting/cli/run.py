@@ -85,6 +85,8 @@ def _kept(options: Namespace) -> str:
 def _parsed(arguments: Sequence[str] | None) -> Namespace:
     try:
         words = sys.argv[1:] if arguments is None else list(arguments)
+        if words[:1] in ([], ["help"]):  # as people try first
+            words = [*words[1:], "--help"]
         return parser(whole=False).parse_args(words, Namespace(words=words))
     except SystemExit:  # help was asked for, and must have been written
         sys.stdout.flush()

@@ -6,15 +6,17 @@ from itertools import combinations
 from pathlib import Path
 
 from disting.catalogs.export import decisions_csv, decisions_json
+from disting.catalogs.network_files import recall
 from disting.catalogs.sizes import combined_family
 from disting.cli.arguments import (
+    Listed,
     add_damped,
     add_deciding,
     add_json,
     add_quantity,
     add_work,
     is_damped,
-    sizes_or_file,
+    sizes_or_list,
     whole,
 )
 from disting.cli.effort import announced, pairs_by_size, pairs_work
@@ -23,10 +25,13 @@ from disting.cli.plain import keep_apart
 from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
 from disting.cli.workers import engine_for
 from disting.conditions.side import AnySide
-from disting.errors import InputError
+from disting.errors import InputError, in_row
+from disting.general.any_model import of_network
 from disting.general.model_files import ModelList, read_models
 from disting.model.chain import Sensor
 from disting.model.names import damping_option
+from disting.model.presentation import plural
+from disting.network.families import family_of
 from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict.comparison import refuse_ports
 from disting.verdict.decisions import Decisions
@@ -36,15 +41,16 @@ from disting.verdict.proof import prove_all
 from disting.verdict.result import Relation
 
 MOST_TOLD = 20  # pairs that are told one by one
+LISTS = "a family of networks such as machines-3"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     parser.add_argument(
         "masses",
-        type=sizes_or_file,
-        metavar="N|N-M|FILE.json",
-        help="number of masses, or several sizes such as 1-4 in one matrix, or a file of models",
+        type=sizes_or_list,
+        metavar="N|N-M|FILE.json|FAMILY",
+        help=f"number of masses, or several sizes such as 1-4 in one matrix, or a file, or {LISTS}",
     )
     add_damped(parser)
     add_quantity(parser)
@@ -66,17 +72,17 @@ def run(options: argparse.Namespace) -> int:
             "one of --csv and --json can be standard output, not both: name a file for the other"
         )
     asked = query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
-    file = options.masses if isinstance(options.masses, Path) else None
+    file = options.masses if isinstance(options.masses, Listed) else None
     if file:
         refuse_chain_options(options, "prove")
     models = list_of(file) if file else None
     if not file:
         announced(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
     with engine_for(options) as (engine, pool, progress):
+        if isinstance(file, str):
+            recall(file, engine)
         subjects: Sequence[AnySide] = (
-            [engine.general_subject(model.name, model) for model in models]
-            if models
-            else _of_sizes(options, engine)
+            engine.general_subjects(models.models) if models else _of_sizes(options, engine)
         )
         decided = engine.decisions(subjects, asked, executor=pool, progress=progress)
         if options.prove:
@@ -107,12 +113,22 @@ def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
             raise InputError(f"--{name} belongs to numbered chains: leave it away")
 
 
-def list_of(path: Path) -> ModelList:
-    """The models of a file, two at least."""
-    found = read_models(path)
+def listed_models(source: Listed) -> ModelList:
+    """The models of a file, or of a family of networks."""
+    if isinstance(source, Path):
+        found = read_models(source)
+    else:
+        family = family_of(source)
+        found = ModelList(tuple(map(of_network, family.networks)), family.title)
     keep_apart(model.name for model in found)
+    return found
+
+
+def list_of(source: Listed) -> ModelList:
+    """The same, two models at least."""
+    found = listed_models(source)
     if len(found) < 2:
-        raise InputError(f"{path} has one model: there is nothing to compare; add another one")
+        raise InputError(f"{source} has one model: there is nothing to compare; add another one")
     refuse_ports(found.models)
     return found
 
@@ -150,14 +166,19 @@ def _summary(decided: Decisions) -> str:
 
 def _groups(decided: Decisions) -> Iterator[str]:
     """Which models are the same, which sometimes, and what is open, with its reason."""
-    names = [s.name for s in decided.subjects]
-    for members in decided.classes():
-        yield f"these are the same: {', '.join(names[i] for i in members)}"
+    names, classes = [s.name for s in decided.subjects], decided.classes()
+    for members in classes:
+        yield f"these are the same: {in_row(names[i] for i in members)}"
+    together = {pair for members in classes for pair in combinations(members, 2)}
+    through = sum(decided.relation(i, j) is Relation.UNDECIDED for i, j in together)
+    if through:
+        what = plural(through, "undecided pair")
+        yield f"{what} among these: the same, as both are the same as a third one"
     for relation in (Relation.SOMETIMES, Relation.UNDECIDED):
         found = [
             (i, j)
             for i, j in combinations(range(len(names)), 2)
-            if decided.relation(i, j) is relation
+            if decided.relation(i, j) is relation and (i, j) not in together
         ]
         yield from (decided.verdict(i, j).sentence for i, j in found[:MOST_TOLD])
         if len(found) > MOST_TOLD:

@@ -8,6 +8,7 @@ from disting.cli.arguments import (
     add_damped,
     add_deciding,
     add_no_cache,
+    add_notation,
     add_quantity,
 )
 from disting.cli.compare import file_of
@@ -28,6 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_quantity(parser)
     add_deciding(parser)
     add_also(parser)
+    add_notation(parser)
     add_no_cache(parser)
 
 

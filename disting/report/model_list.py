@@ -98,7 +98,7 @@ def judged(
 ) -> JudgedList:
     """Decide all pairs over positive and over complex parameters, and what is identifiable."""
     models = tuple(model for model in found if isinstance(model, Model))
-    subjects = [engine.general_subject(model.name, model) for model in models]
+    subjects = engine.general_subjects(models)
     decided = {
         view: engine.decisions(
             subjects, Query(view, inclusion=False), executor=executor, progress=progress

@@ -86,7 +86,7 @@ def sketches_for_pairs(found: NextCatalog | None) -> dict[str, list[Sketch]]:
             assert found is not None
             pair = named(found, (low, high))
             told[f"{low}-{high}"] = [
-                sketch(number, pair.chains[k], option.items)
+                sketch(number, pair.structures[k], option.items)
                 for k, number in enumerate((low, high))
                 for option in pair.least(k) or filter(None, [pair.best(k)])
             ]
@@ -98,11 +98,11 @@ def menu_of(found: NextCatalog | None) -> Iterator[tuple[Chain, Item]]:
     for members in found.groups if found else ():
         assert found is not None
         whole = named(found, members)
-        for k, chain in enumerate(whole.chains):
+        for k, chain in enumerate(whole.structures):
             yield from ((chain, item) for item in whole.items(k))
 
 
-def named(found: NextCatalog, members: tuple[int, ...]) -> Further:
+def named(found: NextCatalog, members: tuple[int, ...]) -> Further[Chain]:
     """What to measure next for structures of one group, called as pages call them."""
     whole = found.further(members)
     assert whole is not None  # members of one group
@@ -118,9 +118,9 @@ def _sentences(found: NextCatalog) -> Iterator[tuple[str, str]]:
             yield f"{low}-{high}", f"{told[0].upper()}{told[1:]}." if told else " ".join(each)
 
 
-def advice_of(found: Further, structure: int, members: tuple[int, ...]) -> Advice:
+def advice_of(found: Further[Chain], structure: int, members: tuple[int, ...]) -> Advice:
     """For a structure of a group, counted from 0; `members`: the numbers of all."""
-    masses = range(1, found.n_masses + 1)
+    masses = found.places(structure)
     rows = tuple(
         (
             kind.title,
@@ -132,7 +132,7 @@ def advice_of(found: Further, structure: int, members: tuple[int, ...]) -> Advic
     others = tuple(m for m in members if m != members[structure])
     return Advice(
         members[structure],
-        found.chains[structure],
+        found.structures[structure],
         tuple(found.items(structure)),
         others,
         rows,
@@ -146,9 +146,9 @@ def drawn(advice: Iterable[Advice]) -> Iterator[tuple[Chain, Item]]:
     return ((one.chain, item) for one in advice for item in one.items)
 
 
-def _cell(found: Further, structure: int, members: tuple[int, ...], item: Item) -> Cell:
+def _cell(found: Further[Chain], structure: int, members: tuple[int, ...], item: Item) -> Cell:
     worth = item in found.items(structure)
     sure = worth and not left_over(found, structure, item)
     text = "surely" if sure else in_words(found, structure, item)
-    chain = found.chains[structure]
+    chain = found.structures[structure]
     return Cell(sure, text, sketch(members[structure], chain, (item,)) if worth else None)

@@ -22,12 +22,15 @@ class Format(StrEnum):
     VERDICTS = "disting verdicts 1"
     CATALOGUE = "disting catalogue 1"
     EQUIVALENTS = "disting equivalents 1"
+    NETWORK_EQUIVALENTS = "disting equivalents of a network 1"
     NEXT = "disting next 1"
     NEXT_OF_FIT = "disting next of a fit 1"
     FIT = "disting fit 1"
+    NETWORK_FIT = "disting fit of networks 1"
     PLAN = "disting plan 1"
     PLANS_OF_FIT = "disting plans of a fit 1"
     MODELS = "disting models 1"
+    GATE = "disting gate 1"
 
     @property
     def short(self) -> str:

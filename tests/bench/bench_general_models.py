@@ -18,8 +18,8 @@ engine, query = Engine(), Query(View("{view}"), inclusion=False)
 family = [(f"A{{i}}", chain) for i, chain in enumerate(Family(3, damped=True), 1)]
 start = time.process_time()
 if {general}:
-    models = [(name, Model.from_state_space(*plain_state_space(c))) for name, c in family]
-    subjects = [engine.general_subject(*named) for named in models]
+    models = [Model.from_state_space(*plain_state_space(c), name=name) for name, c in family]
+    subjects = engine.general_subjects(models)
 else:
     subjects = [engine.subject(*named) for named in family]
 found = engine.decisions(subjects, query)

@@ -13,7 +13,6 @@ CHAIN = ("equivalents", "3:1", "--undamped", "--to", "3:11", "--set")
 REPORTS = Path(__file__).parents[2] / "reports"
 DEMO = ("fit", "--demo", "--masses", "1")
 WORDS = [
-    ((), "required"),
     (("compare", "3:12", "3:1"), "models 1 to 11"),
     (("compare", "3", "3:1"), "masses:number"),
     (("compare", "999:1", "3:1"), "at most 40 masses"),

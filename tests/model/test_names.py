@@ -131,7 +131,7 @@ def test_what_is_built_means_what_is_named():
     assert chains_named(["3:4"]) == [Family(3)[4]] == [Chain(3, 0, 0, 2, 0, 2)]
     assert Chain(3).damped and Family(3).damped and catalog(3).damped
     assert damper_catalog(3).family.damped and sizes_catalog().damped
-    assert next_catalog(3).further((1, 11)).chains[0].damped
+    assert next_catalog(3).further((1, 11)).structures[0].damped
     assert {chain.damped for _, chain in combined_family((1, 2))} == {True}
     assert compare("3:1", "3:4").relation is compare(Family(3)[1], Family(3)[4]).relation
 

@@ -67,7 +67,7 @@ def test_what_is_judged_is_what_compare_says(vessels) -> None:  # type: ignore[n
     engine, models = Engine(), vessels.family
     for view in (View.POSITIVE, View.EXACT):
         for i, j in combinations(range(len(models)), 2):
-            sides = [engine.general_subject(m.name, m) for m in (models[i], models[j])]
+            sides = engine.general_subjects((models[i], models[j]))
             alone = engine.verdict(*sides, Query(view, inclusion=False))
             found = vessels.verdict(i + 1, j + 1, view)
             assert (found.relation, found.sentence) == (alone.relation, alone.sentence)

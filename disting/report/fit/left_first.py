@@ -1,16 +1,20 @@
 """What to measure next after a fit, in the first sentence."""
 
 import shlex
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from disting.errors import listed
 from disting.experiments.menu import Item
+from disting.fit.judge.admissible import KNOWN, UNDETERMINED
 from disting.fit.judge.exclusion import joined
+from disting.fit.plan.fit_file import Named
 from disting.fit.plan.further import Foretold
 from disting.fit.plan.power import POWER
+from disting.fit.search.candidates import reference
 from disting.report.fit.left_words import Onward, cheapest_first
 from disting.report.fit.plan_words import chance
-from disting.report.fit.words import percent
+from disting.report.fit.words import percent, readable
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,9 +30,9 @@ class Reach:
 
 def again(found: Onward) -> str:
     """The command that fits what the first sentence advises together with the data of the fit, NEW
-    its file; "" where the file of the fit does not tell its command.
+    its file; "" where the file of the fit does not tell its command, or leaves one structure.
     """
-    if not found.named.command:
+    if not found.named.command or len(found.left) < 2:
         return ""
     best = _best(found, found.seen, _others(found)) if found.seen else None
     what = "sensor=MASS"
@@ -45,8 +49,11 @@ def first_sentence(found: Onward) -> str:
 
     Structures that contain the selected one are named apart: if it is that one, no data exclude
     them. The powers are those at the fitted values, before a rival refits: upper bounds; a rival
-    of which the selected structure is a limit, such as one with more masses, can follow it.
+    of which the selected structure is a limit, such as one with more masses, can follow it. Where
+    one structure is left the sentence says so, and what would narrow its worst parameter.
     """
+    if len(found.left) == 1:
+        return "; ".join(_alone(found.named, found.source))
     if found.seen is None:
         return ""
     selected = found.left[0]
@@ -65,8 +72,47 @@ def first_sentence(found: Onward) -> str:
         left = [f"{found.left[k].name} (power {chance(power)})" for k, power in best.left]
         said += f"; not {listed(left)}" * bool(left)
     contain = listed([found.left[k].name for k in larger])
-    verb = "contains" if len(larger) == 1 else "contain"
-    return said + f"; {contain} {verb} it, which no data exclude" * bool(larger)
+    return said + f"; {contain} {_contain(larger)} it, which no data exclude" * bool(larger)
+
+
+def _alone(named: Named, source: str) -> Iterator[str]:
+    """That nothing is to be told apart, what is not known beside it, and the worst parameter."""
+    yield (
+        f"{source} leaves {reference(named.model)} alone: nothing needs to be measured to tell"
+        " structures apart"
+    )
+    if named.larger:
+        yield (
+            f"{listed(named.larger)} {_contain(named.larger)} it with elements that the data do not"
+            " determine"
+        )
+    if named.rivals:
+        names = listed(map(reference, named.rivals))
+        yield f"not known is whether another structure behaves the same: {names}"
+    if named.errors:
+        yield _worst(named.errors)
+
+
+def _worst(errors: Mapping[str, float]) -> str:
+    """The parameter that is known worst: its error falls with the root of the periods."""
+    name = max(errors, key=lambda one: errors[one])
+    error = errors[name]
+    if not error <= UNDETERMINED:
+        return (
+            f"the data do not determine {name}: another sensor or place of the force, or a wider"
+            " band, may"
+        )
+    known = f"{name} is known worst, to ± {percent(error)} (one standard error)"
+    if error <= KNOWN:
+        return known
+    return (
+        f"{known}: {readable((error / KNOWN) ** 2)} times the periods, or lines in the same range,"
+        f" bring it to ± {percent(KNOWN)}, as far as noise makes it"
+    )
+
+
+def _contain(names: Sequence[object]) -> str:
+    return "contains" if len(names) == 1 else "contain"
 
 
 def _others(found: Onward) -> list[int]:

@@ -12,6 +12,7 @@ from disting.fit.plan.further import Foretold, Step
 from disting.fit.plan.power import POWER
 from disting.fit.plan.relations import Standing, Stood
 from disting.fit.search.candidates import as_listed, reference
+from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
@@ -40,7 +41,7 @@ class Onward:
     source: str
     named: Named
     stood: Stood
-    groups: tuple[Further, ...]
+    groups: tuple[Further[Chain], ...]
     seen: Foretold | None
     costs: Costs
 

@@ -29,7 +29,7 @@ from disting.report.notebook.markup import LONGEST, block, curve, facts, line, m
 from disting.report.words import headline, plural, raised, title
 from disting.verdict.decisions import Decisions
 from disting.verdict.further import Further
-from disting.verdict.further_words import anywhere, conclusion
+from disting.verdict.further_words import AnyFurther, anywhere, conclusion
 from disting.verdict.meaning import shown as measured
 from disting.verdict.result import Relation, Verdict
 
@@ -262,8 +262,8 @@ def _formula(shown: Model | MatrixModel) -> str:
     return str(shown) if terms <= 30 else f"{plural(shown.n_states, 'state')}, {terms} terms"
 
 
-@table_of.register
-def _further(shown: Further) -> str:
+@table_of.register(Further)
+def _further(shown: AnyFurther) -> str:
     rows = ((own, conclusion(shown, k)) for k, own in enumerate(shown.names))
     enough = anywhere(shown)
     return block(

@@ -1,0 +1,113 @@
+"""disting fit --models: networks fitted to a measured response: circuits to an impedance."""
+
+import argparse
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from math import isfinite
+from pathlib import Path
+
+from disting.cli.fit_data import data
+from disting.cli.output import emitted
+from disting.cli.plain import complain, keep_apart
+from disting.cli.verdicts import listed_models
+from disting.cli.workers import engine_for
+from disting.errors import InputError, listed
+from disting.fit.networks import BAR, FittedNetwork, NetworkSelection, fit_networks
+from disting.measurement import FrequencyResponse
+from disting.measurement.impedance import TURNED, as_impedance
+from disting.model.chain import Sensor
+from disting.network.element import Sort
+from disting.network.families import FAMILIES
+from disting.network.network import Network
+from disting.network.notation import network_of
+
+UNITS = {"R": "ohm", "L": "H", "C": "F", "W": "ohm/sqrt(s)"}  # of an impedance in ohm
+UNKNOWN = {
+    "--test", "--experiment", "--sensor", "--masses", "--actuator", "--gap", "--family", "--left",
+    "--damped", "--undamped", "--fix", "--bound", "--weights", "--rule", "--thresholds", "--case",
+    "--optimiser", "--no-prune", "--controller", "--out", "--site", "--profiles", "--demo",
+}  # fmt: skip
+
+
+def run(options: argparse.Namespace) -> int:
+    """Fit networks, print what explains the data."""
+    foreign = sorted({word.partition("=")[0] for word in options.words} & UNKNOWN)
+    if foreign:
+        raise InputError(f"of networks --models knows no {listed(foreign)}: leave them away")
+    networks = _networks(options.models)
+    keep_apart(network.name for network in networks)
+    measured = _measured(options, networks)
+    with engine_for(options) as (engine, _, progress):
+        found = fit_networks(measured, networks, engine=engine, progress=progress)
+    if options.json:
+        emitted(options.json, json.dumps(found.to_dict(), indent=1, ensure_ascii=False) + "\n")
+    if options.json != "-":
+        print("\n".join(_told(found, measured)))
+    return 0 if found.left else 1
+
+
+def _networks(texts: Sequence[str]) -> list[Network]:
+    """Those of texts, of files of models, of families; raises InputError."""
+    found = list[Network]()
+    for text in texts:
+        if text in FAMILIES or text.endswith(".json"):
+            models = listed_models(Path(text) if text.endswith(".json") else text)
+            unknown = [m.name for m in models if m.network is None]
+            if unknown:
+                raise InputError(f"{unknown[0]} is no network: describe it by its elements")
+            found += [replace(m.network, name=m.name) for m in models if m.network is not None]
+        else:
+            found.append(network_of(text))
+    names = [network.name for network in found]
+    doubled = sorted({name for name in names if names.count(name) > 1})
+    if doubled:
+        raise InputError(f"{doubled[0]} is named twice")
+    return found
+
+
+def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> FrequencyResponse:
+    """The response; of circuits an impedance."""
+    circuits = {network.sort is Sort.CIRCUIT for network in networks}
+    if len(circuits) > 1:
+        raise InputError("circuits show an impedance, machines a motion: fit them apart")
+    if circuits == {False}:
+        return data(options).train
+    options.quantity = options.quantity or Sensor.POSITION.value  # an impedance has none
+    found = as_impedance(data(options).train)
+    if TURNED in found.notes:
+        complain(TURNED)
+    return found
+
+
+def _told(found: NetworkSelection, measured: FrequencyResponse) -> Iterator[str]:
+    """The answer, then a line a network, then values."""
+    yield f"{measured.origin}: {measured.reading or f'{len(measured)} lines'}"
+    yield f"scatter of a line: {100 * found.scatter.typical:.2g} %, from {found.scatter.source}"
+    yield ""
+    yield found.sentence
+    yield ""
+    width = max(len(f.network.name) for f in found.fits)
+    yield f"{'network':{width}}  values  determined  chi2 per line"
+    for f in found.fits:
+        said = _standing(f)
+        yield f"{f.network.name:{width}}  {len(f.values):6}  {f.rank:10}  {f.chi2:8.3g}  {said}"
+    best = found.fits[0]
+    yield ""
+    yield f"{best.network.name}:"
+    units = UNITS if best.network.sort is Sort.CIRCUIT else {}
+    width = max((len(units.get(name[0], "")) for name in best.values), default=0)
+    width += bool(width)
+    for name, value in best.values.items():
+        spread = best.relative[name]
+        known = f"+- {100 * spread:.2g} %" if isfinite(spread) and spread < 1 else "not determined"
+        yield f"  {name:6} {value:<12.5g} {units.get(name[0], ''):{width}}{known}"
+    if not best.explains:
+        yield from (f"it misses the data at {miss.sentence}" for miss in best.misses)
+
+
+def _standing(f: FittedNetwork) -> str:
+    same = f"; never told from {listed(f.same, BAR)}" if f.same else ""
+    if not f.explains:
+        return f"does not explain the data{same}"
+    return (f"excluded by {f.excluded_by}" if f.excluded_by else "not excluded") + same
