@@ -88,6 +88,16 @@ def listed(names: Iterable[str], separator: str = ", ") -> str:
     return printable(separator.join(first)) + f" and {more} more" * bool(more)
 
 
+def in_row(names: Iterable[str]) -> str:
+    """All names in a row; with a bar between where they have commas themselves, as networks do.
+
+    >>> in_row(["3:1", "3:4"]), in_row(["R0-C1", "p(R0,C1)"])
+    ('3:1, 3:4', 'R0-C1 | p(R0,C1)')
+    """
+    every = list(names)
+    return (" | " if any(set(",;") & set(name) for name in every) else ", ").join(every)
+
+
 def printable(text: str) -> str:
     """The text with what is no printable character, nor the end of a line, written as an escape.
 
