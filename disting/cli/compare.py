@@ -77,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
             options.json, json.dumps(file_of(texts, options), indent=1, ensure_ascii=False) + "\n"
         )
         return 0
-    sides = _sides(texts, options)
+    sides = models_named(texts, options)
     asked = query(options.conditions, View.EXACT, options.domain)
     chains = _chains(sides)
     if options.also:
@@ -98,7 +98,7 @@ def file_of(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]
     from disting.verdict.everywhere import everywhere_file
     from disting.verdict.verdict_file import Stored, as_file, exact, has_more, verdict_file
 
-    sides = _sides(texts, options)
+    sides = models_named(texts, options)
     asked = query(options.conditions, View.EXACT, options.domain)
     chains = _chains(sides)
     if options.also:
@@ -113,8 +113,8 @@ def file_of(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]
     return as_file(Stored((ordered[0], ordered[1]), (), asked, Settings(), verdict, beside))
 
 
-def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
-    """Two of what can be named: a chain, a network in a notation, a model file.json:name."""
+def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
+    """What is named by each text: a chain, a network in a notation, a model file.json:name."""
     networks = {text: _network(text, options) for text in texts if FILE not in text}
     named = [text for text, network in networks.items() if network is None]
     if len(set(texts)) == len(set(named)):
