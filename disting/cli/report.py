@@ -18,6 +18,7 @@ from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import LISTS, list_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError
+from disting.files import write_whole
 from disting.general.model_files import ModelList
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.query import View
@@ -72,6 +73,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _model_list(options: argparse.Namespace, found: ModelList, file: Listed, name: str) -> None:
     """Write the page of a file of models, or of a family of networks."""
+    from disting.report import ladenheim
     from disting.report.listing import Listing, judged
     from disting.report.model_list import write_model_list
 
@@ -81,7 +83,11 @@ def _model_list(options: argparse.Namespace, found: ModelList, file: Listed, nam
             recall(file, engine)
         decided = judged(found, engine, executor=pool, progress=progress)
     shown = Listing(decided, title, name)
-    paths = write_model_list(shown, options.out, site=bool(options.masses))
+    site = bool(options.masses)
+    paths = write_model_list(shown, options.out, site=site)
+    if file == ladenheim.FAMILY:
+        page = ladenheim.ladenheim_page(shown, site=site or (options.out / "index.html").is_file())
+        paths.append(write_whole(options.out / ladenheim.ADDRESS, [page]))
     relations = relations_in_words(v.relation for *_, v in decided.pairs(View.POSITIVE))
     print(f"{title}, over positive parameters: {relations}")
     print(f"{len(paths)} files in {options.out}; open {paths[0]}")

@@ -174,6 +174,17 @@ def _typed(text: str) -> str:
     return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(found))
 
 
+def typeset(polynomial: str) -> Markup:
+    """A polynomial that is zero, as an equation of its positive and its negative terms."""
+    ring = symbols(sorted({*symbols_of(tree(polynomial))}))
+    value = Expansion(ring, next(iter(ring.values())) ** 0).value(tree(polynomial)).num
+    sides = [
+        [(abs(c), powers) for c, powers in terms(value) if (c > 0) is sign]
+        for sign in (True, False)
+    ]
+    return equation(*("".join(summands(side)) for side in sides))
+
+
 def combinations(basis: Sequence[Combination]) -> tuple[Markup, ...]:
     """Determinable combinations of parameters, those too long to read by the name of their
     coefficient.

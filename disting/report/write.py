@@ -22,6 +22,7 @@ from disting.report.environment import source
 from disting.report.families import Families, families
 from disting.report.guide import PREFIX, Part, guide, guide_files
 from disting.report.index import Link, index
+from disting.report.ladenheim import ADDRESS as LADENHEIM
 from disting.report.markdown import GuidePage
 from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
@@ -103,6 +104,13 @@ PAGES: tuple[SitePage, ...] = (
             "paper/index.html",
             "The paper, claim by claim",
             "what the paper prints, and what is found here, side by side",
+        )
+    ),
+    SitePage(
+        link=(
+            LADENHEIM,
+            "Ladenheim's 108 networks",
+            "circuits of at most five elements, network by network, in classes of what they can do",
         )
     ),
     *(
