@@ -6,7 +6,7 @@ needs none of it.
 
 import argparse
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -37,10 +37,13 @@ from disting.model.drawing import text_drawing
 from disting.model.names import NAME, chains_named, damping_option, name_of, read
 from disting.model.question import Settings
 from disting.network.notation import network_of, notations_of
-from disting.verdict.comparison import compare, names_of
+from disting.verdict.comparison import compare, determinable, names_of
+from disting.verdict.meaning import undetermined
 from disting.verdict.query import Query, View
-from disting.verdict.result import Verdict
+from disting.verdict.result import Relation, Verdict
 
+Known = tuple[str, int, int]
+"""The name of a model, how much of it is determined, how many parameters it has."""
 FILE = ".json:"  # between a file and the name of a model in it
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
@@ -85,11 +88,13 @@ def run(options: argparse.Namespace) -> int:
     if not chains:
         with engine_for(options) as (engine, _, _progress):
             found = compare(*sides, query=asked, engine=engine)
-        print(explained(found, list(map(in_letters, sides))))
+            unknown = _unknown(found, determinable(sides[0], sides[1], engine))
+        print(explained(found, list(map(in_letters, sides)), unknown))
         return 0
     chains, verdict = decided(chains, asked, options)
+    unknown = _unknown(verdict, _known_of(chains, options))
     ways = both_ways(verdict, chains, dict(options.bound)) if _tells_ways(verdict, options) else ()
-    print("\n".join([explained(verdict, list(map(text_drawing, chains))), *ways]))
+    print("\n".join([explained(verdict, list(map(text_drawing, chains)), unknown), *ways]))
     return 0
 
 
@@ -224,6 +229,33 @@ def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
         return None
     found = catalog(a.n_masses, damped=a.damped).verdict(left.number, right.number, asked.view)
     return replace(found, left=str(left), right=str(right))
+
+
+def _known_of(chains: Sequence[Chain], options: argparse.Namespace) -> Iterable[Known]:
+    """How much of two chains is determined: as their catalogue has it, or computed."""
+    a, b = chains
+    if all(_is_shipped(chain) for chain in chains):
+        names = names_of(a, b)
+        records = (
+            catalog(c.n_masses, damped=c.damped).records[read(name_of(c)).number] for c in chains
+        )
+        return [(n, r["rank"], len(r["parameters"])) for n, r in zip(names, records, strict=True)]
+    with engine_for(options) as (engine, _, _progress):
+        return determinable(a, b, engine)
+
+
+def _is_shipped(chain: Chain) -> bool:
+    """Whether a catalogue tells of it."""
+    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False) == chain
+    acceleration = chain.sensor is Sensor.ACCELERATION
+    return plain and acceleration and chain.n_masses in SHIPPED_SIZES
+
+
+def _unknown(verdict: Verdict, known: Iterable[Known]) -> list[str]:
+    """What cannot be determined of two models that are told apart: before they are called so."""
+    if verdict.relation is not Relation.DISTINGUISHABLE:
+        return []
+    return list(filter(None, (undetermined(*one) for one in known)))
 
 
 def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
