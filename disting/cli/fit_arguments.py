@@ -28,7 +28,7 @@ what was measured
   --sensor 1,2            masses that the sensors show (default: 1)
   --actuator 2            mass that the force acts on (default: 1)
   --experiment F:lock=2   another file of the machine, with a mass locked
-  --quantity velocity     what the sensor shows: position, velocity, acceleration
+  --quantity velocity     what the sensor shows (default: acceleration)
   --unit output=deg       a unit that the file does not say
   --column HEADER         which of several responses in the file
   --torque-constant K     Nm per A, where the input is a current
@@ -37,7 +37,7 @@ what was measured
 candidates
   --masses 1-3            how many masses (default: 1-4)
   --undamped              springs without dampers beside them
-  --fix m1=0.02           a parameter that is known; --bound k12=0..500 its range
+  --fix m1=0.02           a known parameter; --bound k12=0..500 is its range
   --models NETWORK        circuits, compartments or branched machines instead
 
 results

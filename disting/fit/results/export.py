@@ -30,7 +30,8 @@ MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)
 @dataclass(frozen=True, eq=False)
 class StateSpace:
     """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force;
-    `delay` of the input [s].
+    `delay` of the input [s]; `states` by name, `units` of states, of the input u and the output y
+    where the parameters are in SI units of translation.
     """
 
     A: Real
@@ -38,6 +39,8 @@ class StateSpace:
     C: Real
     D: Real
     delay: float
+    states: tuple[str, ...]
+    units: dict[str, str]
 
     def __repr__(self) -> str:
         return summary(
@@ -65,7 +68,10 @@ def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateS
         c, d = c @ a, c @ b
     if chain.lag:
         a, b, c, d = _lagged(a, b, c, d, values["T1"])
-    return StateSpace(a, b, c, d, values.get("Td", 0.0))
+    units = {f"x{i}": "m" for i in range(1, n + 1)} | {f"v{i}": "m/s" for i in range(1, n + 1)}
+    units |= {"F": "N"} if chain.lag else {}
+    ports = {"u": "N", "y": ("m", "m/s", "m/s^2")[chain.sensor.order]}
+    return StateSpace(a, b, c, d, values.get("Td", 0.0), tuple(units), units | ports)
 
 
 def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real, Real, Real]:
@@ -81,11 +87,15 @@ def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real
 
 
 def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.StateSpace":
-    """A python-control StateSpace, without the dead time, which no finite state space has;
-    needs disting[control].
+    """A python-control StateSpace, its states, input u and output y named, without the dead time,
+    which no finite state space has; needs disting[control].
+
+    >>> to_control(Chain(1, damped=False), {"m1": 2.0}).nstates
+    2
     """
     ss = state_space(chain, values, sign)
-    return _control().StateSpace(ss.A, ss.B, ss.C, ss.D)
+    names = {"states": list(ss.states), "inputs": ["u"], "outputs": ["y"]}
+    return _control().StateSpace(ss.A, ss.B, ss.C, ss.D, remove_useless_states=False, **names)
 
 
 def to_control_transfer_function(
