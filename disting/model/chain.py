@@ -22,7 +22,11 @@ PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothi
 
 
 class Sensor(StrEnum):
-    """Measured quantity; its transfer function is s**order times the receptance."""
+    """Measured quantity; its transfer function is s**order times the receptance.
+
+    >>> Chain(2, sensor="velocity").sensor is Sensor.VELOCITY, Sensor.VELOCITY.order
+    (True, 1)
+    """
 
     POSITION = "position"
     VELOCITY = "velocity"

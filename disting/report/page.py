@@ -67,7 +67,12 @@ class Count:
 
 
 def page(catalog: Catalog, *, beside: Families | None = None) -> str:
-    """HTML of a catalogue; `beside`: the pages of pairs beside it (see `families`)."""
+    """HTML of a catalogue; `beside`: the pages of pairs beside it (see `families`).
+
+    >>> from disting.catalogs import catalog
+    >>> page(catalog(2, damped=True))[:15]
+    '<!DOCTYPE html>'
+    """
     pages = families([catalog]) | dict(beside or {})
     names = damper_name(catalog.n_masses, catalog.damped), sizes_name(catalog.damped)
     dampers, across = (name if name in pages else "" for name in names)

@@ -64,6 +64,10 @@ class Verification:
     `verdicts`: the sentences of the verdicts, none where one does not hold; `models`: whose models
     they are on; `found_again`: what was checked; `as_written`: what the file says and no check can
     show.
+
+    >>> from disting import verdict_file, verify
+    >>> verify(verdict_file("2:1", "2:2")).standing.value
+    'holds'
     """
 
     standing: Standing

@@ -103,6 +103,10 @@ def to_control_transfer_function(
 ) -> "control.TransferFunction":
     """A python-control TransferFunction, without the dead time, from poles, zeros and gain;
     needs disting[control].
+
+    >>> drive = to_control_transfer_function(Chain(1, damped=False, sensor="position"), {"m1": 2.0})
+    >>> complex(drive(1j)).real
+    -0.5
     """
     found = zero_pole(chain, values, sign)
     top, bottom = (np.atleast_1d(np.poly(roots)).real for roots in (found.zeros, found.poles))
@@ -158,6 +162,9 @@ def _control() -> Any:
 class Exported:
     """A structure with numbers under its name, such as 3:11+b1, and the units of its parameters,
     "" where the data do not tell.
+
+    >>> Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"}).units["m1"]
+    'kg'
     """
 
     name: str
@@ -170,6 +177,13 @@ def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
     """A MATLAB v5 file: A, B, C, D and delay of the first model, and the struct array `models` with
     name, A, B, C, D, delay, z, p, k, parameters and units of each. The same models give the same
     bytes.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "drive.mat")
+    ...     write_mat(path, [Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})])
+    ...     path.read_bytes()[:6]
+    b'MATLAB'
     """
     from scipy.io import savemat
 
@@ -194,7 +208,12 @@ def _plain(model: Exported, sign: int) -> dict[str, Any]:
 
 
 def control_script(models: Sequence[Exported], sign: int = 1) -> str:
-    """A Python program that makes a python-control StateSpace of each model, by name."""
+    """A Python program that makes a python-control StateSpace of each model, by name.
+
+    >>> drive = Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})
+    >>> "m1 = 2 kg" in control_script([drive])
+    True
+    """
     return "".join([_HEAD, *(_entry(model, sign) for model in models), "}\n", _DELAYS, *(
         f"    {model.name!r}: {model.values.get('Td', 0.0)!r},\n" for model in models
     ), "}\n"])  # fmt: skip
@@ -225,6 +244,9 @@ def predicted(
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
     """Response of a fitted chain, or of the same chain with other ports, at angular frequencies
     [rad/s].
+
+    >>> abs(predicted(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
+    [0.5, 0.5]
     """
     return Plant(chain.structure, omega, sign).response(
         np.array([values[name] for name in chain.parameters])
