@@ -165,7 +165,7 @@ def callables(room):
     """Public classes and functions of a room by name."""
     module = import_module(f"disting{room}")
     named = {name: getattr(module, name) for name in dir(module) if name[0] != "_"}
-    return {n: x for n, x in named.items() if isinstance(x, type) or isinstance(x, FunctionType)}
+    return {n: x for n, x in named.items() if isinstance(x, (type, FunctionType))}
 
 
 WITHOUT_EXAMPLE = {"": 0, ".measurement": 0, ".report": 0, ".simulation": 0, ".fit": 42}
