@@ -58,6 +58,19 @@ Listed = Path | str
 """A list of models: a file, or the name of a family of networks."""
 
 
+FILE = ".json:"  # between a file and the name of a model in it
+
+
+def parted(text: str) -> tuple[str, str]:
+    """A file and the name of a model in it; "" and the text where it names something else.
+
+    >>> parted("own.json:two leaks"), parted("3:1")
+    (('own.json', 'two leaks'), ('', '3:1'))
+    """
+    path, mark, name = text.partition(FILE)
+    return (f"{path}{FILE[:-1]}", name) if mark else ("", text)
+
+
 def sizes_or_list(text: str) -> range | Listed:
     """Sizes, or a list of models."""
     return _list(text) or sizes(text)

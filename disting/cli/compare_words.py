@@ -22,13 +22,16 @@ from disting.verdict.result import Relation, Verdict
 MOST_TERMS = 30  # of a transfer function that is written out
 
 
-def explained(verdict: Verdict, drawn: list[str]) -> str:
-    """Relation, drawings, sentence, evidence, certainty, domain, inclusion."""
+def explained(verdict: Verdict, drawn: list[str], unknown: Sequence[str] = ()) -> str:
+    """Relation, drawings, what of the models is `unknown` whatever is measured, sentence, evidence,
+    certainty, domain, inclusion.
+    """
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
     drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
     heading = in_colour(verdict.relation.upper(), verdict.relation)
     lines = [heading, "", *drawings, ""]
+    lines += [*unknown, *[""] * bool(unknown)]
     if verdict.evidence:
         lines += [shown(verdict), ""]
     lines.append(verdict.sentence)

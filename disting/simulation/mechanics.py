@@ -18,7 +18,11 @@ from disting.model.structure import Element, Structure, power
 
 
 class Matrices(NamedTuple):
-    """M, D and K, shape (N, N) each, in one system of units."""
+    """M, D and K, shape (N, N) each, in one system of units.
+
+    >>> matrices(Chain(1, ground_dampers=(1,), damped=False), {"m1": 2.0, "b1": 0.1}).D.tolist()
+    [[0.1]]
+    """
 
     M: Real
     D: Real
@@ -63,7 +67,11 @@ def matrices(model: Chain | Structure, values: Mapping[str, float]) -> Matrices:
 
 
 def port_vectors(model: Chain | Structure) -> tuple[Real, Real]:
-    """e_act and e_meas, shape (N,): +1 and -1 at the masses of the ports, nothing at the ground."""
+    """e_act and e_meas, shape (N,): +1 and -1 at the masses of the ports, nothing at the ground.
+
+    >>> [vector.tolist() for vector in port_vectors(Chain(2, meas_plus=2))]
+    [[1.0, 0.0], [0.0, 1.0]]
+    """
     structure = structure_of(model)
     ports = structure.ports
     return _port(ports.act_plus, ports.act_minus, structure.n_masses), _port(
@@ -93,7 +101,11 @@ def input_filter(values: Mapping[str, float], omega: Real) -> Complex:
 def frequency_response(
     model: Chain | Structure, values: Mapping[str, float], omega: Real
 ) -> Complex:
-    """G(j omega), shape (n_f,), of the sensor quantity of the model; `omega` [rad/s]."""
+    """G(j omega), shape (n_f,), of the sensor quantity of the model; `omega` [rad/s].
+
+    >>> abs(frequency_response(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
+    [0.5, 0.5]
+    """
     act, meas = port_vectors(model)
     order = structure_of(model).sensor_order
     moved = motion(matrices(model, values), act, omega) @ meas
