@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from disting.errors import InputError, shown
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import Drawn, plural, summary
 from disting.network.element import Element, Port, Sort
 from disting.network.graph import edges, parts, renumbered, seen_by_blocks, seen_by_flows
 
@@ -27,7 +27,7 @@ PORTS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Network(Shown):
+class Network(Drawn):
     """A linear network: `elements`, all of one sort; `inputs` and `outputs`, the ports of forces
     and sensors (of a circuit: where the current enters and the voltage is seen); `order`, how often
     what the sensors show is differentiated.
