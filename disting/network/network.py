@@ -85,6 +85,17 @@ class Network(Drawn):
         return self.sort is Sort.COMPARTMENTS
 
     @property
+    def sign_of_one_port(self) -> int:
+        """1 where force and sensor, or current and voltage, are at the same two nodes, -1 where one
+        is turned; 0 of another network, and of one with gears.
+        """
+        if self.is_directed or any(e.ratio for e in self.elements) or self.shape != (1, 1):
+            return 0
+        (force,), (sensor,) = self.inputs, self.outputs
+        ways = {(force.plus, force.minus): 1, (force.minus, force.plus): -1}
+        return ways.get((sensor.plus, sensor.minus), 0)
+
+    @property
     def reference(self) -> int:
         """The node that potentials are measured against: the ground, of a circuit the negative
         node of its first port.

@@ -141,6 +141,12 @@ def write_report(
     catalogues and notebooks give the same bytes. `out` is made if it does not exist; other files
     in it stay as they are, and the index leads to the pages of shipped catalogues and to other
     known pages among them too, those of lists of models for one. Returns the paths, in order.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     paths = write_report([catalog(1, damped=True)], Path(folder))
+    ...     paths[-1].name
+    'index.html'
     """
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))

@@ -36,6 +36,9 @@ NOISE = 3.0  # times the usual step of a response from line to line: what noise 
 class Case(IntEnum):
     """Which residuals: complex plane (7), amplitude and phase (12), logarithm of the amplitude
     and phase (14).
+
+    >>> Case(3) is Case.LOGARITHM
+    True
     """
 
     COMPLEX = 1
@@ -210,6 +213,11 @@ def _way(measured: FrequencyResponse) -> Real:
 def lines_by_deviation(measured: FrequencyResponse) -> Real:
     """Weight |G|/sigma of each line, scaled to a mean square of 1; raises InputError where the
     data has no deviation.
+
+    >>> from disting.measurement import from_arrays
+    >>> data = from_arrays(range(1, 9), [1, 7] * 4, deviation=[1.0] * 8)
+    >>> lines_by_deviation(data)[:2].round(6).tolist()
+    [0.2, 1.4]
     """
     if measured.deviation is None:
         raise InputError(
@@ -221,6 +229,11 @@ def lines_by_deviation(measured: FrequencyResponse) -> Real:
 def lines_by_coherence(measured: FrequencyResponse) -> Real:
     """Weight sqrt(gamma^2 / (1 - gamma^2)), the inverse of the relative deviation, scaled to a
     mean square of 1.
+
+    >>> from disting.measurement import from_arrays
+    >>> data = from_arrays(range(1, 9), [1] * 8, coherence=[0.9] * 8)
+    >>> lines_by_coherence(data)[:2].round(6).tolist()
+    [1.0, 1.0]
     """
     if measured.coherence is None:
         raise InputError(

@@ -78,6 +78,7 @@
     caption.textContent = twoCurves(svg, models, numbers.map(nameOf));
     figure.hidden = !caption.textContent;
   };
+  const known = (numbers) => numbers.flatMap((i) => (data.known?.[i] ? [data.known[i].replace("{0}", nameOf(i))] : [])).join(" "); // before any "distinguishable": what cannot be determined
   const takeAway = (low, high, v, view) => { // the same verdict elsewhere: a command, Python, and a reference to it with its address
     slot("takeaway").hidden = Boolean(data.names && !data.numbered);
     if (slot("takeaway").hidden) return;
@@ -94,7 +95,7 @@
   };
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: `${v.why} ${v.more}`.trim(), formula: v.formula, link: "", next: further(low, high) });
+    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: `${v.relation === "distinguishable" ? known([low, high]) : ""} ${v.shown}`.trim(), why: `${v.why} ${v.more}`.trim(), formula: v.formula, link: "", next: further(low, high) });
     explain(v);
     compare([low, high], v);
     slot("sketches").replaceChildren(...sketches(`${low}-${high}`));
@@ -111,7 +112,7 @@
     draw("right", high);
     slot("right-figure").hidden = slot("views").hidden = false;
     for (const other of Object.keys(data.views)) slot(`in-${other}`).textContent = short(verdict(low, high, other));
-    byId("status").textContent = `${nameOf(low)} and ${nameOf(high)}: ${short(v)}. ${v.shown || v.why} ${limits ? slot("limit").textContent : ""}`.trim();
+    byId("status").textContent = `${nameOf(low)} and ${nameOf(high)}: ${short(v)}. ${slot("shown").textContent || v.why} ${limits ? slot("limit").textContent : ""}`.trim();
   };
   const fillLimits = (model, others) => { // of two sizes
     const smaller = (i) => names.masses(i) < names.masses(model), larger = (i) => names.masses(i) > names.masses(model);
@@ -125,7 +126,7 @@
     const others = Array.from({ length: data.models }, (_, i) => i + 1).filter((i) => i !== model);
     const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
     const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map(nameOf).join(", ")})`}`);
-    put({ title: nameOf(model), badge: "", where: data.titles[view], shown: `Of the other models: ${words.join("; ")}.`, why: "", formula: "", certainty: "", next: "" });
+    put({ title: nameOf(model), badge: "", where: data.titles[view], shown: `${known([model])} Of the other models: ${words.join("; ")}.`.trim(), why: "", formula: "", certainty: "", next: "" });
     slot("sketches").replaceChildren();
     slot("badge").className = "badge";
     draw("left", model);
