@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(
             "what holds within ranges is told in words only: leave --json or --bound away"
         )
-    sides = _sides((options.left, options.right), options)
+    sides = models_named((options.left, options.right), options)
     asked = query(options.conditions, View.EXACT, options.domain)
     if options.also:
         return _under_experiments(sides, asked, options)
@@ -116,7 +116,7 @@ def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, A
     """The verdict on two models, as they are named, with all that its check needs."""
     from disting.verdict.everywhere import everywhere_file
 
-    sides = _sides(texts, options)
+    sides = models_named(texts, options)
     asked = query(options.conditions, View.EXACT, options.domain)
     if not options.also:
         return file_of(judged(sides, asked, options), asked, options)
@@ -147,8 +147,8 @@ def _told(found: Judged, options: argparse.Namespace) -> Iterator[str]:
         yield from both_ways(verdict, chains, dict(options.bound))
 
 
-def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
-    """Two of what can be named: a chain, a network in a notation, a model file.json:name."""
+def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
+    """What is named by each text: a chain, a network in a notation, a model file.json:name."""
     networks = {text: _network(text, options) for text in texts if FILE not in text}
     named = [text for text, network in networks.items() if network is None]
     if len(set(texts)) == len(set(named)):
