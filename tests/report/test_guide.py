@@ -243,6 +243,12 @@ def found(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
     return [item.inner_text() for item in tab.locator("#finds li .what").all()]
 
 
+def where(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
+    """Pages on which something is found."""
+    tab.fill("#finder", text)
+    return [item.inner_text() for item in tab.locator("#finds li .where").all()]
+
+
 def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("models/3-damped/4.html")
     tab.keyboard.press("/")
@@ -261,6 +267,17 @@ def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> Non
     assert found(tab, "A3")[:2] == ["A3 of 3 masses, damped", "A3 of 2 masses, undamped"]
     assert found(tab, "zzyzx") == []
     assert tab.locator(".finder .nothing").inner_text() == "Nothing found"
+    first = {
+        "belt": "Belt axis: where does it rub?",
+        "backlash": "backlash",
+        "encoder": "Two encoders",
+    }
+    assert {word: found(tab, word)[0] for word in first} == first
+    assert "When not to use it" in where(tab, "backlash") and "Read measured data" in where(
+        tab, "frequency response"
+    )
+    places = where(tab, "frequency response")
+    assert len(places) > 5 and not [p for p in places[:5] if p.startswith(("disting.", "All "))]
 
 
 def test_the_keyboard_searches_and_goes(visit) -> None:  # type: ignore[no-untyped-def]
