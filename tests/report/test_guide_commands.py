@@ -27,6 +27,7 @@ CHEAP = tuple(
         "models 3",
         "models vessels",
         "next",
+        'plan "',
         "schema",
         "simulate",
     )
