@@ -61,7 +61,7 @@ def estimates(
         rough = estimates(
             candidates, few, method=method, store=store, executor=executor, progress=progress
         )
-        return _polished(rough, task, store, executor, progress)
+        return polished(rough, task, store, executor, progress)
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
     for _, variants in groupby(wanted, key=body):
@@ -86,15 +86,15 @@ def estimates(
     return known
 
 
-def _polished(
+def polished(
     rough: Mapping[Chain, Estimate],
     task: Task,
     store: Store,
     executor: Executor | None,
     progress: Callable[[str, int, int], object],
 ) -> dict[Chain, Estimate]:
-    """The estimates of a search on few lines, on those of the task; what a candidate contains comes
-    before it.
+    """The estimates of a search on few lines, or by another cost, brought to the last digit of the
+    task; what a candidate contains comes before it.
     """
     found: dict[Chain, Estimate] = {}
     for _, stage in groupby(sorted(rough, key=_stage), key=_stage):
@@ -103,15 +103,15 @@ def _polished(
         helpful = {c: _helpful(c, found) | {c: rough[c]} for c in whole if c not in found}
         for one in _results(refined, helpful, task, store, executor):
             found[one.chain] = one
-            progress("fit on all lines", len(found), len(rough))
+            progress("last digits", len(found), len(rough))
     return found
 
 
 def explored(known: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:
-    """The task on few lines, on which much can be tried, and estimates of the whole one there."""
+    """The task on few lines, on which much can be tried, and estimates of the whole one, or by
+    another cost, there.
+    """
     few = task.thinned(SEARCHED)
-    if few is task:
-        return task, list(known)
     return few, [refined(one.chain, few, {one.chain: one}) for one in known]
 
 
