@@ -42,7 +42,7 @@ from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import Statement, statements
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.estimate import Method, Task
+from disting.fit.search.estimate import Estimate, Method, Task
 from disting.fit.search.exchange import SEARCHED, body, estimates, polished
 from disting.fit.search.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.measurement import FrequencyResponse, are_opposite
@@ -202,22 +202,22 @@ def select(
         executor=executor,
         progress=progress,
     )
-    found = {c: each[c] for c in wanted}
+    searched = [each[c] for c in wanted]
     test_cost = judging_cost(search.cost, test, further, lines, alike, seen_by) if test else None
-    known = witnessed(found.values(), search, test_cost)
-    task = search
+    known = witnessed(searched, search, test_cost)
+    task, found = search, searched
     if likely:
         task = replace(search, cost=search.cost.likely(known[0]))
         test_cost = test_cost and test_cost.likely(known[1])
-        found = polished(found, task, engine.store, executor, progress)
+        found = polished(searched, task, engine.store, executor, progress)
     limits = thresholds or Thresholds()
-    fitted = judged(found.values(), task, test_cost, known, engine.settings)
+    fitted = judged(found, task, test_cost, known, engine.settings)
     fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
     weighted = akaike_weighted(fitted, task)
     chosen = choice(weighted, task, test_cost, known, rule, engine.settings)
     said = chosen.explanation
     kept = chosen.left if said.explains else ()
-    misread = () if said.explains or said.noisy or further else chosen.candidates
+    misread = () if said.explains or said.noisy or further else searched
     left = members(kept, task, test_cost, known, within, executor, progress)
     whole = tuple(m for m in left if m.contains is None)
     return Selection(
@@ -239,7 +239,7 @@ def select(
         task=task,
         test=test or train,
         judging=test_cost or task.cost,
-        quantities=other_quantities(chosen.candidates, search, engine.store, executor, progress),
+        quantities=other_quantities(searched, search, engine.store, executor, progress),
     )
 
 
@@ -292,16 +292,16 @@ def _alternatives(
 
 
 def _readings(
-    candidates: Sequence[Candidate],
+    searched: Sequence[Estimate],
     task: Task,
     store: Store,
     executor: Executor | None,
     progress: Progress,
 ) -> tuple[Reading, ...]:
-    """What the data would be where these candidates do not explain them."""
-    if not candidates:
+    """What the data would be where these estimates do not explain them."""
+    if not searched:
         return ()
-    return readings(candidates, task, store=store, executor=executor, progress=progress)
+    return readings(searched, task, store=store, executor=executor, progress=progress)
 
 
 def _check(
