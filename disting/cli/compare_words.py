@@ -175,5 +175,6 @@ def in_letters(side: Chain | AnyModel) -> str:
         return letter + str(side).removeprefix("G")
     if isinstance(side, MatrixModel):
         return "{}(s) with {} outputs and {} inputs, in --json".format(letter, *side.shape)
-    root = ", in powers of sqrt(s)" * side.halves
+    powers = side.powers
+    root = ", in powers of sqrt(s)" * powers.halves + "".join(f", s^{n}" for n in powers.exponents)
     return "{}(s) of degree {} over {}{}, in --json".format(letter, *side.degrees, root)

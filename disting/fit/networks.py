@@ -200,8 +200,7 @@ def _searched(plant: NetworkPlant, cost: Cost, measured: FrequencyResponse, numb
     """The best values found."""
     draw = np.random.default_rng((SEED, number))
     starts = random_starts(plant, measured, STARTS, draw)
-    size = len(plant.parameters)
-    box = Box(np.zeros(size), np.full(size, np.inf))
+    box = Box(np.zeros(len(plant.parameters)), plant.highest)
     with np.errstate(all="ignore"):  # far from the data responses may overflow
         points, costs = rough(plant, cost, box, starts, ITERATIONS)
         kept = np.argsort(costs)[:KEPT]
@@ -213,8 +212,8 @@ def _judged(
     plant: NetworkPlant, start: Real, cost: Cost, known: Scatter, rank: int
 ) -> FittedNetwork:
     """Brought to the last digit in units of the scatter, and seen beside it."""
-    size, whitened = len(plant.parameters), Whitened(cost, known)
-    p, _ = fine(plant, whitened, Box(np.zeros(size), np.full(size, np.inf)), start)
+    whitened = Whitened(cost, known)
+    p, _ = fine(plant, whitened, Box(np.zeros(len(plant.parameters)), plant.highest), start)
     residual, columns = whitened.of(plant, p)
     ones = np.ones(len(residual))
     missed = expected(columns, ones)

@@ -6,7 +6,7 @@ part of the form. So two models behave alike exactly if all their entries are eq
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import symbols
@@ -18,11 +18,13 @@ from disting.general.model import (
     entry_of,
     fraction,
     frequency,
+    network_powers,
     network_ratios,
     parameters_of,
     refuse_name,
     transfer_functions,
 )
+from disting.general.powers import PLAIN, Powers
 from disting.model.presentation import Shown, plural, summary
 from disting.network.network import Network
 
@@ -104,14 +106,16 @@ class MatrixModel(Shown):
         """The transfer functions of a network, a row for each output, a column for each input;
         raises InputError.
         """
-        found = of_ratios(network_ratios(network), network.parameters, network.name, network.halves)
+        ratios = network_ratios(network)
+        powers = network_powers([x for row in ratios for x in row], network)
+        found = of_ratios(ratios, network.parameters, network.name, powers)
         object.__setattr__(found, "network", network)
         return found
 
     @property
-    def halves(self) -> bool:
-        """Whether powers of s are counted in halves."""
-        return any(entry.halves for entry in self.entries)
+    def powers(self) -> Powers:
+        """What the powers of v are, but for what was cancelled."""
+        return replace(self.entries[0].powers, lost=0)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -156,11 +160,11 @@ def of_ratios(
     ratios: Sequence[Sequence[RationalFunction]],
     parameters: tuple[str, ...],
     name: str,
-    halves: bool = False,
+    powers: Powers = PLAIN,
 ) -> MatrixModel:
     """The model of transfer functions in the ring of s and the parameters, s first."""
     rows = tuple(
-        tuple(None if r.num.is_zero() else entry_of(r, parameters, "entry", halves) for r in row)
+        tuple(None if r.num.is_zero() else entry_of(r, parameters, "entry", powers) for r in row)
         for row in ratios
     )
     return MatrixModel(parameters, rows, name)

@@ -1,6 +1,7 @@
 """Nodes and elements of a network as a graph: what is connected, what a port can see."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from disting.network.element import Element, Port
@@ -93,4 +94,4 @@ def renumbered(places: Mapping[int, int], element: Element) -> Element:
     """The element at other nodes, of which one can be the ground unless it is a gear."""
     nodes = tuple(places[i] for i in element.nodes)
     ratio = "" if element.known_ratio == 1 else element.ratio
-    return Element(element.value, element.letter, nodes, ratio)
+    return replace(element, nodes=nodes, ratio=ratio)

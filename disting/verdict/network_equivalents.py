@@ -20,12 +20,14 @@ from disting.verdict.result import Relation, Verdict
 @dataclass(frozen=True, slots=True)
 class NetworkEquivalent(Shown):
     """Another network, what is known of the pair, and its values where those of the given one are
-    said.
+    said; `exponents`: those of its constant phase elements, each with the one of the given network
+    that it equals, or with the value of that.
     """
 
     network: Network
     verdict: Verdict
     values: Alternatives | None = None
+    exponents: tuple[tuple[str, str], ...] = ()
 
     def __repr__(self) -> str:
         return summary(self, f"{self.network.name}, {self.verdict.told}")
@@ -37,6 +39,7 @@ class NetworkEquivalent(Shown):
             "name": self.network.name,
             "relation": self.verdict.relation.value,
             "sentence": self.verdict.sentence,
+            **({"exponents": dict(self.exponents)} if self.exponents else {}),
             "extent": "" if self.values is None else self.values.extent.value,
             "values": [
                 {
@@ -58,7 +61,7 @@ def network_equivalents(
 ) -> list[NetworkEquivalent]:
     """Those of the other networks that are not told apart from the given one over positive values
     (or in the domain of the query), with all their values that give its transfer function at
-    `values`, exactly. Raises InputError.
+    `values`, exactly. Values of exponents may be said, and change nothing. Raises InputError.
 
     >>> from disting.network import network_of
     >>> given, other = network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")
@@ -69,14 +72,20 @@ def network_equivalents(
     model = of_network(given)
     if values is not None and not isinstance(model, Model):
         raise InputError("values are found of networks with one input and one output")
+    engine = Engine() if engine is None else engine
+    phases = {n: str((values or {}).get(n, n)) for n in given.exponents}
+    known = None if values is None else {n: x for n, x in values.items() if n not in phases}
     found = []
     for other in others:
         if other == given or other.shape != given.shape:
             continue
         verdict = compare(given, other, query=query, engine=engine)
         if verdict.relation is not Relation.DISTINGUISHABLE:
-            there = of_network(other)
-            asked = values is not None and isinstance(model, Model) and isinstance(there, Model)
-            at = alternatives(model, values, there) if asked else None  # type: ignore[arg-type]
-            found.append(NetworkEquivalent(other, verdict, at))
+            here, there = (s.subject for s in engine.general_subjects([model, of_network(other)]))
+            at = None
+            if known is not None and isinstance(here, Model) and isinstance(there, Model):
+                at = alternatives(here, known, there)
+            named = zip(there.powers.exponents, here.powers.exponents, strict=False)
+            equal = tuple((mine, phases[theirs]) for mine, theirs in named)
+            found.append(NetworkEquivalent(other, verdict, at, equal))
     return found
