@@ -213,13 +213,13 @@ class Model(Shown):
 
 
 def transfer_functions(
-    a: object, b: object, c: object, d: object, s: object
+    a: object, b: object, c: object, d: object, s: object, x0: object = None
 ) -> tuple[tuple[tuple[RationalFunction, ...], ...], tuple[str, ...]]:
     """Those of a state space, outputs x inputs, in the ring of s and the parameters, s first, and
-    the parameters; raises InputError.
+    the parameters; with an initial state the response to it is the last column. Raises InputError.
     """
-    space = state_space(a, b, c, d)
-    refuse_namesakes(a, b, c, d, s)
+    space = state_space(a, b, c, d, x0)
+    refuse_namesakes(a, b, c, d, x0, s)
     variable = frequency(s)
     parameters = parameters_of(space.entries)
     if variable in parameters:

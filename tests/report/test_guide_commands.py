@@ -26,6 +26,7 @@ CHEAP = tuple(
         "verdicts",
         "models 3",
         "models vessels",
+        "models decay",
         "next",
         "schema",
         "simulate",
