@@ -71,13 +71,16 @@ def run(options: argparse.Namespace) -> int:
 def _model_list(options: argparse.Namespace, found: ModelList, file: Listed, name: str) -> None:
     """Write the page of a file of models, or of a family of networks."""
     from disting.report.model_list import judged, write_model_list
+    from disting.report.network_motion import page_of_motion, write_motion
 
     title = found.title or Path(file).stem
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)
         decided = judged(found, engine, executor=pool, progress=progress)
-    paths = write_model_list(decided, title, name, options.out)
+    motion = page_of_motion(decided, name)
+    paths = write_model_list(decided, title, name, options.out, motion=motion)
+    paths += write_motion(decided, title, name, options.out)
     relations = relations_in_words(v.relation for *_, v in decided.pairs(View.POSITIVE))
     print(f"{title}, over positive parameters: {relations}")
     print(f"{len(paths)} files in {options.out}; open {paths[0]}")

@@ -111,13 +111,15 @@ def judged(
     return JudgedList(models, decided, known)
 
 
-def write_model_list(found: JudgedList, title: str, name: str, out: Path) -> list[Path]:
+def write_model_list(
+    found: JudgedList, title: str, name: str, out: Path, *, motion: str = ""
+) -> list[Path]:
     """Write the page, and the verdicts over positive parameters as CSV and JSON, into a folder;
-    returns the paths.
+    `motion`: the page beside it on which two of them move. Returns the paths.
     """
     out.mkdir(parents=True, exist_ok=True)
     site, guide = ((out / page).is_file() for page in ("index.html", "guide/index.html"))
-    page = model_list_page(found, title, name, site=site, guide=guide)
+    page = model_list_page(found, title, name, site=site, guide=guide, motion=motion)
     decided = found.decisions[View.POSITIVE]
     texts = {"html": page, "csv": decisions_csv(decided), "json": decisions_json(decided)}
     return [write_whole(out / f"{name}.{kind}", [text]) for kind, text in texts.items()]
@@ -136,9 +138,17 @@ def page_name(path: Path) -> str:
 
 
 def model_list_page(
-    found: JudgedList, title: str, name: str, *, site: bool = False, guide: bool = False
+    found: JudgedList,
+    title: str,
+    name: str,
+    *,
+    site: bool = False,
+    guide: bool = False,
+    motion: str = "",
 ) -> str:
-    """HTML of the page; `site`, `guide`: whether these pages stand beside it."""
+    """HTML of the page; `site`, `guide`: whether these pages stand beside it, `motion`: the page on
+    which two of the models move.
+    """
     domains = [over(found, view) for view in VIEWS]
     cards = [
         Card(
@@ -168,6 +178,7 @@ def model_list_page(
         payload=payload(found, domains, VIEWS, names=names, next={}, sketches={}),
         site=site,
         guide=guide,
+        motion=motion,
         plural=plural,
     )
 
