@@ -15,6 +15,7 @@ from pathlib import Path
 from disting.evidence.positive import Share
 from disting.files import write_whole
 from disting.general.model import Model
+from disting.model.chain import Sensor
 from disting.network.element import Sort
 from disting.network.graph import edges
 from disting.network.network import Network
@@ -40,10 +41,10 @@ Line = tuple[Place, Place]
 
 def page_of_motion(found: JudgedList, name: str) -> str:
     """Name of the page of a list, "" where there is none: for fewer than two machines, for models
-    that are none, for machines of different numbers of masses.
+    that are none, for machines of different numbers of masses or quantities of the sensor.
     """
     machines = list(map(machine_of, found.family))
-    sizes = {len(m.nodes) for m in machines if m is not None}
+    sizes = {(len(m.nodes), m.order) for m in machines if m is not None}
     has = None not in machines and len(sizes) == 1 and 2 <= len(machines) <= MOST
     return f"{name}-motion.html" if has else ""
 
@@ -57,15 +58,15 @@ def write_motion(found: JudgedList, title: str, name: str, out: Path) -> list[Pa
 
 
 def machine_of(model: Model) -> Network | None:
-    """The machine that a model is, one force, one sensor, a mass at every node, no gears; None of
-    any other model.
+    """The machine that a model is, one force, one sensor, a mass at every node, a spring, no gears;
+    None of any other model.
     """
     network = model.network
     if network is None or network.sort is not Sort.MACHINE or network.shape != (1, 1):
         return None
     letters = {e.letter for e in network.elements}
     masses = [e for e in network.elements if e.letter == "m"]
-    plain = letters <= set("mkd") and not any(e.ratio for e in network.elements)
+    plain = {"m", "k"} <= letters <= set("mkd") and not any(e.ratio for e in network.elements)
     return network if plain and len(masses) == len(network.nodes) else None
 
 
@@ -160,7 +161,7 @@ def drawing_of(machine: Network) -> dict[str, object]:
     return {
         "masses": len(machine.nodes),
         "damped": any(e.letter == "d" for e in machine.elements),
-        "order": machine.order,
+        "order": Sensor.ACCELERATION.order,  # what the page shows; verdicts are those of any
         "joints": [[number[i] for i in joint] for joint in joints],
         "kinds": [letter for _, letter, _ in elements],
         "places": [_at(machine, joints, ends) for *_, ends in elements],

@@ -177,6 +177,20 @@ def test_a_pair_moves_and_is_named(visit) -> None:
     assert re.search(r"#A\d-A\d$", tab.url)
 
 
+def test_what_a_damper_alone_holds_has_a_band(visit) -> None:
+    """The frequencies of the springs: that of travel is zero, though a damper holds it."""
+    from_to = visit(PAGE).evaluate(
+        """(given) => {
+          const machine = machineOf(given);
+          return [machine.free, machine.loose, ...createSecond(() => 0).band(machine, [1, 1, 100, 0.5])];
+        }""",
+        drawing_of(network_of("1~2, 1-#; F1; S2")),
+    )
+    free, loose, low, high = from_to
+    own = np.sqrt(200)
+    assert (free, loose) == ([], 1) and own / 16 < low < own / 4 and 2 * own < high < 8 * own
+
+
 def test_wrong_addresses_say_what_there_is(visit) -> None:
     tab = visit(PAGE + "#A1-A9")
     assert "names no pair here: there are the models A1 to A4" in tab.inner_text("#trouble")
@@ -188,6 +202,8 @@ def test_wrong_addresses_say_what_there_is(visit) -> None:
         {"a": "R1-C1", "b": "p(R1,C1)"},
         {"a": "1=2; F1; S1", "b": "1=2=3; F1; S1"},
         {"a": "1=2*i; F1; S1", "b": "1=2; F1; S1"},
+        {"a": "1=2; F1; S1; position", "b": "1=2; F1; S2"},
+        {"a": "1-2; F1; S1", "b": "1=2; F1; S1"},
     ],
 )
 def test_other_lists_have_no_page(texts, tmp_path) -> None:
