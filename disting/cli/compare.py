@@ -28,6 +28,7 @@ from disting.cli.compare_words import both_ways, every_way, explained, in_letter
 from disting.cli.output import emitted
 from disting.cli.plain import keep_apart
 from disting.cli.relations import query
+from disting.cli.structures import is_network
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import named
@@ -35,9 +36,9 @@ from disting.general.any_model import of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor
-from disting.model.names import NAME, chains_named, damping_option, name_of, read
+from disting.model.names import chains_named, damping_option, name_of, read
 from disting.model.question import Settings
-from disting.network.notation import network_of, notations_of
+from disting.network.notation import network_of
 from disting.verdict.comparison import compare, determinable, names_of
 from disting.verdict.meaning import undetermined
 from disting.verdict.query import Query, View
@@ -187,7 +188,7 @@ def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chai
 
 def _network(text: str, options: argparse.Namespace) -> AnyModel | None:
     """The model of a network; None of the name of a chain."""
-    if not notations_of(text) and (not options.notation or NAME.fullmatch(text)):
+    if not is_network(text, options.notation):
         return None
     quantity = Sensor(options.quantity)
     return of_network(network_of(text, options.notation, quantity=quantity))

@@ -163,8 +163,10 @@ def both_ways(
         yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
 
 
-def in_letters(side: Chain | AnyModel) -> str:
-    """A chain's drawing, or a transfer function that fits a few lines."""
+def in_letters(
+    side: Chain | AnyModel, most_terms: int = MOST_TERMS, longer: str = ", in --json"
+) -> str:
+    """A chain's drawing, or a transfer function of so many terms; where a longer one is."""
     if isinstance(side, Chain):
         return text_drawing(side)
     chain = as_chain(side)
@@ -174,9 +176,9 @@ def in_letters(side: Chain | AnyModel) -> str:
     parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
     circuit = side.network is not None and side.network.sort is Sort.CIRCUIT
     letter = "Z" if circuit else "G"  # an impedance is called so
-    if sum(map(len, parts)) <= MOST_TERMS:
+    if sum(map(len, parts)) <= most_terms:
         return letter + str(side).removeprefix("G")
     if isinstance(side, MatrixModel):
-        return "{}(s) with {} outputs and {} inputs, in --json".format(letter, *side.shape)
+        return "{}(s) with {} outputs and {} inputs{}".format(letter, *side.shape, longer)
     root = ", in powers of sqrt(s)" * side.halves
-    return "{}(s) of degree {} over {}{}, in --json".format(letter, *side.degrees, root)
+    return "{}(s) of degree {} over {}{}{}".format(letter, *side.degrees, root, longer)

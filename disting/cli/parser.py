@@ -193,6 +193,7 @@ COMMANDS = (
         "HTML pages, figures and tables of whole catalogues, or of your own models in a file",
         "report",
     ),
+    Command("draw", "the drawing of a model, as SVG or PNG", "draw"),
     CATALOG,
     Command(
         "simulate",

@@ -1,13 +1,14 @@
-"""disting simulate: what a bench would measure on a chain with known parameters."""
+"""disting simulate: what a bench would measure on a model with known parameters."""
 
 import argparse
 from pathlib import Path
 
-from disting.cli.arguments import add_damped, add_quantity, refuse
+from disting.cli.arguments import add_damped, add_notation, add_quantity, refuse
 from disting.cli.output import emitted, written_file
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
-from disting.model.names import chains_named
+from disting.network.element import Sort
+from disting.network.network import Network
 
 KINDS = ("schroeder", "random-phase", "chirp")
 QUANTITIES = [s.value for s in Sensor]
@@ -47,18 +48,20 @@ def _drive(p: argparse.ArgumentParser) -> None:
     """The model, its parameters, and what of it is seen."""
     text = (
         "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the"
-        " ground; +lag; +delay"
+        " ground; +lag; +delay; or a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'"
     )
     p.add_argument(
-        "model", nargs="?", metavar="N:I", help=f"{text} (default: a small two-mass drive)"
+        "model", nargs="?", metavar="N:I|NETWORK", help=f"{text} (default: a small two-mass drive)"
     )
+    add_notation(p)
     text = "values of all parameters of the model, such as m1=0.01,k12=500"
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
     add_quantity(p, Sensor.POSITION)
+    p.set_defaults(quantity=None)
     text = "quantity of the response that is written (default: acceleration)"
-    p.add_argument("--response", choices=QUANTITIES, default="acceleration", help=text)
+    p.add_argument("--response", choices=QUANTITIES, help=text)
     refuse(p, "--to", "the quantity of the response is --response, such as --response position")
 
 
@@ -77,7 +80,7 @@ def _bench(p: argparse.ArgumentParser) -> None:
     for name, count, text in COUNTS:
         text = f"{text} (default: {count})"
         p.add_argument(f"--{name}", type=int, default=count, metavar="K", help=text)
-    text = "Coulomb friction of a mass, such as 1=0.3; may be repeated (default: none)"
+    text = "Coulomb friction of a mass or node, such as 1=0.3; may be repeated (default: none)"
     p.add_argument(
         "--friction", type=_friction, action="append", default=[], metavar="MASS=FORCE", help=text
     )
@@ -86,10 +89,11 @@ def _bench(p: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate, estimate the response, write it."""
     from disting.measurement import csv_text
-    from disting.simulation import DEMO_PARAMETERS, Bench, Excitation, Friction, simulate
+    from disting.simulation import Bench, Excitation, Friction, simulate
     from disting.simulation.excitation import read_spectrum
 
-    chain, values = _model(options)
+    model, values = _model(options)
+    quantity = _response(model, options)
     spectrum = read_spectrum(options.spectrum) if options.spectrum else ()
     excitation = Excitation(
         options.excitation, options.low, options.high, options.rms, spectrum=spectrum
@@ -104,11 +108,9 @@ def run(options: argparse.Namespace) -> int:
         friction={mass: Friction(coulomb=force) for mass, force in options.friction},
         seed=options.seed,
     )
-    series = simulate(chain, values or DEMO_PARAMETERS, excitation, bench)
+    series = simulate(model, values, excitation, bench)
     lines = excitation.lines(options.samples, options.rate) * options.rate / options.samples
-    response = series.response(
-        options.response, period=options.samples, lines=lines if spectrum else None
-    )
+    response = series.response(quantity, period=options.samples, lines=lines if spectrum else None)
     text = csv_text(response)
     emitted(options.csv, text)
     if options.csv == "-":
@@ -120,18 +122,29 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _model(options: argparse.Namespace) -> tuple[Chain, dict[str, float]]:
-    """The chain and its parameters; of the demonstration drive if none is named."""
-    from disting.equivalence.inputs import assignments, point_of
-    from disting.simulation import DEMO_MODEL
+def _model(options: argparse.Namespace) -> tuple[Chain | Network, dict[str, float]]:
+    """The model and its parameters; of the demonstration drive if none is named."""
+    from disting.cli.structures import structures, values_of
+    from disting.simulation import DEMO_MODEL, DEMO_PARAMETERS
 
     if options.model is None:
-        if options.values or options.damped is not None:
+        if options.values or options.damped is not None or options.notation:
             raise InputError("parameters belong to a model: name it, such as 2:1")
-        return DEMO_MODEL, {}
-    (chain,) = chains_named([options.model], damped=options.damped, sensor=options.quantity)
-    exact = point_of(chain, assignments(options.values))
-    return chain, {name: int(value.p) / int(value.q) for name, value in exact.items()}
+        return DEMO_MODEL, {**DEMO_PARAMETERS}
+    (model,) = structures([options.model], options, Sensor(options.quantity or Sensor.POSITION))
+    return model, values_of(model, options.values)
+
+
+def _response(model: Chain | Network, options: argparse.Namespace) -> str:
+    """The quantity of the response: of a circuit or compartments there is none to choose, and what
+    they show counts as a position.
+    """
+    if isinstance(model, Chain) or model.sort is Sort.MACHINE:
+        return str(options.response or Sensor.ACCELERATION)
+    for name in ("quantity", "response"):
+        if getattr(options, name):
+            raise InputError(f"--{name} belongs to machines: leave it away")
+    return str(Sensor.POSITION)
 
 
 def _friction(text: str) -> tuple[int, float]:

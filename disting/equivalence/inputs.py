@@ -20,6 +20,7 @@ from disting.model.chain import Chain
 from disting.model.exact_number import MOST_DIGITS, is_too_long
 from disting.model.family import Family
 from disting.model.names import EXTRAS, chain_of, extended, name_of, sized
+from disting.network.network import Network
 
 Value = Number | str
 
@@ -66,27 +67,31 @@ def _rubbed(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, ground_dampers=chosen)
 
 
-def point_of(chain: Chain, values: Mapping[str, Value]) -> dict[str, fmpq]:
-    """All parameters of a chain as exact positive fractions; a float counts as its decimal text.
+def point_of(model: Chain | Network, values: Mapping[str, Value]) -> dict[str, fmpq]:
+    """All parameters of a model as exact positive fractions; a float counts as its decimal text.
 
     Raises InputError for missing and unknown names and for values that are not positive numbers.
 
     >>> point_of(Chain(1, damped=False), {"m1": 0.1})
     {'m1': 1/10}
     """
-    names = ", ".join(chain.parameters)
-    unknown = [str(name) for name in values if name not in chain.parameters]
+    called = name_of(model) if isinstance(model, Chain) else model.name
+    names = ", ".join(model.parameters)
+    unknown = [str(name) for name in values if name not in model.parameters]
     if unknown:
         raise InputError(
-            f"{', '.join(unknown)}: no parameter of {name_of(chain)}; its parameters are {names}"
+            f"{', '.join(unknown)}: no parameter of {called}; its parameters are {names}"
         )
-    missing = [name for name in chain.parameters if name not in values]
+    missing = [name for name in model.parameters if name not in values]
     if missing:
         raise InputError(
-            f"the value of {', '.join(missing)} is missing; the parameters of {name_of(chain)} are"
-            f" {names}"
+            f"the value of {', '.join(missing)} is missing; the parameters of {called} are {names}"
         )
-    return {name: _fraction(name, values[name]) for name in chain.parameters}
+    found = {name: _fraction(name, values[name]) for name in model.parameters}
+    for name, value in found.items():
+        if value <= 0:
+            raise InputError(f"{name} = {values[name]}: {_why_positive(model, name, value == 0)}")
+    return found
 
 
 def assignments(texts: list[str]) -> dict[str, str]:
@@ -117,13 +122,18 @@ def _fraction(name: str, value: Value) -> fmpq:
     exact = _number(text)
     if exact is None:
         raise InputError(f"{name} = {shown(value)}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
-    if exact <= 0:
-        reason = (
-            "masses, springs, dampers and times are positive; a chain without an element is another"
-            f" model{_without(name) if exact == 0 else ''}"
-        )
-        raise InputError(f"{name} = {value}: {reason}")
     return fmpq(exact.numerator, exact.denominator)
+
+
+def _why_positive(model: Chain | Network, name: str, is_zero: bool) -> str:
+    """Why a value has to be, and what to ask instead."""
+    if isinstance(model, Chain):
+        without = _without(name) if is_zero else ""
+        return (
+            "masses, springs, dampers and times are positive; a chain without an element is another"
+            f" model{without}"
+        )
+    return "values of elements are positive; a network without an element is another one"
 
 
 def _without(name: str) -> str:

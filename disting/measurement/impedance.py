@@ -21,6 +21,7 @@ FREQUENCY = re.compile(r"freq", re.IGNORECASE)
 REAL = re.compile(r"zreal|re\(z\)|z'\(a\)|z'(?!')", re.IGNORECASE)
 IMAGINARY = re.compile(r"-?\s*(zimag|im\(z\)|z'')", re.IGNORECASE)
 TURNED = "the imaginary part was mostly positive: taken as -Im, as impedances are often written"
+VOLT = "V"
 MOSTLY = 0.5  # share of the lines
 
 
@@ -51,7 +52,7 @@ def read_impedance(file: Source) -> FrequencyResponse:
         real + sign * 1j * imaginary,
         sensor=Sensor.POSITION,
         input=Signal("current", "A"),
-        output=Signal("voltage", "V"),
+        output=Signal("voltage", VOLT),
         origin=file.name,
         reading=f"frequency in Hz, {headers[1]}, {headers[2]}",
     )
@@ -59,9 +60,9 @@ def read_impedance(file: Source) -> FrequencyResponse:
 
 def as_impedance(measured: FrequencyResponse) -> FrequencyResponse:
     """A response that was read as that of a machine, as an impedance: -Im is turned where it is
-    seen to be that.
+    seen to be that, and the file does not say what it is.
     """
-    turned = np.mean(measured.G.imag > 0) > MOSTLY
+    turned = measured.output.unit != VOLT and np.mean(measured.G.imag > 0) > MOSTLY
     notes = tuple(note for note in measured.notes if "sensor quantity" not in note)
     return replace(
         measured,

@@ -2,7 +2,7 @@
 
 from disting.errors import ConstraintViolation, InputError
 from disting.model.chain import Chain, Sensor
-from disting.model.structure import Damper, Mass, Spring
+from disting.model.structure import Damper, Mass, Spring, Structure
 from disting.network.element import Element, Port, Sort
 from disting.network.network import Network
 
@@ -15,17 +15,26 @@ def of_chain(chain: Chain, name: str = "network") -> Network:
     """
     if chain.lag or chain.dead_time:
         raise InputError("a lag and a dead time are no elements of a network: leave them away")
-    elements = []
-    for e in chain.structure.elements:
+    force, sensor = ports_of(chain.structure)
+    elements = elements_of(chain.structure)
+    return Network(elements, (force,), (sensor,), chain.sensor.order, name)
+
+
+def elements_of(structure: Structure) -> tuple[Element, ...]:
+    """The elements of a structure as those of a network."""
+    found = []
+    for e in structure.elements:
         nodes = (e.at,) if isinstance(e, Mass) else (e.at, 0)
         if isinstance(e, Spring | Damper):
             nodes = (e.at + 1, e.at)
-        elements.append(Element(e.parameter, "d" if e.kind == "b" else e.kind, nodes))
-    force, sensor = (
-        Port(chain.act_plus, chain.act_minus),
-        Port(chain.meas_plus, chain.meas_minus),
-    )
-    return Network(tuple(elements), (force,), (sensor,), chain.sensor.order, name)
+        found.append(Element(e.parameter, "d" if e.kind == "b" else e.kind, nodes))
+    return tuple(found)
+
+
+def ports_of(structure: Structure) -> tuple[Port, Port]:
+    """Where its force and its sensor are."""
+    at = structure.ports
+    return Port(at.act_plus, at.act_minus), Port(at.meas_plus, at.meas_minus)
 
 
 def as_chain(network: Network) -> Chain | None:

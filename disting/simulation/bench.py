@@ -1,4 +1,4 @@
-"""Simulated measurements: a chain, a periodic test signal, and what a real bench adds.
+"""Simulated measurements: a chain or a network, a periodic test signal, and what a real bench adds.
 
 The force is the continuous band-limited signal through the samples u, not a staircase: no
 correction for a zero-order hold is needed, and G of a record without noise is G of the model.
@@ -7,28 +7,30 @@ dead time and lag exact and nothing left of a transient; with it, by `stepping`,
 without it, so that the first periods are a transient.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
 
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.measurement import Signal, TimeSeries
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Sensor
-from disting.model.structure import Structure
+from disting.network.element import Sort
+from disting.network.network import Network
 from disting.simulation.excitation import Excitation
 from disting.simulation.mechanics import (
+    AnyModel,
     checked,
+    form_of,
     input_filter,
     matrices,
     motion,
-    port_vectors,
-    structure_of,
 )
-from disting.simulation.stepping import Friction, stepped, with_viscous
+from disting.simulation.stepping import Friction, stepped
 
+IMPEDANCE = (Signal("current", "A"), Signal("voltage", "V"))
 SILENT = 1e-9  # share of the largest line of a period below which a line is rounding
 
 
@@ -41,8 +43,8 @@ class Bench:
     the output of density (1 + (f/c)^2)^(-n/2), n = `noise_slope`, c = `noise_corner` [Hz] (n = 1:
     1/f above c, n = 2: white noise through a low-pass of first order); `quantum` = step of the
     sensor, to which the output is rounded (an encoder shows positions: use a position sensor) [unit
-    of the output]; `friction` by mass; `seed` of phases and noise. An excitation that does not
-    repeat is a single period with random phases.
+    of the output]; `friction` by mass, of a network by node; `seed` of phases and noise. An
+    excitation that does not repeat is a single period with random phases.
 
     >>> Bench(sampling_rate=4000.0, quantum=6e-6).periods
     20
@@ -77,13 +79,13 @@ class Bench:
 
 @np.errstate(over="ignore", invalid="ignore")  # what is not finite then is refused as no record
 def simulate(
-    model: Chain | Structure,
+    model: AnyModel,
     parameters: Mapping[str, float],
     excitation: Excitation | None = None,
     bench: Bench | None = None,
 ) -> TimeSeries:
-    """Record of force and sensor of a model; `parameters` by name in one system of units (SI). The
-    same seed, the same record.
+    """Record of force and sensor of a model, of a circuit of current and voltage; `parameters` by
+    name in one system of units (SI). The same seed, the same record.
 
     Raises InputError for wrong parameters, an excitation beyond half the sampling rate, or one at
     an undamped resonance.
@@ -101,38 +103,53 @@ def simulate(
     noise = source.standard_normal((2, bench.samples * bench.periods))
     coloured = _coloured(noise[1], bench, source) if bench.noise_slope else noise[1]
     recorded = output + bench.output_noise * coloured
+    is_circuit = isinstance(model, Network) and model.sort is Sort.CIRCUIT
+    signals = IMPEDANCE if is_circuit else (Signal("input"), Signal("output"))
     return TimeSeries(
         u=np.tile(period, bench.periods) + bench.input_noise * noise[0],
         y=np.round(recorded / bench.quantum) * bench.quantum if bench.quantum else recorded,
         sampling_rate=bench.sampling_rate,
-        sensor=list(Sensor)[structure_of(model).sensor_order],
-        input=Signal("input"),
-        output=Signal("output"),
+        sensor=list(Sensor)[form_of(model).order],
+        input=signals[0],
+        output=signals[1],
         origin="simulation",
     )
 
 
-def _output(
-    model: Chain | Structure, values: Mapping[str, float], period: Real, bench: Bench
-) -> Real:
-    """The sensor's quantity without noise, shape (samples * periods,)."""
-    act, meas = port_vectors(model)
-    order = structure_of(model).sensor_order
-    m = with_viscous(matrices(model, values), bench.friction)
+def _output(model: AnyModel, values: Mapping[str, float], period: Real, bench: Bench) -> Real:
+    """What the sensor shows without noise, shape (samples * periods,)."""
+    form = form_of(model)
+    act, order = form.act, form.order
     omega = 2 * np.pi * np.arange(bench.samples // 2 + 1) * bench.sampling_rate / bench.samples
-    force = _lines(period) * input_filter(values, omega)
-    if any(kind.coulomb for kind in bench.friction.values()):
-        seconds = bench.samples / bench.sampling_rate
-        return np.asarray(
-            stepped(m, act, force, seconds, bench.samples, bench.periods, bench.friction)[order]
-            @ meas
-        )
+    force = _lines(period) * input_filter(model, values, omega)
+    powers = dict(form.powers(values))
+    if bench.friction:
+        rubbed = _friction(model, form.nodes, bench.friction)
+        m = matrices(model, values)
+        m = m._replace(D=m.D + np.diag([kind.viscous for kind in rubbed]))
+        powers = {2: m.M, 1: m.D, 0: m.K}
+        if any(kind.coulomb for kind in rubbed):
+            seconds = bench.samples / bench.sampling_rate
+            whole = stepped(m, act, force, seconds, bench.samples, bench.periods, rubbed)
+            return np.asarray(whole[order] @ form.meas)
     spectrum = np.zeros_like(force)
     used = np.flatnonzero(force)
-    spectrum[used] = (
-        (1j * omega[used]) ** order * (motion(m, act, omega[used]) @ meas) * force[used]
-    )
+    moved = motion(powers, act, omega[used]) @ form.meas
+    spectrum[used] = (1j * omega[used]) ** order * moved * force[used]
     return np.tile(np.fft.irfft(spectrum, bench.samples), bench.periods)
+
+
+def _friction(
+    model: AnyModel, nodes: Sequence[int], friction: Mapping[int, Friction]
+) -> list[Friction]:
+    """The friction of each mass; raises InputError for one that is none."""
+    if isinstance(model, Network) and model.sort is not Sort.MACHINE:
+        raise InputError("friction belongs to machines: leave it away")
+    if not set(friction) <= set(nodes):
+        raise InputError(
+            f"friction sits at masses {listed(map(str, nodes))}, not at {sorted(friction)}"
+        )
+    return [friction.get(node, Friction()) for node in nodes]
 
 
 def _coloured(white: Real, bench: Bench, source: np.random.Generator) -> Real:

@@ -1,24 +1,36 @@
-"""A structure as numbers: its matrices and its frequency response.
+"""A model as numbers: its matrices and its frequency response.
 
-M x'' + D x' + K x = (e_act+ - e_act-) F. With A(s) = M s^2 + D s + K the response of a sensor of
-order n = 0, 1, 2 (position, velocity, acceleration) is
+An element of value p adds p s^r u v' to P(s) = sum_r P_r s^r (1/p of a resistor, an inductor, a
+Warburg element). The response of a sensor of order n = 0, 1, 2 (position, velocity, acceleration;
+0 of a circuit or compartments) is
 
-    G(s) = s^n exp(-s Td) / (1 + s T1) (e_meas+ - e_meas-)' A(s)^-1 (e_act+ - e_act-).
+    G(s) = s^n exp(-s Td) / (1 + s T1) c' P(s)^-1 b.
+
+Of a machine P(s) = M s^2 + D s + K, so that M x'' + D x' + K x = b F. A chain is the network of its
+masses, springs and dampers behind a lag and a dead time.
 """
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple, SupportsFloat
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.structure import Element, Structure, power
+from disting.model.structure import Structure
+from disting.network.chains import elements_of, ports_of
+from disting.network.element import Element, Port, Sort
+from disting.network.network import Network
+
+AnyModel = Chain | Structure | Network
+Powers = Mapping[float, Real]
+"""P_r by r, shape (N, N) each."""
 
 
 class Matrices(NamedTuple):
-    """M, D and K, shape (N, N) each, in one system of units.
+    """M, D and K of a machine, shape (N, N) each, in one system of units.
 
     >>> matrices(Chain(1, ground_dampers=(1,), damped=False), {"m1": 2.0, "b1": 0.1}).D.tolist()
     [[0.1]]
@@ -29,96 +41,140 @@ class Matrices(NamedTuple):
     K: Real
 
 
-def structure_of(model: Chain | Structure) -> Structure:
-    """The structure of a chain, or the structure itself."""
-    return model.structure if isinstance(model, Chain) else model
-
-
-def checked(model: Chain | Structure, values: Mapping[str, float]) -> dict[str, float]:
-    """The values of all parameters; raises InputError for missing, unknown or negative ones,
-    and for masses that are zero.
+@dataclass(frozen=True, slots=True)
+class Form:
+    """What P(s), b and c are made of; `parameters` with those that are none of an element; `nodes`
+    in the order of rows; `order` of the sensor.
     """
-    names = structure_of(model).parameters
-    if set(names) != set(values):
-        raise InputError(
-            f"parameters {', '.join(names)} are needed, given are {', '.join(values) or 'none'}"
-        )
-    for name, value in values.items():
-        if not 0 <= value < np.inf or (name[0] == "m" and value == 0):
-            raise InputError(
-                f"{name} = {shown(value)} is no {'positive' if name[0] == 'm' else 'non-negative'}"
-                " number"
+
+    parameters: tuple[str, ...]
+    elements: tuple[Element, ...]
+    nodes: tuple[int, ...]
+    force: Port
+    sensor: Port
+    order: int
+
+    @property
+    def act(self) -> Real:
+        """b, shape (N,)."""
+        return self._vector(self.force.ends)
+
+    @property
+    def meas(self) -> Real:
+        """c, shape (N,)."""
+        return self._vector(self.sensor.ends)
+
+    def powers(self, values: Mapping[str, float]) -> Powers:
+        """P_r by r, for values of all parameters."""
+        found: dict[float, Real] = {}
+        for e in self.elements:
+            size = values[e.value] if e.value else 1.0
+            u, v = (
+                self._vector({i: -values[x] if isinstance(x, str) else x for i, x in side.items()})
+                for side in (e.pulls, e.feels)
             )
-    return {name: float(values[name]) for name in names}
+            term = (1 / size if e.kind.divides else size) * np.outer(u, v)
+            power = e.kind.halves / 2
+            found[power] = found[power] + term if power in found else term
+        return found
+
+    def _vector(self, ends: Mapping[int, SupportsFloat]) -> Real:
+        """+1 and -1 or a ratio at some nodes, nothing at the ground."""
+        vector = np.zeros(len(self.nodes))
+        for node, size in ends.items():
+            vector[self.nodes.index(node)] = float(size)
+        return vector
 
 
-def matrices(model: Chain | Structure, values: Mapping[str, float]) -> Matrices:
-    """M, D, K: every element adds value * v v' with v the masses that it joins.
+def form_of(model: AnyModel) -> Form:
+    """The form of a chain, its structure, or a network with one input and one output; of a circuit
+    without what is not seen, as its potentials are known but for a constant. Raises InputError.
+    """
+    if isinstance(model, Network):
+        if model.shape != (1, 1):
+            raise InputError(
+                f"{model.name} has several inputs or outputs: simulate one of each at a time"
+            )
+        plain = model.grounded if model.sort is Sort.CIRCUIT else model
+        force, sensor = plain.ports
+        return Form(model.parameters, plain.elements, plain.nodes, force, sensor, model.order)
+    structure = model.structure if isinstance(model, Chain) else model
+    nodes = tuple(range(1, structure.n_masses + 1))
+    elements, ports = elements_of(structure), ports_of(structure)
+    return Form(structure.parameters, elements, nodes, *ports, structure.sensor_order)
+
+
+def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
+    """The values of all parameters; raises InputError for missing, unknown or negative ones,
+    and for masses, ratios and what divides that are zero.
+    """
+    form = form_of(model)
+    if set(form.parameters) != set(values):
+        raise InputError(
+            f"parameters {listed(form.parameters)} are needed, given are {listed(values) or 'none'}"
+        )
+    positive = {e.value for e in form.elements if e.letter == "m" or e.kind.divides}
+    positive |= {e.ratio for e in form.elements}
+    for name, value in values.items():
+        if not 0 <= value < np.inf or (name in positive and value == 0):
+            kind = "positive" if name in positive else "non-negative"
+            raise InputError(f"{name} = {shown(value)} is no {kind} number")
+    return {name: float(values[name]) for name in form.parameters}
+
+
+def matrices(model: AnyModel, values: Mapping[str, float]) -> Matrices:
+    """M, D, K of a machine.
 
     >>> matrices(Chain(2, damped=False), {"m1": 1.0, "m2": 2.0, "k12": 4.0}).K.tolist()
     [[4.0, -4.0], [-4.0, 4.0]]
     """
-    structure, numbers = structure_of(model), checked(model, values)
-    by_power = [np.zeros((structure.n_masses, structure.n_masses)) for _ in range(3)]
-    for element in structure.elements:
-        vector = _vector(element, structure.n_masses)
-        by_power[power(element)] += numbers[element.parameter] * np.outer(vector, vector)
-    return Matrices(by_power[2], by_power[1], by_power[0])
+    form = form_of(model)
+    powers = form.powers(checked(model, values))
+    nothing = np.zeros((len(form.nodes),) * 2)
+    return Matrices(*(powers.get(power, nothing) for power in (2, 1, 0)))
 
 
-def port_vectors(model: Chain | Structure) -> tuple[Real, Real]:
-    """e_act and e_meas, shape (N,): +1 and -1 at the masses of the ports, nothing at the ground.
+def port_vectors(model: AnyModel) -> tuple[Real, Real]:
+    """b and c, shape (N,): +1 and -1 at the nodes of the ports, nothing at the ground.
 
     >>> [vector.tolist() for vector in port_vectors(Chain(2, meas_plus=2))]
     [[1.0, 0.0], [0.0, 1.0]]
     """
-    structure = structure_of(model)
-    ports = structure.ports
-    return _port(ports.act_plus, ports.act_minus, structure.n_masses), _port(
-        ports.meas_plus, ports.meas_minus, structure.n_masses
-    )
+    form = form_of(model)
+    return form.act, form.meas
 
 
-def motion(m: Matrices, force: Real, omega: Real) -> Complex:
-    """Positions of all masses per force, shape (n_f, N), at omega [rad/s], shape (n_f,); raises
-    InputError at a pole.
+def motion(powers: Powers, force: Real, omega: Real) -> Complex:
+    """Positions of all masses per force, or what stands for them, shape (n_f, N), at omega [rad/s],
+    shape (n_f,); raises InputError at a pole.
     """
-    s = 1j * np.asarray(omega)[:, None, None]
+    s = 1j * np.asarray(omega, dtype=np.float64)[:, None, None]
     try:
-        return np.asarray(np.linalg.solve(m.M * s**2 + m.D * s + m.K, force[None, :, None])[..., 0])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            matrix = sum(term * s**power for power, term in powers.items())
+        if not np.isfinite(matrix).all():
+            raise np.linalg.LinAlgError
+        return np.asarray(np.linalg.solve(matrix, force[None, :, None])[..., 0])
     except np.linalg.LinAlgError:
         raise InputError(
             "an undamped resonance or 0 Hz is among the frequencies: the response is infinite there"
         ) from None
 
 
-def input_filter(values: Mapping[str, float], omega: Real) -> Complex:
-    """exp(-j omega Td) / (1 + j omega T1), shape (n_f,); missing times are zero."""
+def input_filter(model: AnyModel, values: Mapping[str, float], omega: Real) -> Complex:
+    """exp(-j omega Td) / (1 + j omega T1), shape (n_f,); missing times are zero, as of networks."""
+    times = {} if isinstance(model, Network) else values
     s = 1j * np.asarray(omega)
-    return np.asarray(np.exp(-s * values.get("Td", 0.0)) / (1 + s * values.get("T1", 0.0)))
+    return np.asarray(np.exp(-s * times.get("Td", 0.0)) / (1 + s * times.get("T1", 0.0)))
 
 
-def frequency_response(
-    model: Chain | Structure, values: Mapping[str, float], omega: Real
-) -> Complex:
-    """G(j omega), shape (n_f,), of the sensor quantity of the model; `omega` [rad/s].
+def frequency_response(model: AnyModel, values: Mapping[str, float], omega: Real) -> Complex:
+    """G(j omega), shape (n_f,), of what the sensor of the model shows; `omega` [rad/s].
 
     >>> abs(frequency_response(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
     [0.5, 0.5]
     """
-    act, meas = port_vectors(model)
-    order = structure_of(model).sensor_order
-    moved = motion(matrices(model, values), act, omega) @ meas
-    return np.asarray((1j * np.asarray(omega)) ** order * input_filter(values, omega) * moved)
-
-
-def _vector(element: Element, size: int) -> Real:
-    nodes = (element.at, element.at + 1) if element.kind in "kd" else (element.at, 0)
-    return _port(nodes[0], nodes[1], size)
-
-
-def _port(plus: int, minus: int, size: int) -> Real:
-    vector = np.zeros(size + 1)
-    vector[plus] += 1.0
-    vector[minus] -= 1.0
-    return vector[1:]
+    form, numbers = form_of(model), checked(model, values)
+    moved = motion(form.powers(numbers), form.act, omega) @ form.meas
+    front = (1j * np.asarray(omega)) ** form.order
+    return np.asarray(front * input_filter(model, numbers, omega) * moved)

@@ -6,7 +6,7 @@ side is smooth and the integration converges. Dead time and lag act on the force
 reaches the masses; the force is a trigonometric polynomial, known at every instant.
 """
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,18 +41,6 @@ class Friction:
             raise InputError("friction has coulomb >= 0, viscous >= 0 and speed > 0")
 
 
-def with_viscous(m: Matrices, friction: Mapping[int, Friction]) -> Matrices:
-    """The matrices with the viscous friction of the masses (from 1) added to D; raises
-    InputError for a mass that is none.
-    """
-    if any(not 1 <= mass <= len(m.M) for mass in friction):
-        raise InputError(f"friction sits at masses 1 to {len(m.M)}, not at {sorted(friction)}")
-    extra = np.zeros(len(m.M))
-    for mass, kind in friction.items():
-        extra[mass - 1] = kind.viscous
-    return m._replace(D=m.D + np.diag(extra))
-
-
 def stepped(
     m: Matrices,
     act: Real,
@@ -60,17 +48,16 @@ def stepped(
     period: float,
     samples: int,
     periods: int,
-    friction: Mapping[int, Friction],
+    friction: Sequence[Friction],
 ) -> Real:
     """Positions, velocities and accelerations of all masses, shape (3, samples * periods, N).
 
     `m` with the viscous friction; `force` = spectrum of one period, shape (samples // 2 + 1,), of
-    numpy.fft.rfft; `period` [s]. Begins in the periodic motion without Coulomb friction.
+    numpy.fft.rfft; `period` [s]; `friction` of each mass. Begins in the periodic motion without
+    Coulomb friction. Raises InputError where M has no inverse.
     """
-    coulomb, speed = np.zeros(len(act)), np.ones(len(act))
-    for mass, kind in friction.items():
-        coulomb[mass - 1], speed[mass - 1] = kind.coulomb, kind.speed
-    inverse = 1.0 / np.diag(m.M)
+    coulomb, speed = np.array([(kind.coulomb, kind.speed) for kind in friction]).T
+    inverse = _inverse(m)
     highest = 2 * np.pi * int(np.flatnonzero(force)[-1]) / period
     steps = _steps(m, coulomb / speed, highest, period / samples)
     if steps * samples * periods > MOST_STEPS:
@@ -82,7 +69,7 @@ def stepped(
 
     def acceleration(x: Real, v: Real, f: Real) -> Real:
         """(f - D v - K x - F_c tanh(v/v_s)) / M."""
-        return np.asarray(inverse * (f - m.D @ v - m.K @ x - coulomb * np.tanh(v / speed)))
+        return np.asarray(inverse @ (f - m.D @ v - m.K @ x - coulomb * np.tanh(v / speed)))
 
     x, v = _start(m, act, force, period, samples)
     h = period / samples / steps
@@ -108,10 +95,21 @@ def _steps(m: Matrices, slope: Real, highest: float, sample: float) -> int:
     """Steps a sample [s]: from the force [rad/s], the eigenvalues (Gershgorin: rows of |K|,
     |D|), the slope of the friction.
     """
-    inverse = 1.0 / np.diag(m.M)
-    stiff, damped = (np.max(inverse * np.abs(matrix).sum(axis=1)) for matrix in (m.K, m.D))
-    fastest = np.sqrt(stiff) + damped + np.max(inverse * slope) + highest
+    inverse = _inverse(m)
+    stiff, damped, rubbed = (
+        np.max(np.abs(inverse @ matrix).sum(axis=1)) for matrix in (m.K, m.D, np.diag(slope))
+    )
+    fastest = np.sqrt(stiff) + damped + rubbed + highest
     return max(1, int(np.ceil(sample * fastest / STEP)))
+
+
+def _inverse(m: Matrices) -> Real:
+    try:
+        return np.asarray(np.linalg.inv(m.M))
+    except np.linalg.LinAlgError:
+        raise InputError(
+            "Coulomb friction needs a mass at every node: give each a mass, however small"
+        ) from None
 
 
 def _oversampled(spectrum: Complex, samples: int, factor: int) -> Real:
@@ -127,7 +125,7 @@ def _start(
     """Position and velocity at time zero of the periodic motion without Coulomb friction."""
     lines = np.flatnonzero(np.abs(force) > 0)
     omega = np.asarray(2 * np.pi * lines / period, dtype=np.float64)
-    moved = motion(m, act, omega) * force[lines, None] * (2 / samples)
+    moved = motion({2: m.M, 1: m.D, 0: m.K}, act, omega) * force[lines, None] * (2 / samples)
     return np.asarray(moved.sum(axis=0).real), np.asarray(
         (1j * omega[:, None] * moved).sum(axis=0).real
     )

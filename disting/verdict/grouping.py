@@ -42,7 +42,6 @@ from disting.verdict.classes import Classes, without_dampers
 from disting.verdict.engine import Engine, Progress, silent
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
-Key = Callable[[int], Hashable]
 OF_MARKOV = tuple(c for c in NECESSARY if not c.of_degrees)
 # transfer function, Markov parameters, 1/G
 TESTS = (*(c.rule.name for c in (*NECESSARY, *OF_MARKOV)), EXACT.name)

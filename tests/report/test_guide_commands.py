@@ -28,6 +28,7 @@ CHEAP = tuple(
         "models 3",
         "models vessels",
         "next",
+        'plan "',
         "schema",
         "simulate",
     )

@@ -343,7 +343,7 @@ def test_a_held_input_makes_the_errors_that_the_guide_tells():
             lambda: simulate(
                 Chain(1, damped=False), {"m1": 1.0}, bench=Bench(friction={2: Friction(1.0)})
             ),
-            "masses 1 to 1",
+            "at masses 1, not at",
         ),
         (
             lambda: simulate(

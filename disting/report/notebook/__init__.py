@@ -13,7 +13,9 @@ from disting.algebra.notation import Expr
 from disting.behaviour.expanded import transfer_function
 from disting.fit.results.export import StateSpace, state_space, to_control
 from disting.model.chain import Chain
+from disting.network.network import Network
 from disting.report.drawing import chain_svg
+from disting.report.network_drawing import network_svg
 from disting.report.notebook.plots import drawn_on
 from disting.report.notebook.tables import table_of
 from disting.simulation.mechanics import checked, frequency_response
@@ -26,9 +28,11 @@ class Notebook:
         """The object as a piece of an HTML page; raises TypeError for what has none."""
         return table_of(shown)
 
-    def svg(self, shown: Chain, /) -> str:
-        """The drawing of a chain on white paper, which is right in light and dark notebooks."""
-        return chain_svg(shown)
+    def svg(self, shown: Chain | Network, /) -> str:
+        """The drawing of a chain or a network on white paper, which is right in light and dark
+        notebooks.
+        """
+        return chain_svg(shown) if isinstance(shown, Chain) else network_svg(shown)
 
     def transfer_function(self, shown: Chain, /) -> Expr:
         """G(s) from force to sensor."""

@@ -38,7 +38,7 @@
     for (const name of ["viewBox", "aria-label", "width"]) if (source) svg.setAttribute(name, source.getAttribute(name));
     svg.firstElementChild.setAttribute("href", `#chain-${number}`);
     const link = slot(`${side}-name`);
-    link.textContent = nameOf(number);
+    link.textContent = data.numbered ? `${nameOf(number)}: ${data.names[number - 1]}` : nameOf(number);
     if (names.page(number)) link.href = names.page(number);
     else link.removeAttribute("href"); // of a size whose pages are not beside this one
   };
@@ -80,14 +80,15 @@
   };
   const known = (numbers) => numbers.flatMap((i) => (data.known?.[i] ? [data.known[i].replace("{0}", nameOf(i))] : [])).join(" "); // before any "distinguishable": what cannot be determined
   const takeAway = (low, high, v, view) => { // the same verdict elsewhere: a command, Python, and a reference to it with its address
-    slot("takeaway").hidden = Boolean(data.names);
-    if (data.names) return;
+    slot("takeaway").hidden = Boolean(data.names && !data.numbered);
+    if (slot("takeaway").hidden) return;
+    const quoted = (text) => (data.names ? `"${text}"` : text), damping = data.names ? "" : ` --${data.damped ? "damped" : "undamped"}`;
     const [left, right] = [low, high].map(names.typed);
     const why = data.texts[data.entries[entry(low, high, view)][NAMES.indexOf("why")]].replace(/\{([LR])\}/g, (_, side) => (side === "L" ? left : right));
-    const cited = `${left} and ${right}, ${data.premise}, are ${data.said[v.relation]} over ${v.domain} parameters${v.aside}${v.by ? ` (${v.rule})` : ""}: ${why} ${v.certainty}`.trim();
+    const cited = `${left} and ${right}${data.names ? "" : `, ${data.premise},`} are ${data.said[v.relation]} over ${v.domain} parameters${v.aside}${v.by ? ` (${v.rule})` : ""}: ${why} ${v.certainty}`.trim();
     put({
-      shell: `disting compare ${left} ${right} --${data.damped ? "damped" : "undamped"}`,
-      python: `disting.compare("${left}", "${right}", damped=${data.damped ? "True" : "False"})`,
+      shell: `disting compare ${quoted(left)} ${quoted(right)}${damping}`,
+      python: `disting.compare("${left}", "${right}"${data.names ? "" : `, damped=${data.damped ? "True" : "False"}`})`,
       cited: `disting ${data.version}: ${cited} ${location.href.split("#")[0]}${names.hash([low, high])}`,
     });
     for (const button of slot("takeaway").querySelectorAll("[data-copy]")) button.textContent = "Copy";
