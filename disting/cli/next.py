@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
         found = _shipped(group, is_damped(options), costs) or further(
             group, engine, costs=costs, executor=pool, progress=progress
         )
-    return _written(options, found)
+    return _written(options, [found], to_dict(found), told(found))
 
 
 def _networks(options: argparse.Namespace, costs: Costs) -> int:
@@ -122,22 +122,24 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
             return 0
         group = list(zip(names, networks, strict=True))
         found = further_networks(group, engine, costs=costs, executor=pool, progress=progress)
-    return _written(options, found)
+    return _written(options, [found], to_dict(found), told(found))
 
 
-def _written(options: argparse.Namespace, found: AnyFurther) -> int:
+def _written(
+    options: argparse.Namespace, found: Sequence[AnyFurther], plain: object, text: str
+) -> int:
     if options.csv:
-        emitted(options.csv, _table([CSV_COLUMNS, *rows(found)]))
+        emitted(options.csv, _table([CSV_COLUMNS, *(row for one in found for row in rows(one))]))
     if options.json:
-        emitted(options.json, json.dumps(to_dict(found), indent=1) + "\n")
+        emitted(options.json, json.dumps(plain, indent=1) + "\n")
     if "-" not in (options.csv, options.json):
-        print(printable(told(found)))
+        print(printable(text))
     return 0
 
 
 def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     """Of the structures that a fit left; only here are the libraries of fits loaded."""
-    from disting.cli.next_fit import onward
+    from disting.cli.next_fit import networks_onward, onward
     from disting.report.fit.left_first import again, first_sentence
     from disting.report.fit.left_words import (
         MEASURED_COLUMNS,
@@ -148,6 +150,10 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     )
 
     with engine_for(options) as (engine, pool, progress):
+        networks = networks_onward(options, costs, engine, pool, progress)
+        if networks:
+            text = "\n\n".join([*networks.sentences, *map(told, networks.groups)])
+            return _written(options, networks.groups, networks.to_dict(), text)
         found = onward(options, costs, engine, pool, progress)
     if options.csv:
         emitted(options.csv, _table([(*CSV_COLUMNS, *MEASURED_COLUMNS), *left_rows(found)]))

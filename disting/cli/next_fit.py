@@ -1,18 +1,96 @@
 """disting next with the file of a fit: what to measure next to tell apart what it left."""
 
 import argparse
+import shlex
 from concurrent.futures import Executor
+from dataclasses import dataclass
 from pathlib import Path
 
 from disting.cli.plain import complain
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.experiments.menu import Costs
+from disting.fit.networks import BAR
 from disting.fit.plan.fit_file import Named, named_by
 from disting.fit.plan.further import bench_of, foretold
+from disting.fit.plan.network_file import is_of_networks, left_by
 from disting.fit.plan.relations import stood
+from disting.network.network import Network
 from disting.report.fit.left_words import Onward
+from disting.schemas import Format
 from disting.verdict.engine import Engine, Progress
-from disting.verdict.further import further
+from disting.verdict.further import Further, further
+from disting.verdict.further_words import to_dict
+from disting.verdict.network_placement import further_networks
+
+
+@dataclass(frozen=True, slots=True)
+class NetworksOnward:
+    """The networks that a fit of `source` left: `noise` names those that noise alone leaves
+    together, the selected one first; `groups`: those that no data of these ports tell apart.
+    """
+
+    source: str
+    noise: tuple[str, ...]
+    groups: tuple[Further[Network], ...]
+
+    @property
+    def sentences(self) -> list[str]:
+        """The answer."""
+        found = [f"the data of {self.source} leave {listed(self.noise, BAR)}"]
+        if len(self.noise) > 1:
+            command = f"disting plan {shlex.quote(self.source)}"
+            found.append(f"how much more of the same measurement tells these apart: {command}")
+        if not self.groups:
+            found.append("no other candidate gives the same responses as one of them")
+        return found
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        return {
+            "format": Format.NEXT_OF_NETWORK_FIT.value,
+            "sentences": self.sentences,
+            "noise": list(self.noise),
+            "groups": [to_dict(group) for group in self.groups],
+        }
+
+
+def networks_onward(
+    options: argparse.Namespace,
+    costs: Costs,
+    engine: Engine,
+    executor: Executor | None,
+    progress: Progress,
+) -> NetworksOnward | None:
+    """What to measure next on the networks that the named fit left; None where it is a fit of
+    chains. Raises InputError.
+    """
+    source = _source(options)
+    if not is_of_networks(Path(source)):
+        return None
+    left = left_by(Path(source))
+    groups = [
+        further_networks(
+            [(network.name, network) for network in (one.network, *one.same)],
+            engine,
+            costs=costs,
+            executor=executor,
+            progress=progress,
+        )
+        for one in left
+        if one.same
+    ]
+    return NetworksOnward(source, tuple(one.network.name for one in left), tuple(groups))
+
+
+def _source(options: argparse.Namespace) -> str:
+    """The file; raises InputError for what is named beside it."""
+    source = next(name for name in options.models if name.lower().endswith(".json"))
+    if len(options.models) > 1 or options.damped is not None:
+        raise InputError(
+            f"{source} names its structures itself: leave other names and"
+            " --damped or --undamped away"
+        )
+    return str(source)
 
 
 def onward(
@@ -23,12 +101,7 @@ def onward(
     progress: Progress,
 ) -> Onward:
     """All that is known of the structures that the named fit left; raises InputError."""
-    source = next(name for name in options.models if name.lower().endswith(".json"))
-    if len(options.models) > 1 or options.damped is not None:
-        raise InputError(
-            f"{source} names its structures itself: leave other names and"
-            " --damped or --undamped away"
-        )
+    source = _source(options)
     named = named_by(Path(source))
     if len(named.left) < 2 and not named.explained:
         raise InputError(

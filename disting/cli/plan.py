@@ -11,22 +11,26 @@ import numpy as np
 from disting.cli.arguments import is_damped
 from disting.cli.output import emitted
 from disting.cli.plain import complain
+from disting.cli.structures import structures, values_of
 from disting.cli.workers import engine_for
-from disting.equivalence.inputs import assignments, point_of
 from disting.errors import InputError, printable
 from disting.fit.noise.scatter import scatter
 from disting.fit.plan.design import Designed, designed, designed_to_dict
 from disting.fit.plan.fit_file import Named, named_by
+from disting.fit.plan.network_file import NamedNetworks, is_of_networks, networks_named_by
 from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
-from disting.fit.results.export import predicted
+from disting.fit.plan.search import AnyStructure, response_of, sensor_of
 from disting.measurement import read
 from disting.measurement.arrays import Real
+from disting.measurement.impedance import as_impedance
 from disting.model.chain import Chain
-from disting.model.names import chains_named, damping_option
+from disting.model.names import damping_option
+from disting.network.element import Sort
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.plan_write import write_plan
 from disting.schemas import Format
 
+AnyNamed = Named | NamedNetworks
 LINES = 120
 
 
@@ -45,9 +49,8 @@ def run(options: argparse.Namespace) -> int:
         return _from_fit(Path(options.model), options)
     if options.rival is None:
         raise InputError("name the structure to exclude too, such as: disting plan 2:1+b1 2:1+b2")
-    model, rival = chains_named([options.model, options.rival], damped=options.damped)
-    exact = point_of(model, assignments(options.values))
-    values = {name: int(value.p) / int(value.q) for name, value in exact.items()}
+    model, rival = structures([options.model, options.rival], options)
+    values = values_of(model, options.values)
     effort = _effort(options, model, values, None)
     _warn(effort)
     with engine_for(options) as (engine, pool, progress):
@@ -88,7 +91,7 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
         )
     if options.out:
         raise InputError("--out belongs to one pair: plan it by name, as the output shows")
-    named = named_by(path)
+    named: AnyNamed = networks_named_by(path) if is_of_networks(path) else named_by(path)
     if not named.explained:
         complain(
             f"warning: none of the structures of {path} explains its data, so no rival is named;"
@@ -99,7 +102,7 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
     found = list[tuple[Plan, Plan | None]]()
     with engine_for(options) as (engine, pool, progress):
 
-        def planned(one: Chain, values: dict[str, float], other: Chain) -> Plan:
+        def planned(one: AnyStructure, values: dict[str, float], other: AnyStructure) -> Plan:
             """One plan with this effort."""
             return plan(one, values, other, effort.omega, effort.rho, engine=engine, executor=pool)
 
@@ -127,7 +130,10 @@ def _emit(options: argparse.Namespace, plain: dict[str, Any]) -> None:
 
 
 def _effort(
-    options: argparse.Namespace, model: Chain, values: dict[str, float], named: Named | None
+    options: argparse.Namespace,
+    model: AnyStructure,
+    values: dict[str, float],
+    named: AnyNamed | None,
 ) -> Effort:
     """From a number, a measured response, or the file of a fit."""
     if options.lines is not None and options.lines < FEWEST:
@@ -153,15 +159,17 @@ def _number(text: str | None) -> float | None:
         return None
 
 
-def _measured(options: argparse.Namespace, model: Chain, values: dict[str, float]) -> Effort:
+def _measured(options: argparse.Namespace, model: AnyStructure, values: dict[str, float]) -> Effort:
     """Lines and scatter of a measured response."""
     if options.lines is not None:
         raise InputError("the lines are those of the measured response: leave --lines away")
-    found = read(Path(options.noise)).to_quantity(model.sensor)
+    found = read(Path(options.noise))
+    is_machine = isinstance(model, Chain) or model.sort is Sort.MACHINE
+    found = found.to_quantity(sensor_of(model)) if is_machine else as_impedance(found)
     for note in (*found.notes, *found.suspicions):
         complain(f"{found.origin or 'data'}: {note}")
     found = found.masked(*options.band) if options.band else found
-    seen = scatter(found, [predicted(model, values, found.omega)])
+    seen = scatter(found, [response_of(model, values, found.omega)])
     return Effort(found.omega, seen.rho, f"of {options.noise}, known from {seen.source}")
 
 

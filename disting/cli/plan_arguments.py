@@ -2,19 +2,27 @@
 
 import argparse
 
-from disting.cli.arguments import add_damped, add_json, add_work, frequency_range, refuse
+from disting.cli.arguments import (
+    add_damped,
+    add_json,
+    add_notation,
+    add_work,
+    frequency_range,
+    refuse,
+)
 from disting.cli.output import written_folder
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     text = (
-        "the true structure, such as 2:1+b1, or a file of 'disting fit --json': its selected"
-        " structure"
+        "the true structure, such as 2:1+b1 or a network such as 'R0-p(R1,C1)', or a file of"
+        " 'disting fit --json': its selected structure"
     )
-    p.add_argument("model", metavar="N:I|FIT.json", help=text)
+    p.add_argument("model", metavar="N:I|NETWORK|FIT.json", help=text)
     text = "the structure to exclude (with FIT.json: each that it names)"
-    p.add_argument("rival", nargs="?", metavar="M:J", help=text)
+    p.add_argument("rival", nargs="?", metavar="M:J|NETWORK", help=text)
+    add_notation(p)
     text = "values of all parameters of the true structure, such as m1=0.01,k12=500"
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text

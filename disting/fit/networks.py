@@ -19,6 +19,7 @@ from disting.fit.noise.covariance import expected, noise
 from disting.fit.noise.scatter import Scatter, scatter
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.descent import Box, fine, rough
+from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.network_plant import NetworkPlant, measured_as, random_starts
 from disting.fit.search.whitened import Whitened
 from disting.general.any_model import of_network
@@ -26,6 +27,7 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.presentation import Shown, summary
 from disting.network.network import Network
+from disting.network.notation.entries import entry_of
 from disting.schemas import Format
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
@@ -42,6 +44,22 @@ Progress = Callable[[str, int, int], object]
 
 def silent(what: str, done: int, total: int) -> None:
     """No progress is shown."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BestFit:
+    """The parameters found, shape (n_p,), their cost, and the costs of all starts after the rough
+    search, in rising order.
+    """
+
+    p: Real
+    j: float
+    costs: tuple[float, ...]
+
+    @property
+    def reached(self) -> int:
+        """Number of starts that came within 0.1 % of the best cost."""
+        return sum(cost <= self.j * (1 + REACHED) + NOTHING for cost in self.costs)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,9 +109,13 @@ class FittedNetwork:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NetworkSelection(Shown):
-    """What was found: `fits`, the selected one first, then by chi2; `scatter` of the lines."""
+    """What was found: `fits`, the selected one first, then by chi2; all candidates (`networks`);
+    the data (`measured`), and `scatter` of the lines.
+    """
 
     fits: tuple[FittedNetwork, ...]
+    networks: tuple[Network, ...]
+    measured: FrequencyResponse = field(repr=False)
     scatter: Scatter
     decisions: Decisions = field(repr=False)
 
@@ -132,6 +154,12 @@ class NetworkSelection(Shown):
             "sentence": self.sentence,
             "selected": chosen.network.name if chosen else None,
             "scatter": self.scatter.typical,
+            "frequencies": {
+                "low": float(self.measured.frequency[0]),
+                "high": float(self.measured.frequency[-1]),
+                "lines": len(self.measured),
+            },
+            "networks": [{"name": n.name, **entry_of(n)} for n in self.networks],
             "fits": [fit.to_dict() for fit in self.fits],
         }
 
@@ -170,7 +198,8 @@ def fit_networks(
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
         plant = NetworkPlant(asked[i], measured.omega)
-        found.append((plant, _searched(plant, cost, measured, i)))
+        starts = random_starts(plant, measured, STARTS, np.random.default_rng((SEED, i)))
+        found.append((plant, searched(plant, cost, starts).p))
     known = scatter(measured, [plant.response(p) for plant, p in found])
     fits = [
         replace(
@@ -180,7 +209,8 @@ def fit_networks(
         for i, (plant, p) in zip(chosen, found, strict=True)
     ]
     fits = [replace(f, excluded_by=_excluding(f, fits, known)) for f in fits]
-    whole = NetworkSelection(tuple(sorted(fits, key=lambda f: f.chi2)), known, decided)
+    ordered = tuple(sorted(fits, key=lambda f: f.chi2))
+    whole = NetworkSelection(ordered, tuple(asked), measured, known, decided)
     order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left, f.chi2))
     return replace(whole, fits=tuple(order))
 
@@ -196,17 +226,15 @@ def _first_of_same(decided: Decisions, count: int) -> list[int]:
     return first
 
 
-def _searched(plant: NetworkPlant, cost: Cost, measured: FrequencyResponse, number: int) -> Real:
-    """The best values found."""
-    draw = np.random.default_rng((SEED, number))
-    starts = random_starts(plant, measured, STARTS, draw)
+def searched(plant: NetworkPlant, cost: Cost, starts: Real) -> BestFit:
+    """The best values found from starts, shape (n_s, n_p)."""
     size = len(plant.parameters)
     box = Box(np.zeros(size), np.full(size, np.inf))
     with np.errstate(all="ignore"):  # far from the data responses may overflow
         points, costs = rough(plant, cost, box, starts, ITERATIONS)
         kept = np.argsort(costs)[:KEPT]
-        ends = [fine(plant, cost, box, points[k]) for k in kept]
-    return min(ends, key=lambda end: end[1])[0]
+        p, j = min((fine(plant, cost, box, points[k]) for k in kept), key=lambda end: end[1])
+    return BestFit(p, j, tuple(sorted(map(float, costs))))
 
 
 def _judged(

@@ -55,12 +55,22 @@ STEP = 4.0  # between the points by which what is drawn is remembered
 
 
 def network_svg(network: Network) -> str:
-    """Stand-alone SVG of a network."""
+    """Stand-alone SVG of a network.
+
+    >>> from disting import network_of
+    >>> network_svg(network_of("R0-p(R1,C1)"))[:4]
+    '<svg'
+    """
     return svg(draw_network(network))
 
 
 def network_png(network: Network, *, scale: float = 3) -> bytes:
-    """PNG of a network, `scale` pixels a unit."""
+    """PNG of a network, `scale` pixels a unit.
+
+    >>> from disting import network_of
+    >>> network_png(network_of("1=2=3, 2=4; F1; S4"))[1:4]
+    b'PNG'
+    """
     return png(draw_network(network), scale=scale)
 
 

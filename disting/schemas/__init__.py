@@ -25,6 +25,7 @@ class Format(StrEnum):
     NETWORK_EQUIVALENTS = "disting equivalents of a network 1"
     NEXT = "disting next 1"
     NEXT_OF_FIT = "disting next of a fit 1"
+    NEXT_OF_NETWORK_FIT = "disting next of a fit of networks 1"
     FIT = "disting fit 1"
     NETWORK_FIT = "disting fit of networks 1"
     PLAN = "disting plan 1"

@@ -1,6 +1,7 @@
 """disting simulate and disting plan of networks, as commands."""
 
 import csv
+import json
 import shlex
 
 import numpy as np
@@ -46,9 +47,137 @@ def test_a_tree_is_simulated_with_friction():
     assert other.stdout != done.stdout
 
 
+def test_a_plan_says_how_much_noise_may_be_there():
+    """By hand: R1 in series to C1 against R1 alone differ by 1/(j w C1); its best fit is a real
+    number, so that of two lines the sum of squares is known.
+    """
+    done = called(
+        "plan", "R1-C1", "p(R1,C1)", "--set", "R1=1,C1=0.01", "--noise", "0.02", "--band", "1..100",
+        "--json", "-",
+    )  # fmt: skip
+    plain = json.loads(done.stdout)
+    assert done.returncode == 0 and plain["answer"] == "enough" and plain["trust"] == "agreed"
+    omega = 2 * np.pi * np.geomspace(1, 100, 120)
+    exact = 1 + 1 / (0.01j * omega)
+    p = [plain["best_fit"][name] for name in ("R1", "C1")]
+    apart = np.abs(1 / (1 / p[0] + 1j * omega * p[1]) / exact - 1)
+    assert plain["noncentrality"] == pytest.approx(np.sum(apart**2) / 0.02**2, rel=1e-9)
+    for step in np.random.default_rng(1).normal(size=(200, 2)) * 0.1:
+        q = p * np.exp(step)
+        other = np.abs(1 / (1 / q[0] + 1j * omega * q[1]) / exact - 1)
+        assert np.sum(other**2) > np.sum(apart**2)
+
+
+def test_a_plan_writes_what_simulate_runs(tmp_path):
+    done = called(
+        "plan",
+        CELL[0],
+        "R1-C1",
+        *CELL[1:],
+        "--noise",
+        "0.1",
+        "--band",
+        "0.5..50",
+        "--lines",
+        "30",
+        "--out",
+        tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    command = shlex.split(done.stdout.splitlines()[-1])
+    assert command[:3] == ["disting", "simulate", "R0-p(R1,C1)"]
+    ran = called(*command[1:])
+    omega, impedance = responses(ran.stdout)
+    np.testing.assert_allclose(impedance, 1 + 2 / (1 + 0.02j * omega), rtol=1e-6)
+
+
+def test_same_networks_are_impossible_to_tell_apart_and_next_is_named():
+    done = called("plan", CELL[0], "p(R0,R1-C1)", *CELL[1:], "--noise", "0.1", "--band", "0.5..50")
+    assert done.returncode == 0 and done.stdout.startswith("impossible: no effort")
+    assert "disting next 'R0-p(R1,C1)' 'p(R0,R1-C1)'" in done.stdout.splitlines()[0]
+
+
+def test_a_network_that_contains_the_true_one_is_never_excluded():
+    done = called(
+        "plan",
+        CELL[0],
+        "R0-p(R1,C1)-p(R2,C2)",
+        *CELL[1:],
+        "--noise",
+        "0.1",
+        "--band",
+        "0.5..50",
+        "--json",
+        "-",
+    )
+    plain = json.loads(done.stdout)
+    assert plain["answer"] == "same" and plain["contains"]
+
+
+@pytest.fixture(scope="module")
+def fit_file(tmp_path_factory):
+    """A cell whose second arc the noise hides; one of the candidates is the same as another."""
+    folder = tmp_path_factory.mktemp("cell")
+    done = called(
+        "simulate", "R0-p(R1,C1)", "--set", "R0=1,R1=2,C1=0.01", "--low", "1", "--high", "100",
+        "--output-noise", "0.4", "--csv", folder / "cell.csv",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    models = ("R0-p(R1,C1)", "p(R0,R1-C1)", "R0-p(R1,C1)-p(R2,C2)", "R1-C1")
+    named = [word for model in models for word in ("--models", model)]
+    done = called("fit", folder / "cell.csv", *named, "--json", folder / "fit.json")
+    assert done.returncode == 0, done.stderr
+    return folder / "fit.json", done.stdout
+
+
+def test_rivals_of_a_fit_of_networks_are_planned_for(fit_file):
+    path, said = fit_file
+    done = called("plan", path)
+    assert done.returncode == 0, done.stderr
+    first, same, *_ = done.stdout.splitlines()
+    plain = json.loads(path.read_text(encoding="utf-8"))
+    assert plain["selected"] in said and first.startswith(f"{plain['selected']} is taken for true")
+    assert same.startswith("impossible: ") and "the same responses for all positive values" in same
+
+
+def test_what_to_measure_next_on_what_a_fit_of_networks_left(fit_file):
+    path, _ = fit_file
+    done = called("next", path)
+    assert done.returncode == 0, done.stderr
+    assert "2 structures that the present measurement cannot tell apart" in done.stdout
+    assert "disting plan" in done.stdout
+    plain = json.loads(called("next", path, "--json", "-").stdout)
+    assert plain["groups"][0]["structures"] == ["R0-p(R1,C1)", "p(R0,R1-C1)"]
+    rows = called("next", path, "--csv", "-").stdout.splitlines()
+    assert len(rows) > 5
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"networks": []}, "is no whole file of a fit"),
+        ({"networks": [{"name": "x"}]}, "is no whole file of a fit"),
+        ({"fits": []}, "none of the networks"),
+        ({"fits": [{}]}, "is no whole file of a fit"),
+        ({"frequencies": {}}, "is no whole file of a fit"),
+    ],
+)
+def test_damaged_files_are_refused(fit_file, tmp_path, change, words):
+    path = tmp_path / "fit.json"
+    plain = json.loads(fit_file[0].read_text(encoding="utf-8"))
+    path.write_text(json.dumps(plain | change), encoding="utf-8")
+    done = called("plan", path)
+    assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
+
+
 @pytest.mark.parametrize(
     ("command", "words"),
     [
+        ("plan R0-C1 --set R0=1,C1=1", "name the structure to exclude too"),
+        ("plan R0-C1 2:1 --set R0=1,C1=1", "2:1 is a numbered chain, R0-C1 a network"),
+        ("plan R0-C1 R0-L1 --set R0=1 --noise 0.1 --band 1..2", "the value of C1 is missing"),
+        ("plan R0-C1 R0-C1 --set R0=1,C1=1 --noise 0.1 --band 1..2", "no rival of itself"),
+        ("plan R0-C1 R0-L1 --set R0=1,C1=1 --noise 0.1", "--band 5..300"),
         ("simulate R0-C1", "the value of C1, R0 is missing; the parameters of R0-C1 are C1, R0"),
         ("simulate R0-C1 --set R0=1,C1=0", "values of elements are positive"),
         ("simulate R0-C1 --set R0=1,C1=1,L1=1", "L1: no parameter of R0-C1"),

@@ -133,7 +133,7 @@ def test_planned_power_is_had_within_three_points_in_a_thousand_experiments(fric
     assert share(found.rival, MODEL, values, 1000, 1) == pytest.approx(POWER, abs=0.03)
     half = power(found.noncentrality / 2)
     assert share(found.rival, MODEL, values, 1000, 2, effort=0.5) == pytest.approx(half, abs=0.03)
-    true = found.rival.estimate.parameters
+    true = found.rival.parameters
     assert share(found.rival, RIVAL, true, 1000, 3) <= LEVEL + 0.01
 
 
@@ -167,7 +167,7 @@ def test_where_the_model_contains_the_rival_the_test_is_the_difference_of_the_co
         found = minimize(cost, begin, method="Nelder-Mead", options={"maxfev": 6000, "fatol": 1e-8})
         return found.fun
 
-    difference = lowest(plain, rival.estimate.parameters) - lowest(MODEL, VALUES)
+    difference = lowest(plain, rival.parameters) - lowest(MODEL, VALUES)
     assert gain(rival, data) == pytest.approx(difference, rel=0.02)
 
 
@@ -224,7 +224,7 @@ def test_few_starts_that_agree_make_the_answer_doubtful(planned):
         ((j, j, 2 * j, 9 * j), True, Trust.DOUBTFUL),
         ((j, j, j, 9 * j), False, Trust.DOUBTFUL),
     ):
-        other = replace(rival, estimate=replace(rival.estimate, costs=costs), recovered=recovered)
+        other = replace(rival, best=replace(rival.best, costs=costs), recovered=recovered)
         found = replace(planned, rival=other)
         said = next(plan_in_words(found, None, "given"))
         assert other.trust is trust and ("Doubtful" in said) == (trust is Trust.DOUBTFUL)

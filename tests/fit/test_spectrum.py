@@ -9,7 +9,7 @@ from disting.fit.plan.design import designed
 from disting.fit.plan.power import plan
 from disting.fit.plan.rival import apart
 from disting.fit.plan.spectrum import CLOSE, KEPT, Adversary, best_band, optimal, runnable
-from disting.fit.search.descent import fine
+from disting.fit.search.descent import Box, fine
 from disting.model.chain import Chain
 from tests.fit.test_plan import MODEL, OMEGA, RIVAL, VALUES, alike
 
@@ -42,12 +42,13 @@ def random_spectra(count, seed=3):
 
 def refitted(rival, shares, starts):
     """Noncentrality by a route of its own: a fit from each start, summed up here."""
-    task = rival.task
-    weights = np.sqrt(len(shares) * shares) / (rival.rho * np.abs(task.cost.measured.G))
-    cost = type(task.cost)(task.cost.measured, task.cost.case, task.cost.weights, weights)
+    measured = rival.cost.measured
+    weights = np.sqrt(len(shares) * shares) / (rival.rho * np.abs(measured.G))
+    cost = type(rival.cost)(measured, rival.cost.case, rival.cost.weights, weights)
+    box = Box(np.zeros(len(starts[0])), np.full(len(starts[0]), np.inf))
     found = []
     for start in starts:
-        p, _ = fine(task.plant(rival.chain), cost, task.box(rival.chain.parameters), start)
+        p, _ = fine(rival.plant, cost, box, start)
         found.append(len(shares) * np.sum(shares * (apart(rival, p) / rival.rho) ** 2))
     return min(found)
 

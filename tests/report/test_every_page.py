@@ -152,7 +152,7 @@ def test_no_link_of_any_page_is_dead_and_no_name_is_given_twice(site: Path) -> N
 
 def test_notebooks_are_listed_where_they_are(site: Path) -> None:
     names = sorted(path.stem for path in (site / "notebooks").glob("*.ipynb"))
-    for address, root in (("index.html", "guide/"), ("guide/notebook.html", "")):
+    for address, root in (("index.html", "guide/"), ("guide/gallery.html", "")):
         links = {str(a["href"]) for _, a in outline(site / address).elements if "href" in a}
         assert [name for name in names if f"{root}notebook-{name}.html" not in links] == []
     assert len(names) == 3

@@ -15,6 +15,7 @@ from disting.equivalence.listing import Signs
 from disting.errors import InputError
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, Share
+from disting.fit.networks import fit_networks
 from disting.fit.plan.power import Answer
 from disting.fit.plan.relations import Standing
 from disting.fit.plan.rival import Limit, Trust
@@ -25,9 +26,10 @@ from disting.general.model_files import read_models
 from disting.measurement import write_csv
 from disting.model.question import Domain
 from disting.network.families import FAMILIES, family_of
+from disting.network.notation import network_of
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format, schema
-from disting.simulation import demo
+from disting.simulation import Bench, demo, simulate
 from disting.verdict import everywhere
 from disting.verdict.result import Relation
 from tests.cli.process import called
@@ -99,6 +101,12 @@ WRITTEN = [
         Format.PLAN,
     ),
     ("plan left.json", Format.PLANS_OF_FIT),
+    (
+        "plan R0-p(R1,C1) R0-C1 --set R0=1,R1=2,C1=0.1 --noise 0.3 --band 1..9 --lines 9",
+        Format.PLAN,
+    ),
+    ("plan cells.json", Format.PLANS_OF_FIT),
+    ("next cells.json", Format.NEXT_OF_NETWORK_FIT),
 ]
 
 
@@ -117,6 +125,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (place / "models.json").write_text(json.dumps(MODELS), encoding="utf-8")
     fit_file(place / "left.json", member(FREE, VALUES, **{"3:11": twin_values()}))
     write_csv(demo(0).response("acceleration"), place / "demo.csv")
+    cells = [network_of(text) for text in ("R0-p(R1,C1)", "p(R0,R1-C1)", "R0-p(R1-R2,C1)-C2")]
+    measured = simulate(cells[0], {"R0": 1, "R1": 2, "C1": 0.01}, bench=Bench(output_noise=0.1))
+    found = fit_networks(measured.response("position"), cells).to_dict()
+    (place / "cells.json").write_text(json.dumps(found), encoding="utf-8")
     written(place / "both.csv", column(Setup(), 1), column(Setup(sensor="2"), 2, 0.01))
     return place
 

@@ -20,7 +20,7 @@ rival models, 1975.
 
 from collections.abc import Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, sqrt
 from typing import Any
@@ -30,10 +30,12 @@ from scipy.stats import ncx2
 
 from disting.fit.judge.exclusion import LEVEL, joined, limit, surplus, trials
 from disting.fit.plan.rival import Rival, Trust, fitted_rival
-from disting.fit.search.candidates import reference
+from disting.fit.plan.search import AnyStructure, name_of, sensor_of, shown_as
+from disting.general.any_model import of_network
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.presentation import Shown, summary
+from disting.network.network import Network
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format
 from disting.verdict.comparison import compare
@@ -78,9 +80,9 @@ class Plan(Shown):
     where none was asked for.
     """
 
-    model: Chain
+    model: AnyStructure
     values: Mapping[str, float]
-    chain: Chain
+    other: AnyStructure
     verdict: Verdict | None
     surplus: int
     rival: Rival | None
@@ -92,7 +94,7 @@ class Plan(Shown):
     @property
     def names(self) -> tuple[str, str]:
         """Model and rival, as the commands read them."""
-        return reference(self.model), reference(self.chain)
+        return name_of(self.model), name_of(self.other)
 
     @property
     def answer(self) -> Answer:
@@ -108,7 +110,16 @@ class Plan(Shown):
         """Whether the rival contains the model, as elements or the verdict on inclusion tell."""
         both = None if self.verdict is None else self.verdict.inclusions
         known = both is not None and both.closure.inclusion is Inclusion.LEFT_IN_RIGHT
-        return known or joined(self.model, self.chain) == self.chain
+        return known or self.joint == self.other
+
+    @property
+    def joint(self) -> Chain | None:
+        """The smallest chain that contains both, where they differ in dampers to the ground, lag
+        and dead time alone.
+        """
+        if isinstance(self.model, Chain) and isinstance(self.other, Chain):
+            return joined(self.model, self.other)
+        return None
 
     @property
     def noncentrality(self) -> float:
@@ -123,8 +134,11 @@ class Plan(Shown):
     @property
     def level(self) -> float:
         """Of the test: divided by the places where an element of the model is looked for."""
+        model, other = self.model, self.other
         lines = 1 if self.rival is None else len(self.rival.rho)
-        return LEVEL / trials(self.chain, self.model, lines)
+        if isinstance(model, Chain) and isinstance(other, Chain):
+            return LEVEL / trials(other, model, lines)
+        return LEVEL
 
     @property
     def needed(self) -> float:
@@ -141,9 +155,9 @@ class Plan(Shown):
 
 
 def plan(
-    model: Chain,
+    model: AnyStructure,
     values: Mapping[str, float],
-    rival: Chain,
+    rival: AnyStructure,
     omega: Real,
     rho: Real,
     *,
@@ -155,13 +169,13 @@ def plan(
     [rad/s] whose lines scatter by `rho`, shape (n_f,) each. Raises InputError.
     """
     engine = engine or Engine()
-    rival = replace(rival, sensor=model.sensor)
+    rival = shown_as(rival, sensor_of(model))
     verdict = compare(model, rival, engine=engine) if model != rival else None
     if verdict is not None and verdict.relation is Relation.INDISTINGUISHABLE:
         return Plan(model, values, rival, verdict, 1, None)
     fit = fitted_rival(
         model,
-        dict(values),
+        values,
         rival,
         omega,
         rho,
@@ -169,7 +183,16 @@ def plan(
         executor=executor,
         progress=progress,
     )
-    return Plan(model, values, rival, verdict, surplus(model, rival, engine.settings), fit)
+    return Plan(model, values, rival, verdict, _surplus(model, rival, engine), fit)
+
+
+def _surplus(model: AnyStructure, rival: AnyStructure, engine: Engine) -> int:
+    """s of the module; of networks the ranks of both are compared."""
+    if isinstance(model, Chain) and isinstance(rival, Chain):
+        return surplus(model, rival, engine.settings)
+    networks = [of_network(n) for n in (model, rival) if isinstance(n, Network)]
+    one, other = engine.general_subjects(networks)
+    return max(1, one.rank - other.rank)
 
 
 def plan_to_dict(found: Plan) -> dict[str, Any]:
@@ -197,9 +220,9 @@ def plan_to_dict(found: Plan) -> dict[str, Any]:
         "factor": found.factor if more else None,
         "noise": typical(rival.rho),
         "largest_noise": typical(rival.rho) / sqrt(found.factor) if more else None,
-        "best_fit": rival.estimate.parameters,
+        "best_fit": rival.parameters,
         "trust": rival.trust.value,
-        "starts": [rival.reached, len(rival.estimate.costs)],
+        "starts": [rival.best.reached, len(rival.best.costs)],
         "contains": found.is_contained,
         "limits": {name: limit.value for name, limit in rival.limits.items()},
     }

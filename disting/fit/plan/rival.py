@@ -27,19 +27,24 @@ from enum import StrEnum
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.judge.exclusion import Fitted, basis_of, statistic
+from disting.fit.judge.exclusion import basis_of, statistic
+from disting.fit.networks import BestFit
 from disting.fit.noise.covariance import Noise
-from disting.fit.results.export import predicted
-from disting.fit.search.candidates import reference
+from disting.fit.plan.search import (
+    AnyPlant,
+    AnyStructure,
+    Search,
+    name_of,
+    open_box,
+    response_of,
+    search,
+    sensor_of,
+    shown_as,
+)
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.descent import fine
-from disting.fit.search.estimate import Estimate, Task
-from disting.fit.search.exchange import estimates
-from disting.fit.search.neighbours import carried
-from disting.fit.search.starts import natural, scale, stacked
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
@@ -71,48 +76,48 @@ class Limit(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Rival:
-    """The best fit of `estimate.chain` to the response of `model` at `values`; `rho`, shape
-    (n_f,), of its lines; `recovered`: the search finds back the model's own response; `known` =
-    fits of smaller structures, from which further searches begin.
+    """The best fit of `structure` to the response of `model` at `values`; `rho`, shape (n_f,), of
+    its lines; `recovered`: the search finds back the model's own response; `cost` of that response.
     """
 
-    model: Chain
-    values: dict[str, float]
+    model: AnyStructure
+    values: Mapping[str, float]
     rho: Real
-    estimate: Estimate
+    structure: AnyStructure
+    best: BestFit
     recovered: bool
-    task: Task = field(repr=False)
-    known: Mapping[Chain, Estimate] = field(repr=False)
+    cost: Cost = field(repr=False)
+    search: Search = field(repr=False)
 
     def __repr__(self) -> str:
         return summary(
-            self, f"{reference(self.chain)}, lambda {self.noncentrality:.4g}, {self.trust}"
+            self, f"{name_of(self.structure)}, lambda {self.noncentrality:.4g}, {self.trust}"
         )
 
     @property
-    def chain(self) -> Chain:
-        """The rival's structure."""
-        return self.estimate.chain
+    def plant(self) -> AnyPlant:
+        """The rival on the lines."""
+        return self.search.plants[1]
 
     @property
     def noncentrality(self) -> float:
         """lambda."""
-        return self.estimate.j
+        return self.best.j
 
     @property
-    def p(self) -> Real:
-        """The rival's parameters as an array, shape (n_p,)."""
-        return np.array([self.estimate.parameters[n] for n in self.chain.parameters])
+    def parameters(self) -> dict[str, float]:
+        """The rival's, by name."""
+        return dict(zip(self.plant.parameters, map(float, self.best.p), strict=True))
 
     @property
     def hertz(self) -> Real:
         """Frequencies of the lines, shape (n_f,)."""
-        return self.task.cost.measured.frequency
+        return self.cost.measured.frequency
 
     @property
     def apart(self) -> Real:
         """|G_B/G_A - 1| of every line, shape (n_f,)."""
-        return apart(self, self.p)
+        return apart(self, self.best.p)
 
     @property
     def is_same(self) -> bool:
@@ -120,28 +125,22 @@ class Rival:
         return bool(np.sqrt(np.mean(self.apart**2)) < ROUNDING)
 
     @property
-    def reached(self) -> int:
-        """Number of starts that reached the best fit."""
-        return round(self.estimate.hit_rate * len(self.estimate.costs))
-
-    @property
     def trust(self) -> Trust:
         """Agreed where several starts reached the best fit and the model's own values were found
         back.
         """
-        agreed = self.recovered and (self.reached >= FEWEST or self.is_same)
+        agreed = self.recovered and (self.best.reached >= FEWEST or self.is_same)
         return Trust.AGREED if agreed else Trust.DOUBTFUL
 
     @property
     def limits(self) -> dict[str, Limit]:
         """The rival's elements that have no effect, and what they have become."""
-        columns = np.linalg.norm(self.task.cost.of(self.task.plant(self.chain), self.p)[1], axis=0)
+        columns = np.linalg.norm(self.cost.of(self.plant, self.best.p)[1], axis=0)
         gone = columns < WITHOUT_EFFECT * columns.max(initial=0.0)
-        usual = natural(self.chain, scale(self.task.cost.measured))
-        found = self.estimate.parameters
+        found = self.parameters
         return {
-            name: _limit(found[name] / usual[name])
-            for name, limit in zip(self.chain.parameters, gone, strict=True)
+            name: _limit(found[name] / self.search.usual[name])
+            for name, limit in zip(found, gone, strict=True)
             if limit
         }
 
@@ -155,14 +154,13 @@ def _limit(share: float) -> Limit:
 
 def apart(rival: Rival, p: Real) -> Real:
     """|G_B/G_A - 1| of every line, shape (n_f,), for parameters `p`, shape (n_p,), of the rival."""
-    response = rival.task.plant(rival.chain).response(p)
-    return np.asarray(np.abs(response / rival.task.cost.measured.G - 1))
+    return np.asarray(np.abs(rival.plant.response(p) / rival.cost.measured.G - 1))
 
 
 def fitted_rival(
-    model: Chain,
-    values: dict[str, float],
-    rival: Chain,
+    model: AnyStructure,
+    values: Mapping[str, float],
+    rival: AnyStructure,
     omega: Real,
     rho: Real,
     *,
@@ -174,37 +172,18 @@ def fitted_rival(
     """The rival's best fit at angular frequencies [rad/s] with the scatter `rho`, shape (n_f,)
     each. Raises InputError for a scatter that is not positive, and where both are one structure.
     """
-    rival = replace(rival, sensor=model.sensor)
+    sensor = sensor_of(model)
+    rival = shown_as(rival, sensor)
     if rival == model:
         raise InputError("a structure is no rival of itself: name another one")
     _check(omega, rho)
-    measured = FrequencyResponse(omega, predicted(model, values, omega), sensor=model.sensor)
+    measured = FrequencyResponse(omega, response_of(model, values, omega), sensor=sensor)
     cost = Cost(measured, Case.COMPLEX, lines=1.0 / (rho * np.abs(measured.G)))
-    task = Task(cost, seed=seed)
-    found = estimates([model, rival], task, store=store, executor=executor, progress=progress)
-    own = found[model].j * float(np.mean(rho**2)) / len(omega)
-    best = _from_values(found[rival], values, task)
-    return Rival(model, values, rho, best, own < ROUNDING**2, task, found)
-
-
-def _from_values(found: Estimate, values: dict[str, float], task: Task) -> Estimate:
-    """The estimate, or a better one to which the model's own values lead, where the rival has
-    elements of the same names.
-    """
-    chain = found.chain
-    masses_and_springs = [
-        {n for n in names if n[0] in "mk"} for names in (values, chain.parameters)
-    ]
-    if masses_and_springs[0] != masses_and_springs[1]:
-        return found
-    plant, box = task.plant(chain), task.box(chain.parameters)
-    starts = stacked(list(carried(chain, values, scale(task.cost.measured))), chain.parameters)
-    ends = [fine(plant, task.cost, box, start) for start in starts]
-    p, j = min(ends, key=lambda end: end[1])
-    tried = tuple(sorted([*found.costs, *(end[1] for end in ends)]))
-    if j >= found.j:
-        return replace(found, costs=tried)
-    return Estimate(chain, dict(zip(chain.parameters, map(float, p), strict=True)), j, tried)
+    found = search(
+        model, values, rival, cost, seed=seed, store=store, executor=executor, progress=progress
+    )
+    own = found.own * float(np.mean(rho**2)) / len(omega)
+    return Rival(model, values, rho, rival, found.best, own < ROUNDING**2, cost, found)
 
 
 def _check(omega: Real, rho: Real) -> None:
@@ -220,19 +199,24 @@ def gain(rival: Rival, measured: FrequencyResponse) -> float:
     """T of the module for a measured response at the rival's lines: both structures are fitted
     from where they lie closest without noise. Raises InputError for other lines.
     """
-    known = rival.task.cost
-    if not isinstance(known, Cost):
-        raise InputError("the test is of one response")
-    if not np.array_equal(measured.omega, known.measured.omega):
+    if not np.array_equal(measured.omega, rival.cost.measured.omega):
         raise InputError("the test needs a response at the planned lines")
-    task = replace(rival.task, cost=replace(known, measured=measured))
-    own = np.array([rival.values[n] for n in rival.model.parameters])
-    starts = (rival.chain, rival.p), (rival.model, own)
-    return statistic(*(_fitted(chain, task, start) for chain, start in starts))
+    cost = replace(rival.cost, measured=measured)
+    one, other = rival.search.plants
+    own = np.array([rival.values[name] for name in one.parameters])
+    return statistic(_left(other, cost, rival.best.p), _left(one, cost, own))
 
 
-def _fitted(chain: Chain, task: Task, start: Real) -> Fitted:
-    plant = task.plant(chain)
-    p, _ = fine(plant, task.cost, task.box(chain.parameters), start)
-    residual, columns = task.cost.of(plant, p)
-    return Fitted(chain, residual, basis_of(columns), Noise(np.ones(len(residual))))
+@dataclass(frozen=True, slots=True, eq=False)
+class _Left:
+    """What a fit leaves."""
+
+    residual: Real
+    basis: Real
+    noise: Noise
+
+
+def _left(plant: AnyPlant, cost: Cost, start: Real) -> _Left:
+    p, _ = fine(plant, cost, open_box(len(start)), start)
+    residual, columns = cost.of(plant, p)
+    return _Left(residual, basis_of(columns), Noise(np.ones(len(residual))))

@@ -25,11 +25,13 @@ import numpy as np
 from scipy.optimize import linprog
 
 from disting.fit.plan.rival import Rival, apart
+from disting.fit.plan.search import open_box
+from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
-from disting.fit.search.estimate import Task, estimate
 from disting.measurement.arrays import Real
 
 CLOSE = 1e-3  # relative distance of the bound at which a spectrum is optimal
+ENOUGH = 1e-6  # relative gain of a fit at which its cut is sharp enough
 STEPS = 200  # cuts, at most
 BASINS = 3  # of the rival's earlier fits, from which the next one begins
 EDGES = 11  # of the bands that are tried, evenly on a logarithmic scale
@@ -75,7 +77,7 @@ class Adversary:
 
     def __post_init__(self) -> None:
         if not self.points:
-            self.add(self.rival.p)
+            self.add(self.rival.best.p)
 
     def add(self, p: Real) -> None:
         """One more fit."""
@@ -89,24 +91,23 @@ class Adversary:
 
     def noncentrality(self, shares: Real) -> float:
         """lambda, from the nearest fits so far."""
-        task = self._task(shares)
-        plant, box = task.plant(self.rival.chain), task.box(self.rival.chain.parameters)
+        plant, cost = self.rival.plant, self._cost(shares)
         sizes = np.array([cut @ shares for cut in self.cuts])
-        ends = [fine(plant, task.cost, box, self.points[i]) for i in _distinct(sizes)]
+        box = open_box(len(plant.parameters))
+        ends = [fine(plant, cost, box, self.points[i], ENOUGH) for i in _distinct(sizes)]
         self.add(min(ends, key=lambda end: end[1])[0])
         return self.bound(shares)
 
     def searched(self, shares: Real) -> float:
         """lambda, from all starts."""
-        found = estimate(self.rival.chain, self._task(shares), self.rival.known)
-        self.add(np.array([found.parameters[n] for n in self.rival.chain.parameters]))
+        self.add(self.rival.search.again(self._cost(shares)).p)
         return self.bound(shares)
 
-    def _task(self, shares: Real) -> Task:
-        task = self.rival.task
-        size = np.abs(task.cost.measured.G) * self.rival.rho
+    def _cost(self, shares: Real) -> Cost:
+        cost = self.rival.cost
+        size = np.abs(cost.measured.G) * self.rival.rho
         weights = np.sqrt(len(shares) * np.maximum(shares, 0.0)) / size
-        return replace(task, cost=replace(task.cost, lines=weights))
+        return replace(cost, lines=weights)
 
 
 def _distinct(sizes: Real) -> list[int]:

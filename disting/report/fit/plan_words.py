@@ -1,24 +1,33 @@
 """A plan in words: the answer first, then the numbers behind it."""
 
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import ceil, floor, sqrt
 
 import numpy as np
 
-from disting.fit.judge.exclusion import LEVEL, joined
+from disting.fit.judge.exclusion import LEVEL
 from disting.fit.plan.design import Designed
 from disting.fit.plan.fit_file import Named
+from disting.fit.plan.network_file import NamedNetworks
 from disting.fit.plan.power import POWER, Answer, Plan, is_trusted, power, typical
 from disting.fit.plan.rival import Limit, Rival
+from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.search.candidates import as_listed, reference
+from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
 from disting.model.names import damping_option
+from disting.network.element import Sort
 from disting.report.fit.words import percent, readable
 from disting.verdict.result import Relation
 
 LOUD = 0.3  # noise of a line beyond which the logarithm of a response is no longer linear in it
 FEWEST = 8  # lines of a response
+WORDS = {
+    Sort.MACHINE: ("machine", "with this force and sensor"),
+    Sort.CIRCUIT: ("circuit", "at these nodes"),
+    Sort.COMPARTMENTS: ("system", "with this input and output"),
+}
 SHOWN = 12  # lines of the optimal spectrum in the table
 
 
@@ -41,13 +50,12 @@ def plan_in_words(found: Plan, best: Designed | None, source: str) -> Iterator[s
     yield ""
     model, name = found.names
     width = max(len(model), len(name))
-    yield f"  {model:{width}}  {text_drawing(found.model)}  true: {_values(found.values)}"
+    yield f"  {model:{width}}  {_drawn(found.model)}true: {_values(found.values)}"
     rival = found.rival
     if rival is None:
-        yield f"  {name:{width}}  {text_drawing(found.chain)}"
+        yield f"  {name:{width}}  {_drawn(found.other)}".rstrip()
         return
-    fitted = _values(rival.estimate.parameters)
-    yield f"  {name:{width}}  {text_drawing(found.chain)}  best fit: {fitted}"
+    yield f"  {name:{width}}  {_drawn(found.other)}best fit: {_values(rival.parameters)}"
     yield ""
     yield from _figures(found, rival, source)
     if best is not None:
@@ -56,12 +64,15 @@ def plan_in_words(found: Plan, best: Designed | None, source: str) -> Iterator[s
 
 
 def rivals_in_words(
-    named: Named, found: Sequence[tuple[Plan, Plan | None]], source: str, file: str
+    named: Named | NamedNetworks,
+    found: Sequence[tuple[Plan, Plan | None]],
+    source: str,
+    file: str,
 ) -> Iterator[str]:
     """The selected structure of a fit, of which `file` is the name, against each rival; beside it
     the reverse, where the rival contains the selected structure.
     """
-    name = reference(named.model)
+    name = name_of(named.model)
     yield f"{name} is taken for true: {_values(named.values)}; noise {source}"
     for same, why in named.same.items():
         yield f"impossible: {same}: {why}"
@@ -101,38 +112,57 @@ def _rows(found: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
         yield f"{name:{width}}  {row}"
 
 
-def next_command(model: str, rival: str, damped: bool) -> str:
+def _drawn(structure: AnyStructure) -> str:
+    """A chain as a drawing; a network is drawn by its name."""
+    return f"{text_drawing(structure)}  " if isinstance(structure, Chain) else ""
+
+
+def next_command(found: Plan) -> str:
     """The command that tells which other experiment tells two structures apart."""
-    return f"disting next {model} {rival} {damping_option(damped)}"
+    return f"disting next {_named(found.model, found.other)}"
+
+
+def _named(model: AnyStructure, *others: AnyStructure) -> str:
+    """Structures as a command names them."""
+    names = " ".join(shlex.quote(name_of(one)) for one in (model, *others))
+    return f"{names} {damping_option(model.damped)}" if isinstance(model, Chain) else names
+
+
+def named_with_values(
+    model: AnyStructure, values: Mapping[str, float], *others: AnyStructure
+) -> str:
+    """Structures with the values of the first one, under the names of the structure that is
+    listed.
+    """
+    names = as_listed(model).renaming if isinstance(model, Chain) else {}
+    text = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in values.items())
+    return f"{_named(model, *others)} --set {text}"
 
 
 def plan_command(found: Plan) -> str:
-    """The command for one pair; values under the names of the structure that is listed."""
-    model, rival = found.names
-    names = as_listed(found.model).renaming
-    values = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in found.values.items())
+    """The command for one pair."""
     size = typical(found.rival.rho) if found.rival else 0.02
     lines = ""
     if found.rival:
         hertz = found.rival.hertz
         lines = f" --band {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
-    damped = f" {damping_option(found.model.damped)}"
-    return f"disting plan {model} {rival}{damped} --set {values} --noise {size:.3g}{lines}"
+    named = named_with_values(found.model, found.values, found.other)
+    return f"disting plan {named} --noise {size:.3g}{lines}"
 
 
 def _answer(found: Plan) -> str:
     model, name = found.names
     if found.rival is None:
-        other = next_command(model, name, found.model.damped)
+        other = next_command(found)
         return (
-            f"impossible: no effort tells {model} and {name} apart with this force and sensor; what"
-            f" else could be measured is told by: {other}"
+            f"impossible: no effort tells {model} and {name} apart {_words(found)[1]}; what else"
+            f" could be measured is told by: {other}"
         )
     if found.answer is Answer.SAME:
         return _same(found, found.rival)
     said = (
-        f"{name} is excluded with a probability of {chance(found.power)} if the machine is {model}"
-        f" (level {percent(LEVEL)})"
+        f"{name} is excluded with a probability of {chance(found.power)} if the"
+        f" {_words(found)[0]} is {model} (level {percent(LEVEL)})"
     )
     more = (
         f"enough: {said}"
@@ -143,10 +173,16 @@ def _answer(found: Plan) -> str:
     return more if is_trusted(found) else f"{more}. {_doubt(found.rival)}"
 
 
+def _words(found: Plan) -> tuple[str, str]:
+    """What is measured, and by what."""
+    model = found.model
+    return WORDS[Sort.MACHINE if isinstance(model, Chain) else model.sort]
+
+
 def _doubt(rival: Rival) -> str:
     found = "" if rival.recovered else ", and the search did not find back the model's own values"
     return (
-        f"Doubtful: {rival.reached} of {len(rival.estimate.costs)} starts reached the rival's best"
+        f"Doubtful: {rival.best.reached} of {len(rival.best.costs)} starts reached the rival's best"
         f" fit{found}; a better one may exist, and then the power is lower"
     )
 
@@ -154,12 +190,13 @@ def _doubt(rival: Rival) -> str:
 def _same(found: Plan, rival: Rival) -> str:
     """Why a rival that fits within rounding does so, although the verdict does not say so."""
     model, name = found.names
+    thing, where = _words(found)
     if found.is_contained:
         does = f", which it does {_limits(rival)}" if rival.limits else ""
         return (
-            f"impossible: {name} contains {model}{does}, so no measurement of this machine with"
-            " this force and sensor excludes it, with whatever effort. The question that can be"
-            f" answered is the reverse: is a machine that is {name} told from {model}?"
+            f"impossible: {name} contains {model}{does}, so no measurement of this {thing} {where}"
+            " excludes it, with whatever effort. The question that can be answered is the reverse:"
+            f" is a {thing} that is {name} told from {model}?"
         )
     if rival.limits:
         return (
@@ -175,7 +212,7 @@ def _same(found: Plan, rival: Rival) -> str:
     }.get(relation, "whether that holds for other values too is not decided")
     more = "another sensor, or the force elsewhere, may tell them apart"
     if relation is Relation.SOMETIMES:
-        other = next_command(model, name, found.model.damped)
+        other = next_command(found)
         more = f"what else could be measured is told by: {other}"
     return f"impossible for these values: {name} fits within rounding ({why}); {more}"
 
@@ -195,7 +232,7 @@ def _limits(rival: Rival) -> str:
 def _short(found: Plan) -> str:
     """The answer in a table."""
     if found.rival is None:
-        return f"impossible: {next_command(*found.names, found.model.damped)}"
+        return f"impossible: {next_command(found)}"
     if found.answer is Answer.SAME:
         ends = f" ({', '.join(found.rival.limits)} without effect)" * bool(found.rival.limits)
         does = "contains the model" if found.is_contained else "does the same on these lines"
@@ -205,7 +242,7 @@ def _short(found: Plan) -> str:
 
 def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
     """Numbers behind the answer."""
-    hertz, both = rival.hertz, joined(found.model, found.chain)
+    hertz, both = rival.hertz, found.joint
     larger = f" (within {reference(both)})" if both and both != found.model else ""
     plural = "s" * (found.surplus > 1)
     yield (
@@ -213,8 +250,8 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f" {percent(typical(rival.rho))} ({source})"
     )
     yield (
-        f"search          {rival.reached} of {len(rival.estimate.costs)} starts reached the rival's"
-        f" best fit: {rival.trust}"
+        f"search          {rival.best.reached} of {len(rival.best.costs)} starts reached the"
+        f" rival's best fit: {rival.trust}"
     )
     if found.answer is Answer.SAME:
         return

@@ -9,10 +9,9 @@ import numpy as np
 from disting.files import write_whole
 from disting.fit.plan.design import Designed, designed_to_dict
 from disting.fit.plan.power import Plan, typical
-from disting.fit.search.candidates import as_listed
 from disting.measurement.arrays import Real
-from disting.model.names import damping_option
 from disting.report.fit.axes import logarithmic
+from disting.report.fit.plan_words import named_with_values
 from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
 
 if TYPE_CHECKING:
@@ -41,10 +40,8 @@ def write_plan(found: Plan, best: Designed, folder: Path) -> str:
 
 def simulation(found: Plan, best: Designed, path: Path) -> str:
     """The command that runs a spectrum on the model."""
-    names = as_listed(found.model).renaming
-    values = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in found.values.items())
     return (
-        f"disting simulate {found.names[0]} {damping_option(found.model.damped)} --set {values}"
+        f"disting simulate {named_with_values(found.model, found.values)}"
         f" --spectrum {path} --rate {best.rate:g} --samples {best.samples}"
     )
 
@@ -85,7 +82,7 @@ def plan_figure(found: Plan, best: Designed) -> Drawn:
 
 def _difference(panel: "Axes", best: Designed, size: Real, noise: Real) -> None:
     """Difference of the structures, noise of a line, best band."""
-    panel.plot(best.hertz, 100 * size, color=Tone.FIRST, label="difference |ln G|")
+    panel.plot(best.hertz, 100 * size, color=Tone.FIRST, label="difference |G_B/G_A - 1|")
     panel.plot(
         best.hertz,
         100 * noise,

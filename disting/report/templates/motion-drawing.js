@@ -56,13 +56,14 @@ const drawMoving = (svg, chain, { size, wall, pitch, joint: length, mass }) => {
     moves.forEach((move) => move(u));
   };
 };
-// The largest stretch of a joint in a run, or a little less than the largest way of a mass: what the room of the drawing must hold.
-const widest = (places, gap, n) => {
+// The largest stretch between neighbours in a run, or a little less than the largest way of a mass: what the room of the drawing must
+// hold.
+const widest = (places, { near, masses: n }) => {
   let most = 0;
-  for (let at = 0; at < places.length; at++) {
-    const i = at % n;
-    if (i || gap) most = Math.max(most, Math.abs(places[at] - (i ? places[at - 1] : 0)));
-    most = Math.max(most, 0.8 * Math.abs(places[at]));
+  for (let at = 0; at < places.length; at += n) {
+    const of = (node) => (node ? places[at + node - 1] : 0);
+    for (const [from, to] of near) most = Math.max(most, Math.abs(of(to) - of(from)));
+    for (let i = 1; i <= n; i++) most = Math.max(most, 0.8 * Math.abs(of(i)));
   }
   return most;
 };

@@ -1,4 +1,4 @@
-// A force over time, and how a chain with numbers moves under it, from rest. The force is linear between its samples, and for such a
+// A force over time, and how a machine with numbers moves under it, from rest. The force is linear between its samples, and for such a
 // force the samples of the motion are exact: the transition matrices are exponentials of the state space.
 const FORCE = 10; // N
 const forceOf = (kind, { steps, duration, frequency, from, to }) => {
@@ -21,35 +21,39 @@ const exponential = (a) => {
   for (let i = 0; i < halvings; i++) sum = matrixProduct(sum, sum);
   return sum;
 };
-// z' = A z + b F for places and velocities. The free row is seen from its centre of mass, so that it stays in the picture.
-const stateSpace = (chain, { m, k, d }) => {
-  const n = chain.masses, [gap, actMinus, actPlus] = chain.ports, total = freeMass(chain, { m });
+// z' = A z + b F for places and velocities. What travels is seen from its centre of mass, so that it stays in the picture.
+const stateSpace = (machine, { m, k, d }) => {
+  const { masses: n, joints, free, act } = machine, total = freeMass(machine, { m });
+  const on = ([minus, plus], i) => (i + 1 === plus) - (i + 1 === minus), net = free.reduce((sum, i) => sum + on(act, i), 0) / total;
   const a = Array.from({ length: 2 * n }, () => Array(2 * n).fill(0)), b = Array(2 * n).fill(0);
   for (let i = 0; i < n; i++) {
     a[i][n + i] = 1;
-    b[n + i] = ((i + 1 === actPlus) - (i + 1 === actMinus)) / m[i] - (i >= gap) / total;
-    for (const [of, offset] of [[k, 0], [d, n]])
-      for (const [joint, other] of [[i, i - 1], [i + 1, i + 1]]) {
-        const law = of[joint] || 0;
-        a[n + i][offset + i] -= law / m[i];
-        if (other >= 0 && other < n) a[n + i][offset + other] += law / m[i];
-      }
+    b[n + i] = on(act, i) / m[i] - (free.includes(i) ? net : 0);
   }
-  return { a, b };
+  for (const [of, offset] of [[k, 0], [d, n]])
+    joints.forEach(([from, to], at) => {
+      for (const [i, j] of [[from - 1, to - 1], [to - 1, from - 1]]) {
+        if (i < 0) continue;
+        a[n + i][offset + i] -= of[at] / m[i];
+        if (j >= 0) a[n + i][offset + j] += of[at] / m[i];
+      }
+    });
+  const travel = free.reduce((sum, i) => sum + on(machine.meas, i), 0) * net; // what the sensor sees of it
+  return { a, b, travel };
 };
-// Places of the masses [m], row after row, without the travel of the free row; what the sensor shows (its `order`-th derivative, with
-// the travel for an acceleration), and the change of the measured distance without travel.
-const moved = (chain, parts, force, dt) => {
-  const n = chain.masses, [, , , measMinus, measPlus] = chain.ports, { a, b } = stateSpace(chain, parts), size = 2 * n;
+// Places of the masses [m], row after row, without the travel; what the sensor shows (its `order`-th derivative, with the travel for
+// an acceleration), and the change of the measured distance without travel.
+const moved = (machine, parts, force, dt) => {
+  const n = machine.masses, [measMinus, measPlus] = machine.meas, { a, b, travel } = stateSpace(machine, parts), size = 2 * n;
   const held = [...a.map((row, i) => [...row.map((x) => x * dt), b[i] * dt, 0]), [...Array(size + 1).fill(0), 1], Array(size + 2).fill(0)];
   const transition = exponential(held), samples = force.length;
   const places = new Float64Array(samples * n), distance = new Float64Array(samples), acceleration = new Float64Array(samples);
-  const total = freeMass(chain, parts), seen = a.map((row, i) => [row, b[i]]), rows = [[measPlus, 1], [measMinus, -1]].filter(([port]) => port).map(([port, sign]) => [n + port - 1, sign]);
+  const seen = a.map((row, i) => [row, b[i]]), rows = [[measPlus, 1], [measMinus, -1]].filter(([port]) => port).map(([port, sign]) => [n + port - 1, sign]);
   let state = Array(size).fill(0);
   for (let t = 0; t < samples; t++) {
     for (let i = 0; i < n; i++) places[t * n + i] = state[i];
-    distance[t] = state[measPlus - 1] - (measMinus ? state[measMinus - 1] : 0);
-    acceleration[t] = force[t] / total + rows.reduce((sum, [row, sign]) => sum + sign * seen[row][0].reduce((s, x, j) => s + x * state[j], seen[row][1] * force[t]), 0);
+    distance[t] = (measPlus ? state[measPlus - 1] : 0) - (measMinus ? state[measMinus - 1] : 0);
+    acceleration[t] = force[t] * travel + rows.reduce((sum, [row, sign]) => sum + sign * seen[row][0].reduce((s, x, j) => s + x * state[j], seen[row][1] * force[t]), 0);
     if (t + 1 < samples) {
       const change = force[t + 1] - force[t], before = state;
       state = before.map((_, i) => {

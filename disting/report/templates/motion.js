@@ -103,7 +103,7 @@
     const steps = Math.round(clamped((SECONDS * SAMPLES * fastest) / (2 * Math.PI), 1500, 12000));
     const asked = { steps, duration: SECONDS, frequency: sineFrequency(), from, to };
     const force = forceOf(forceKind(), asked), motions = [[given(), one], [other(), two]].map(([chain, of]) => moved(chain, of, force, SECONDS / steps));
-    const [first, next] = motions.map(({ places }, which) => widest(places, chains[pair[which] - 1].ports[0], data.masses));
+    const [first, next] = motions.map(({ places }, which) => widest(places, chains[pair[which] - 1]));
     run = { ...asked, force, motions, gain: (0.9 * ROOM) / (Math.max(first, next) || 1) };
   };
   const draw = () => {

@@ -1,0 +1,163 @@
+"""How a plan finds the best fit of a rival: of a chain as a fit does, with the smaller ones that
+lead to it; of a network from random starts and from the model's own values.
+"""
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from disting.errors import InputError
+from disting.fit.networks import SEED, STARTS, BestFit, searched
+from disting.fit.search.candidates import reference
+from disting.fit.search.cost import Cost
+from disting.fit.search.descent import Box, fine
+from disting.fit.search.estimate import Estimate, Task, estimate
+from disting.fit.search.exchange import estimates
+from disting.fit.search.neighbours import carried
+from disting.fit.search.network_plant import NetworkPlant, random_starts
+from disting.fit.search.plant import Plant
+from disting.fit.search.starts import Scale, natural, scale, stacked
+from disting.measurement.arrays import Complex, Real
+from disting.model.chain import Chain, Sensor
+from disting.network.network import Network
+from disting.store import Store
+from disting.verdict.engine import Progress, silent
+
+AnyStructure = Chain | Network
+AnyPlant = Plant | NetworkPlant
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Search:
+    """Both `plants`, of the model and of the rival, on the lines; the rival's `best` fit, and that
+    to lines of other weights (`again`); the cost of the model's `own` one; natural sizes of the
+    rival's parameters (`usual`).
+    """
+
+    plants: tuple[AnyPlant, AnyPlant]
+    best: BestFit
+    again: Callable[[Cost], BestFit]
+    own: float
+    usual: Mapping[str, float]
+
+
+def name_of(structure: AnyStructure) -> str:
+    """What commands and sentences call it."""
+    return reference(structure) if isinstance(structure, Chain) else structure.name
+
+
+def sensor_of(structure: AnyStructure) -> Sensor:
+    """What it shows; of circuits and compartments what stands for a position."""
+    return structure.sensor if isinstance(structure, Chain) else list(Sensor)[structure.order]
+
+
+def shown_as(structure: AnyStructure, sensor: Sensor) -> AnyStructure:
+    """The structure with a sensor of this quantity; circuits and compartments have one only."""
+    if isinstance(structure, Chain):
+        return replace(structure, sensor=sensor)
+    return replace(structure, order=sensor.order)
+
+
+def plant_of(structure: AnyStructure, omega: Real) -> AnyPlant:
+    """A structure at angular frequencies [rad/s]; raises InputError for a network with several
+    inputs or outputs.
+    """
+    if isinstance(structure, Chain):
+        return Plant(structure.structure, omega)
+    if structure.shape != (1, 1):
+        raise InputError(f"{structure.name} has several inputs or outputs: plan one of each")
+    return NetworkPlant(structure, omega)
+
+
+def response_of(structure: AnyStructure, values: Mapping[str, float], omega: Real) -> Complex:
+    """G(j omega), shape (n_f,), of a structure at its values."""
+    plant = plant_of(structure, omega)
+    return plant.response(np.array([values[name] for name in plant.parameters]))
+
+
+def search(
+    model: AnyStructure,
+    values: Mapping[str, float],
+    rival: AnyStructure,
+    cost: Cost,
+    *,
+    seed: str = "disting",
+    store: Store | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> Search:
+    """The best fit of a rival to the response of a model, and of the model itself. Raises
+    InputError for a chain beside a network.
+    """
+    if isinstance(model, Chain) and isinstance(rival, Chain):
+        task = Task(cost, seed=seed)
+        known = estimates([model, rival], task, store=store, executor=executor, progress=progress)
+        return _of_chains(model, values, rival, cost, task, known)
+    if isinstance(model, Network) and isinstance(rival, Network):
+        return _of_networks(model, values, rival, cost)
+    raise InputError("plan two chains, or two networks: write the chain as a network too")
+
+
+def _of_chains(
+    model: Chain,
+    values: Mapping[str, float],
+    rival: Chain,
+    cost: Cost,
+    task: Task,
+    known: Mapping[Chain, Estimate],
+) -> Search:
+    def again(other: Cost) -> BestFit:
+        return _best(estimate(rival, replace(task, cost=other), known))
+
+    omega, size = cost.measured.omega, scale(cost.measured)
+    plants = plant_of(model, omega), plant_of(rival, omega)
+    starts = _from_values(rival, values, size)
+    best = _better(_best(known[rival]), plants[1], cost, starts)
+    return Search(plants, best, again, known[model].j, natural(rival, size))
+
+
+def _best(found: Estimate) -> BestFit:
+    p = np.array([found.parameters[name] for name in found.chain.parameters])
+    return BestFit(p, found.j, found.costs)
+
+
+def _from_values(rival: Chain, values: Mapping[str, float], size: Scale) -> Real:
+    """Starts from the model's own values, where the rival has the same masses and springs, shape
+    (n_s, n_p).
+    """
+    names = rival.parameters
+    first, second = ({n for n in some if n[0] in "mk"} for some in (values, names))
+    if first != second:
+        return np.empty((0, len(names)))
+    return stacked(list(carried(rival, dict(values), size)), names)
+
+
+def _of_networks(model: Network, values: Mapping[str, float], rival: Network, cost: Cost) -> Search:
+    def again(other: Cost) -> BestFit:
+        return _better(searched(plants[1], other, starts), plants[1], other, own)
+
+    measured = cost.measured
+    plants = NetworkPlant(model, measured.omega), NetworkPlant(rival, measured.omega)
+    starts, others = (
+        random_starts(plant, measured, STARTS, np.random.default_rng((SEED, i)))
+        for i, plant in ((1, plants[1]), (0, plants[0]))
+    )
+    usual = dict(zip(plants[1].parameters, np.exp(np.log(starts).mean(axis=0)), strict=True))
+    own = np.array([[values.get(name, size) for name, size in usual.items()]])
+    return Search(plants, again(cost), again, searched(plants[0], cost, others).j, usual)
+
+
+def _better(found: BestFit, plant: AnyPlant, cost: Cost, starts: Real) -> BestFit:
+    """The best fit, or a better one to which further starts lead."""
+    box = open_box(len(found.p))
+    with np.errstate(all="ignore"):  # far from the data responses may overflow
+        ends = [fine(plant, cost, box, start) for start in starts]
+    p, j = min([(found.p, found.j), *ends], key=lambda end: end[1])
+    return BestFit(p, j, tuple(sorted([*found.costs, *(end[1] for end in ends)])))
+
+
+def open_box(size: int) -> Box:
+    """No bounds."""
+    return Box(np.zeros(size), np.full(size, np.inf))

@@ -1,0 +1,105 @@
+"""How much measuring tells networks apart: the best fit by another route, and the power that is had."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+from scipy.stats import chi2
+
+from disting.errors import InputError
+from disting.fit.plan.power import LEVEL, Answer, plan
+from disting.fit.plan.rival import Trust, gain
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.network import network_of
+from disting.network.chains import of_chain
+from disting.simulation import frequency_response
+
+MODEL, RIVAL = network_of("R0-p(R1,C1)-p(R2,C2)"), network_of("R0-p(R1,C1)")
+VALUES = {"R0": 1.0, "R1": 2.0, "C1": 0.01, "R2": 0.3, "C2": 0.3}
+OMEGA = 2 * np.pi * np.geomspace(0.1, 1000.0, 40)
+
+
+def alike(noise):
+    return np.full(len(OMEGA), noise)
+
+
+@pytest.fixture(scope="module")
+def planned():
+    """At the noise that is just enough."""
+    found = plan(MODEL, VALUES, RIVAL, OMEGA, alike(0.05))
+    return plan(MODEL, VALUES, RIVAL, OMEGA, alike(0.05 / np.sqrt(found.factor)))
+
+
+def test_best_fit_of_the_rival_is_that_of_another_optimiser(planned):
+    exact, rho = frequency_response(MODEL, VALUES, OMEGA), planned.rival.rho
+
+    def cost(logarithms):
+        values = dict(zip(RIVAL.parameters, np.exp(logarithms), strict=True))
+        ratio = frequency_response(RIVAL, values, OMEGA) / exact
+        return np.sum(np.abs(ratio - 1) ** 2 / rho**2)
+
+    draw = np.random.default_rng(3)
+    starts = draw.normal(size=(5, 3)) + [np.log(VALUES[name]) for name in RIVAL.parameters]
+    ends = [
+        minimize(cost, start, method="Nelder-Mead", options={"maxiter": 2000}) for start in starts
+    ]
+    assert planned.noncentrality == pytest.approx(min(end.fun for end in ends), rel=1e-3)
+    assert planned.rival.trust is Trust.AGREED and planned.surplus == 2
+
+
+def test_planned_power_is_had(planned):
+    assert planned.power == pytest.approx(0.95, abs=1e-6)
+    draw, exact = np.random.default_rng(1), frequency_response(MODEL, VALUES, OMEGA)
+    limit, count, excluded = chi2.isf(LEVEL, planned.surplus), 150, 0
+    for _ in range(count):
+        error = draw.normal(size=len(OMEGA)) + 1j * draw.normal(size=len(OMEGA))
+        measured = FrequencyResponse(
+            OMEGA, exact * (1 + planned.rival.rho * error), sensor="position"
+        )
+        excluded += gain(planned.rival, measured) > limit
+    assert excluded / count == pytest.approx(0.95, abs=3.5 * np.sqrt(0.95 * 0.05 / count))
+
+
+def test_a_chain_is_planned_alike_as_a_network():
+    model, rival = (Chain(2, damped=True, ground_dampers=(i,)) for i in (1, 2))
+    values = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08, "b1": 0.1}
+    omega = 2 * np.pi * np.geomspace(5.0, 300.0, 60)
+    one, other = (
+        plan(model_, values, rival_, omega, np.full(60, 0.3))
+        for model_, rival_ in ((model, rival), (of_chain(model), of_chain(rival)))
+    )
+    assert other.noncentrality == pytest.approx(one.noncentrality, rel=1e-5)
+    assert other.surplus == one.surplus and other.verdict.relation is one.verdict.relation
+    for name, value in one.rival.parameters.items():
+        assert other.rival.parameters[name] == pytest.approx(value, rel=1e-2)
+
+
+def test_same_networks_are_not_even_fitted():
+    found = plan(RIVAL, VALUES, network_of("p(R0,R1-C1)"), OMEGA, alike(0.1))
+    assert found.answer is Answer.IMPOSSIBLE and found.rival is None
+
+
+def test_a_network_in_which_the_model_is_contained_is_never_excluded():
+    found = plan(RIVAL, {n: VALUES[n] for n in RIVAL.parameters}, MODEL, OMEGA, alike(0.1))
+    assert found.answer is Answer.SAME and found.is_contained
+
+
+def test_several_inputs_are_planned_one_by_one():
+    models = [replace(model, inputs=model.inputs * 2) for model in (MODEL, RIVAL)]
+    with pytest.raises(InputError, match="several inputs or outputs: plan one of each"):
+        plan(models[0], VALUES, models[1], OMEGA, alike(0.1))
+
+
+@pytest.mark.parametrize(
+    ("rival", "words"),
+    [
+        (MODEL, "no rival of itself"),
+        (Chain(2), "write the chain as a network too"),
+        (replace(RIVAL, inputs=RIVAL.inputs * 2), "has 1 x 2"),
+    ],
+)
+def test_bad_input_is_named(rival, words):
+    with pytest.raises(InputError, match=words):
+        plan(MODEL, VALUES, rival, OMEGA, alike(0.1))
