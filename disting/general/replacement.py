@@ -26,8 +26,10 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.network.element import Element, Port
 from disting.network.network import Network
-from disting.network.normal_form import Part, normal_form, same_parts
+from disting.network.normal_form import Part, normal_form
+from disting.network.simplest import simplest
 
+TWO = 2  # kinds of elements
 MOST_LEFT_OUT = 3  # elements, of the minors that are looked at
 REMEMBERED = 4096
 
@@ -40,13 +42,18 @@ def replaceable(left: AnyModel, right: AnyModel) -> bool:
     >>> replaceable(bridge, Model.from_network(network_of("p(R1,C1)-p(R2,C2)")))
     True
     """
-    one, other = left.network, right.network
-    if one is None or other is None or (one.sort, one.order) != (other.sort, other.order):
-        return False
-    if same_parts(one, other):
-        return True
-    found = full_set(left)
-    return found is not None and found == full_set(right)
+    one = simplest_network(left)
+    return one is not None and one == simplest_network(right)
+
+
+def simplest_network(model: AnyModel, *, larger: bool = False) -> Network | None:
+    """The simplest network that gives the same functions by the theorems, None of what is no
+    network or has no normal form. `larger`: that gives all of K where the network gives some of it.
+    """
+    if model.network is None:
+        return None
+    known = set_of(model) if larger else full_set(model)
+    return simplest(model.network, known[1] if known else None)
 
 
 def full_set(model: AnyModel) -> tuple[int, Part] | None:
@@ -54,17 +61,22 @@ def full_set(model: AnyModel) -> tuple[int, Part] | None:
     gives it, and the sign before it: -1 where the sensor is turned against the force; None where
     that is not shown.
     """
+    found = set_of(model)
+    if found is None or model.network is None:
+        return None
+    return found if _has_minor(model.network.grounded, found[1]) else None
+
+
+def set_of(model: AnyModel) -> tuple[int, Part] | None:
+    """The set K(n, c, z) in which the functions of a one-port of two kinds of elements are."""
     network = model.network
     if network is None or not isinstance(model, Model):
         return None
-    sign = sign_of_one_port(network)
-    if not sign:
-        return None
-    kinds = sorted({e.kind.halves for e in network.seen})
-    if len(kinds) != 2:
-        return None
-    whole = _set_of(model, network.order, kinds[0], kinds[1])
-    return (sign, whole) if whole is not None and _has_minor(network.grounded, whole) else None
+    sign, kinds = sign_of_one_port(network), sorted({e.kind.halves for e in network.seen})
+    whole = (
+        _set_of(model, network.order, kinds[0], kinds[1]) if sign and len(kinds) == TWO else None
+    )
+    return None if whole is None else (sign, whole)
 
 
 def sign_of_one_port(network: Network) -> int:
