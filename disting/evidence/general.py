@@ -171,7 +171,7 @@ class Witnesses(_OverDomain):
 class Replaced(Kind):
     """What is true of two networks that give the same transfer functions as these for all positive
     values, special ones aside: `left` and `right` are those networks, `inner` is the evidence on
-    them. One that is `larger` may give more, which shows no more than that there are no equivalents.
+    them. One that is `larger` may give more: that shows only that there are no equivalents.
     """
 
     kind: ClassVar[str] = "replaced"

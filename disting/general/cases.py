@@ -225,7 +225,6 @@ def _solve(
     hard: int,
 ) -> None:
     """Both cases of one linear equation, the one with factor 0 first."""
-    ring = search.ring
     others = (*case.equations[:number], *case.equations[number + 1 :])
     if hard == 3:
         _open(search, replace(case, equations=(*others, factor, rest)))

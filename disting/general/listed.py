@@ -155,8 +155,9 @@ def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:
 
 
 def _is_regular(model: Model, at: Equivalent) -> bool:
-    """Whether the matrix of its n + 1 coefficients that are not zero and their derivatives is not singular there:
-    the determinant is zero at a root of an irreducible polynomial only where that divides it.
+    """Whether the matrix of its n + 1 coefficients and their derivatives is not singular there,
+    those left out that are always zero: the determinant is zero at a root of an irreducible
+    polynomial only where that divides it.
     """
     modulus = fmpq_poly(list(at.polynomial))
     values = [fmpq_poly([fmpq(x.numerator, x.denominator) for x in c]) for c in at.coordinates]

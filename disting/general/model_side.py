@@ -17,7 +17,6 @@ from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import HALVES, Ask, Side
-from disting.errors import InputError
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import REPLACEMENT, Theorem
 from disting.evidence.general import Constants, Replaced, Witnesses
@@ -28,12 +27,11 @@ from disting.general.admissible import admissible_finding
 from disting.general.any_model import (
     as_chain,
     is_renamed,
-    of_network,
-    on_one_variable,
     same,
     unnamed,
 )
 from disting.general.behaviour import GeneralModel
+from disting.general.forms import by_forms, forms_of
 from disting.general.matrix_model import AnyModel
 from disting.general.model_inclusions import (
     confirms_inclusion,
@@ -41,11 +39,9 @@ from disting.general.model_inclusions import (
     n_elements,
     numberings,
 )
-from disting.general.replacement import replaceable, sign_of_one_port, simplest_network
+from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
-from disting.model.question import Answerer, Domain, Question, Settings
-from disting.network.network import Network
-from disting.network.simplest import same_drawing
+from disting.model.question import Domain, Question, Settings
 from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
@@ -58,6 +54,9 @@ def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
 
 
 def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    found = by_forms(left, right, settings.seed)
+    if found is not None:
+        return found
     return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
 
 
@@ -133,7 +132,9 @@ class ComparedModel(Side[AnyModel]):
         if evidence == Theorem(REPLACEMENT):
             return _replaceable(self, other)
         if isinstance(evidence, Replaced):
-            forms = _forms(self, other, evidence.left_larger or evidence.right_larger)
+            forms = forms_of(
+                self.subject, other.subject, evidence.left_larger or evidence.right_larger
+            )
             return forms is not None and (
                 evidence == forms.evidence(evidence.inner)
                 and model_evidence.confirms_models(evidence.inner, *forms.models, representation)
@@ -165,10 +166,6 @@ class ComparedModel(Side[AnyModel]):
             return Finding(
                 ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(REPLACEMENT)
             )
-        for forms in _all_forms(self, other) if domain is Domain.POSITIVE else ():
-            found = forms.answer(self.answerer, self.settings)
-            if found is not None:
-                return found
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
         names = {LEFT: self.name, RIGHT: other.name}
         note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
@@ -197,11 +194,6 @@ class ComparedModel(Side[AnyModel]):
         """Have equivalents looked for; those that a renaming gives cost little."""
         known = domain is Domain.POSITIVE
         left = [(a, b) for a, b in pairs if not (_renamed(a, b) or (known and _replaceable(a, b)))]
-        for k in range(2 * known):
-            forms = [(pair, f) for pair in left for f in _all_forms(*pair)[k : k + 1]]
-            ask(ADMISSIBLY[domain], [f.models for _, f in forms])
-            done = {p for p, f in forms if f.answer(p[0].answerer, p[0].settings) is not None}
-            left = [pair for pair in left if pair not in done]
         ask(ADMISSIBLY[domain], [_unnamed(a, b, domain) for a, b in left])
 
 
@@ -219,70 +211,13 @@ def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyMod
 def _unnamed(
     left: ComparedModel, right: ComparedModel, domain: Domain
 ) -> tuple[AnyModel, AnyModel]:
-    """Both as they are asked about: over positive parameters as the one-ports that they are."""
+    """Both as they are asked about: over positive parameters as the networks that they are."""
     found = unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
-    if domain is Domain.POSITIVE:
-        networks = left.subject.network, right.subject.network
-        return _as_network(found[0], networks[0]), _as_network(found[1], networks[1])
+    for model, side in zip(found, (left, right), strict=True):
+        network = side.subject.network
+        if domain is Domain.POSITIVE and network is not None:
+            object.__setattr__(model, "network", replace(network, name="network"))
     return found
-
-
-def _as_network(model: AnyModel, network: Network | None) -> AnyModel:
-    if network is not None and sign_of_one_port(network):
-        object.__setattr__(model, "network", replace(network, name="network"))
-    return model
-
-
-@dataclass(frozen=True)
-class Forms:
-    """The simplest networks that stand for both sides of a comparison, as they are asked about;
-    those that are `larger` may give more.
-    """
-
-    models: tuple[AnyModel, AnyModel]
-    texts: tuple[str, str]
-    larger: tuple[bool, bool]
-
-    def evidence(self, inner: Evidence) -> Replaced:
-        """What evidence on them says of the sides."""
-        return Replaced(*self.texts, *self.larger, inner)  # type: ignore[arg-type]
-
-    def answer(self, answerer: Answerer, settings: Settings) -> Finding | None:
-        """What is known of the sides by them; None if nothing."""
-        found = answerer(ADMISSIBLY[Domain.POSITIVE], self.models, settings)
-        if found.evidence is None or (any(self.larger) and found.outcome is not Outcome.FAILS):
-            return None
-        return replace(found, evidence=self.evidence(found.evidence))
-
-
-def _all_forms(left: ComparedModel, right: ComparedModel) -> list[Forms]:
-    """Those that give the same, and those that may give more."""
-    found = (_forms(left, right, larger) for larger in (False, True))
-    return [f for f in found if f]
-
-
-def _forms(left: ComparedModel, right: ComparedModel, larger: bool) -> Forms | None:
-    """None where nothing is replaced, or nothing by something larger."""
-    pairs = [
-        (own, same, simplest_network(side.subject, larger=True) if larger else same)
-        for side in (left, right)
-        if (own := side.subject.network) and (same := simplest_network(side.subject))
-    ]
-    if len(pairs) < len((left, right)):
-        return None
-    more = [whole != same for _, same, whole in pairs]
-    if any(more) != larger or all(whole and same_drawing(own, whole) for own, _, whole in pairs):
-        return None
-    networks = [whole for *_, whole in pairs if whole]
-    try:
-        models = on_one_variable([of_network(n) for n in networks])
-    except InputError:
-        return None
-    one, other = (
-        _as_network(unnamed(model, side), n)
-        for model, side, n in zip(models, (LEFT, RIGHT), networks, strict=True)
-    )
-    return Forms((one, other), (networks[0].name, networks[1].name), (more[0], more[1]))
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:

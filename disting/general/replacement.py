@@ -46,7 +46,7 @@ def replaceable(left: AnyModel, right: AnyModel) -> bool:
     return one is not None and one == simplest_network(right)
 
 
-def simplest_network(model: AnyModel, *, larger: bool = False) -> Network | None:
+def simplest_network(model: AnyModel, larger: bool = False) -> Network | None:
     """The simplest network that gives the same functions by the theorems, None of what is no
     network or has no normal form. `larger`: that gives all of K where the network gives some of it.
     """

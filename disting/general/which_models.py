@@ -1,9 +1,9 @@
 """Which given models have an admissible equivalent in another one: all, none, or some; each with
 its proof.
 
-ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`).
-NEVER: no case is left (`cases`), or no root is in those that are left (`counts`). Points with and without equivalents in open sets around them are
-looked for with `robust`.
+ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`), or
+as many roots for all p as for one (`counts`). NEVER: no case is left (`cases`), or none that has a
+root. Points with and without equivalents in open sets around them are looked for with `robust`.
 """
 
 from collections.abc import Iterator

@@ -42,10 +42,9 @@ of a goes to those with an outflow, or to the outflow of i.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 from disting.network.network import Network
 

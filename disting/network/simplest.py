@@ -86,7 +86,9 @@ def same_drawing(one: Network, other: Network) -> bool:
 
 def _plain(network: Network) -> Drawn:
     """Every element by itself, in the smallest numbers."""
-    edges = tuple((*(*e.nodes, 0)[:2], (e.kind.halves, e.letter == "a")) for e in network.elements)
+    ends = [(*e.nodes, 0)[:2] for e in network.elements]
+    kinds = [(e.kind.halves, e.letter == "a") for e in network.elements]
+    edges = tuple((a, b, kind) for (a, b), kind in zip(ends, kinds, strict=True))
     return _numbered(network, NormalForm(edges, ()))
 
 
