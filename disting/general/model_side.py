@@ -20,7 +20,7 @@ from disting.conditions.side import GENERIC, Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import REPLACEMENT, Theorem
-from disting.evidence.general import Constants, Witnesses
+from disting.evidence.general import Constants, Replaced, Witnesses
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
@@ -28,6 +28,7 @@ from disting.general.admissible import admissible_finding
 from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
 from disting.general.exponents import determined
+from disting.general.forms import by_forms, forms_of
 from disting.general.matrix_model import AnyModel
 from disting.general.model_inclusions import (
     confirms_inclusion,
@@ -52,6 +53,9 @@ def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
 
 
 def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    found = by_forms(left, right, settings.seed)
+    if found is not None:
+        return found
     return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
 
 
@@ -160,6 +164,14 @@ class ComparedModel(Side[AnyModel]):
         """Whether evidence of a verdict is true of both."""
         if evidence == Theorem(REPLACEMENT):
             return _replaceable(self, other)
+        if isinstance(evidence, Replaced):
+            forms = forms_of(
+                self.subject, other.subject, evidence.left_larger or evidence.right_larger
+            )
+            return forms is not None and (
+                evidence == forms.evidence(evidence.inner)
+                and model_evidence.confirms_models(evidence.inner, *forms.models, representation)
+            )
         pair = _models(self, other)
         if isinstance(evidence, Witnesses):
             pair = _unnamed(self, other, Domain(evidence.domain))
@@ -235,18 +247,13 @@ def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyMod
 def _unnamed(
     left: ComparedModel, right: ComparedModel, domain: Domain
 ) -> tuple[AnyModel, AnyModel]:
-    """Both as they are asked about: over positive parameters as the one-ports that they are."""
+    """Both as they are asked about: over positive parameters as the networks that they are."""
     found = unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
-    if domain is Domain.POSITIVE:
-        return _as_network(found[0], left), _as_network(found[1], right)
+    for model, side in zip(found, (left, right), strict=True):
+        network = side.subject.network
+        if domain is Domain.POSITIVE and network is not None:
+            object.__setattr__(model, "network", replace(network, name="network"))
     return found
-
-
-def _as_network(model: AnyModel, of: ComparedModel) -> AnyModel:
-    network = of.subject.network
-    if network is not None and network.sign_of_one_port:
-        object.__setattr__(model, "network", replace(network, name="network"))
-    return model
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
