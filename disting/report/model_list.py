@@ -13,6 +13,7 @@ from disting.catalogs.export import cell, decisions_csv, decisions_json
 from disting.equivalence.duplicates import model_of
 from disting.errors import InputError, of_type
 from disting.files import as_path, write_whole
+from disting.general.any_model import measured
 from disting.general.model import Model
 from disting.general.model_files import ModelList
 from disting.model.presentation import plural
@@ -110,6 +111,7 @@ def model_list_page(
         found,
         shown.domains,
         VIEWS,
+        what=measured(found.family),
         names=[model.name for model in found.family],
         numbered=shown.numbered,
         folder=shown.folder,
