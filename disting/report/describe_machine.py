@@ -22,7 +22,7 @@ from disting.report.model import folder_of
 from disting.report.network_symbols import Track, drawn, gear
 from disting.report.page_drawing import Part, ground_dampers, height_with_dampers
 from disting.report.scene import Layer
-from disting.report.words import short_title
+from disting.report.words import not_known, short_title
 from disting.verdict.result import Relation
 
 
@@ -109,11 +109,11 @@ def _machine(c: Catalog) -> dict[str, object]:
         "damped": c.damped,
         "size": [scene.width, scene.height],
         "below": height_with_dampers(c.n_masses) - scene.height,
-        "determined": [(row.rank, row.n_parameters) for row in c.rows],
         "models": [chain.indices[1:] for chain in c.family],
         "groups": c.classes(),
         "depends": _depending(c),
         "open": _undecided(c),
+        "known": {row.number: said for row in c.rows if (said := not_known(row))},
     }
 
 

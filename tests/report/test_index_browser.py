@@ -43,7 +43,7 @@ DESCRIBE = """(descriptions) => JSON.stringify(descriptions.map(([masses, damper
   const uses = [...form.querySelectorAll("use")].map((use) => use.getAttribute("href"));
   const links = (name) => [...form.querySelectorAll(`[data-slot="${name}"] a`)].map((a) => a.getAttribute("href"));
   return {
-    model: form.dataset.model, number: read("number"), remark: read("remark"), said: read("twins"),
+    model: form.dataset.model, number: read("number"), remark: read("remark"), said: read("twins"), known: read("known"),
     twins: links("twins"), links: links("links"), uses, missing: uses.filter((use) => !document.querySelector(use)),
     label: form.querySelector("svg").getAttribute("aria-label"),
     offered: form.elements.force.options.length * form.elements.sensor.options.length,
@@ -86,6 +86,9 @@ def test_every_model_is_reached_by_its_description(visit) -> None:  # type: igno
                 f"models/{n}-{kind}/{number}.html",
                 f"{shipped.name}.html#A{number}",
             ]
+            row = shipped.rows[number - 1]
+            rank = f"fixes {row.rank} combination{'s' * (row.rank != 1)} of its {row.n_parameters}"
+            assert rank in found["known"] if row.rank < row.n_parameters else not found["known"]
             group = next((g for g in groups if number in g), (number,))
             pairs = [sorted((number, other)) for other in group if other != number]
             assert found["twins"] == [f"{shipped.name}.html#{low}-{high}" for low, high in pairs]
@@ -332,21 +335,6 @@ def test_no_all_clear_is_given_of_a_machine_that_is_not_shipped(visit) -> None: 
         clear = chosen == {"delay": False}
         assert ("distinguishable" in said or "told apart" in said) == clear
         assert ("Nothing is said here about what else looks like this machine" in said) != clear
-
-
-def test_what_cannot_be_determined_is_said_first(visit) -> None:  # type: ignore[no-untyped-def]
-    tab = visit("index.html")
-    tab.select_option('[name="masses"]', "3")
-    for chain, found in _described(tab, list(catalog(3, damped=True).family)):
-        row = catalog(3, damped=True).rows[catalog(3, damped=True).family.number(chain) - 1]
-        _more(tab, masses="3", dampers="damped", gap=str(chain.gap))
-        assert found["model"] == f"3:{row.number}"
-    determined = machines([catalog(3, damped=True)])[0]["determined"]
-    assert determined[2] == (6, 7)  # type: ignore[index]
-    texts = tab.locator("#machine [role=status] p").evaluate_all(
-        "all => all.map((p) => p.dataset.slot)"
-    )
-    assert texts.index("determined") < texts.index("twins")
 
 
 def test_the_address_holds_all_of_it(visit) -> None:  # type: ignore[no-untyped-def]

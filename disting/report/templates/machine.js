@@ -75,7 +75,7 @@
     return a;
   };
   const put = (name, ...content) => slot(name).replaceChildren(...content);
-  const EMPTY = ["remark", "determined", "twins", "depends", "open", "links", "behind", "commands"];
+  const EMPTY = ["remark", "known", "twins", "depends", "open", "links", "behind", "commands"];
   const command = (text) => { // to copy
     const box = Object.assign(document.createElement("div"), { className: "command" }), code = Object.assign(document.createElement("code"), { textContent: text });
     const button = Object.assign(document.createElement("button"), { type: "button", className: "plainbutton", textContent: "Copy" });
@@ -118,10 +118,9 @@
     const twins = (c.groups.find((group) => group.includes(number)) || []).filter((other) => other !== number), open = c.open[number];
     const one = twins.length === 1, others = c.models.length - 1 - twins.length, depends = c.depends[number] || [];
     const links = (of) => of.flatMap((other, at) => [at ? ", " : "", link(`A${other}`, `${c.name}.html${pairHash([number, other])}`, `A${other}: verdict and evidence`)]);
-    const [known, all] = c.determined[number - 1];
     put("number", `A${number} of ${c.title}`);
-    put("determined", known < all ? `Its parameters cannot be determined: ${known} combinations of ${all} can.` : "");
     put("remark", how ? `Listed with ${how}: the transfer function is the same.` : "");
+    put("known", (c.known[number] || "").replace("{0}", `A${number}`)); // before any "distinguishable"
     put("twins", ...(twins.length ? [
       `Whatever its positive parameters, ${twins.length} other ${one ? "model" : "models"} cannot be told apart from it with this force and sensor: `,
       ...links(twins), ".",
