@@ -19,6 +19,9 @@ LONGEST_MESSAGE = 1500  # whatever a message is made of
 class DistingError(Exception):
     """Base of every error that this package raises on purpose; the message names the cause and
     the remedy. `detail`: lines to show below it, such as a table.
+
+    >>> str(DistingError("no such thing; name another one"))
+    'no such thing; name another one'
     """
 
     def __init__(self, message: object = "", detail: str = "") -> None:
@@ -27,19 +30,39 @@ class DistingError(Exception):
 
 
 class ConstraintViolation(DistingError):
-    """A chain that breaks one of the constraints (36) or (37): no model of the class."""
+    """A chain that breaks one of the constraints (36) or (37): no model of the class.
+
+    >>> from disting import Chain
+    >>> Chain(2, gap=2)
+    Traceback (most recent call last):
+    disting.errors.ConstraintViolation: ...
+    """
 
 
 class InputError(DistingError):
-    """An argument that cannot be understood, such as a model reference that does not exist."""
+    """An argument that cannot be understood, such as a model reference that does not exist.
+
+    >>> from disting import compare
+    >>> compare("3:1", "3:99")
+    Traceback (most recent call last):
+    disting.errors.InputError: ...
+    """
 
 
 class CatalogError(DistingError):
-    """A catalogue file that is missing, damaged or written by another schema."""
+    """A catalogue file that is missing, damaged or written by another schema.
+
+    >>> issubclass(CatalogError, DistingError)  # one `except DistingError` catches all of them
+    True
+    """
 
 
 class ContradictionError(DistingError):
-    """Two conditions decided one pair differently: a defect of the program, never of the input."""
+    """Two conditions decided one pair differently: a defect of the program, never of the input.
+
+    >>> issubclass(ContradictionError, InputError)
+    False
+    """
 
 
 class NotSeenError(DistingError):

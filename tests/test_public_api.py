@@ -5,6 +5,7 @@ import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
+from types import FunctionType, ModuleType
 
 import pytest
 
@@ -158,3 +159,31 @@ def test_commands_load_sympy_only_where_they_write_an_expression():
     ).stdout
     loaded = [line for line in said.splitlines() if line.startswith("loaded ")]
     assert loaded == ["loaded False", "loaded False", "loaded True"]
+
+
+def callables(room):
+    """Public classes and functions of a room by name."""
+    module = import_module(f"disting{room}")
+    named = {name: getattr(module, name) for name in dir(module) if name[0] != "_"}
+    return {n: x for n, x in named.items() if isinstance(x, (type, FunctionType))}
+
+
+WITHOUT_EXAMPLE = {"": 0, ".measurement": 0, ".report": 0, ".simulation": 0, ".fit": 42}
+
+
+@pytest.mark.parametrize(("room", "lacking"), WITHOUT_EXAMPLE.items())
+def test_every_public_name_has_an_example(room, lacking):
+    """Of a fit, the records that `select` returns are shown by the example of the room itself."""
+    found = callables(room)
+    assert len(found) > 9
+    without = [name for name, x in found.items() if ">>> " not in (x.__doc__ or "")]
+    assert len(without) <= lacking, without
+    if lacking:
+        assert ">>> found = select(" in import_module(f"disting{room}").__doc__
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_tab_offers_no_modules(room):
+    module = import_module(f"disting.{room}")
+    assert not [name for name in dir(module) if isinstance(getattr(module, name), ModuleType)]
+    assert dir(module) == sorted(dir(module)) and "select" in dir(disting.fit)

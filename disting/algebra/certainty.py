@@ -18,6 +18,10 @@ class Certainty(StrEnum):
 
     NUMERICAL: all equations hold within small balls, which proves neither that they hold nor that
     they fail.
+
+    >>> from disting import compare
+    >>> compare("3:1", "3:11").certainty is Certainty.THEOREM
+    True
     """
 
     THEOREM = "theorem"

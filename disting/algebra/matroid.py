@@ -11,7 +11,7 @@ Certainty: independence is seen at one point and so proven. Each dependence used
 large primes (see `sampling`).
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +20,6 @@ from flint import nmod_mat
 from disting.algebra.matroid_circuits import dependent_flats, search_size
 
 Rows = tuple[int, ...]
-RankOf = Callable[[Rows], int]
 
 
 class SearchTooLargeError(Exception):

@@ -13,7 +13,8 @@ rank alone. In the units in which the first mass and the first spring are one, t
 symbols less.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from flint import fmpz_mpoly
 
@@ -24,6 +25,8 @@ from disting.behaviour.transfer import plain_receptance
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.structure import Structure
+
+NO_UNITS: Mapping[str | int, int] = MappingProxyType({})
 
 
 def expanded(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
@@ -100,30 +103,48 @@ def rank_is_at_most(structure: Structure, labels: Sequence[str], most: int, seco
     >>> rank_is_at_most(Family(3, damped=True)[7].structure, (), 6, 5.0)
     True
     """
-    tops, bottoms, lead = _normalised(structure)
-    if labels and all(name[0] == "G" and name != "G0" for name in labels):
+    top, bottom = (coefficients(part, "s") for part in expanded(structure))
+    names = [name for name in structure.parameters if name != "Td"]
+    units: dict[str | int, int] = {
+        next(name for name in names if name[0] == kind): 1
+        for kind in "mk"
+        if any(name[0] == kind for name in names)
+    }
+    return coefficients_have_rank([(top, bottom)], names, labels, most, seconds, units)
+
+
+def coefficients_have_rank(
+    entries: Sequence[tuple[Sequence[fmpz_mpoly], Sequence[fmpz_mpoly]]],
+    names: Sequence[str],
+    labels: Sequence[str],
+    most: int,
+    seconds: float,
+    units: Mapping[str | int, int] = NO_UNITS,
+) -> bool:
+    """Proof that coefficients of transfer functions have a Jacobian of rank `most` at most, in the
+    parameters `names`; `units`: parameters that are one without loss of generality.
+
+    `entries`: numerator and denominator of each, coefficients of s^0, s^1, ..; `labels` as in
+    `rank_is_at_most`, of a single transfer function. False says nothing. Raises OutOfTimeError.
+    """
+    if not labels:
+        every = [(one, 1, bottom[-1]) for top, bottom in entries for one in (*top, *bottom[:-1])]
+        return rank([_row(names, units, *one) for one in every], seconds) <= most
+    ((top, bottom),) = entries
+    lead = bottom[-1]
+    if all(name[0] == "G" and name != "G0" for name in labels):
         proper = [
-            *((r, 2) for r in _strictly_proper(tops, bottoms)),
-            *((d, 1) for d in bottoms[:-1]),
+            *((r, 2) for r in _strictly_proper(top, bottom)),
+            *((d, 1) for d in bottom[:-1]),
         ]
-        if rank([_row(structure, *entry, lead) for entry in proper], seconds) <= most:
+        if rank([_row(names, units, *entry, lead) for entry in proper], seconds) <= most:
             return True
-    names = labels or [f"b{i}" for i in range(len(tops))] + [
-        f"a{i}" for i in range(len(bottoms) - 1)
-    ]
-    return (
-        rank([_row(structure, *_invariant(name, tops, bottoms), lead) for name in names], seconds)
-        <= most
-    )
-
-
-def _normalised(structure: Structure) -> tuple[list[fmpz_mpoly], list[fmpz_mpoly], fmpz_mpoly]:
-    tops, bottoms = (coefficients(part, "s") for part in expanded(structure))
-    return tops, bottoms, bottoms[-1]
+    rows = [_row(names, units, *_invariant(name, top, bottom), lead) for name in labels]
+    return rank(rows, seconds) <= most
 
 
 def _invariant(
-    name: str, tops: list[fmpz_mpoly], bottoms: list[fmpz_mpoly]
+    name: str, tops: Sequence[fmpz_mpoly], bottoms: Sequence[fmpz_mpoly]
 ) -> tuple[fmpz_mpoly, int]:
     """Numerator of an invariant, and the power of the leading coefficient below it."""
     kind, number = name[0], int(name[1:])
@@ -133,14 +154,14 @@ def _invariant(
     return (chosen[number] if number < len(chosen) else 0 * bottoms[0]), 1
 
 
-def _strictly_proper(tops: list[fmpz_mpoly], bottoms: list[fmpz_mpoly]) -> list[fmpz_mpoly]:
+def _strictly_proper(tops: Sequence[fmpz_mpoly], bottoms: Sequence[fmpz_mpoly]) -> list[fmpz_mpoly]:
     """r_i of G - G_0."""
     if len(tops) < len(bottoms):
         return [bottoms[-1] * n for n in tops]
     return [bottoms[-1] * n - tops[-1] * d for n, d in zip(tops[:-1], bottoms[:-1], strict=True)]
 
 
-def _markov(number: int, tops: list[fmpz_mpoly], bottoms: list[fmpz_mpoly]) -> fmpz_mpoly:
+def _markov(number: int, tops: Sequence[fmpz_mpoly], bottoms: Sequence[fmpz_mpoly]) -> fmpz_mpoly:
     """g_k by the recursion."""
     lead, m, zero = bottoms[-1], len(bottoms) - 1, 0 * bottoms[0]
     found: list[fmpz_mpoly] = []
@@ -152,18 +173,19 @@ def _markov(number: int, tops: list[fmpz_mpoly], bottoms: list[fmpz_mpoly]) -> f
     return found[number]
 
 
-def _row(structure: Structure, top: fmpz_mpoly, power: int, lead: fmpz_mpoly) -> list[fmpz_mpoly]:
-    """Gradient of top / lead^power, times lead^(power+1), in the units where the first mass and
-    the first spring are one.
+def _row(
+    names: Sequence[str],
+    units: Mapping[str | int, int],
+    top: fmpz_mpoly,
+    power: int,
+    lead: fmpz_mpoly,
+) -> list[fmpz_mpoly]:
+    """Gradient of top / lead^power, times lead^(power+1), in the units in which those parameters
+    are one.
     """
-    names = [name for name in structure.parameters if name != "Td"]
-    units: dict[str | int, int] = {
-        next(name for name in names if name[0] == kind): 1
-        for kind in "mk"
-        if any(name[0] == kind for name in names)
-    }
-    value, below = (p.subs(units) for p in (top, lead))
+    one = dict(units)
+    value, below = (p.subs(one) for p in (top, lead))
     return [
-        top.derivative(name).subs(units) * below - power * value * lead.derivative(name).subs(units)
+        top.derivative(name).subs(one) * below - power * value * lead.derivative(name).subs(one)
         for name in names
     ]

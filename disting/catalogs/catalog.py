@@ -39,6 +39,10 @@ if TYPE_CHECKING:
 class ModelRow:
     """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in
     `classes()` or 0.
+
+    >>> row = catalog(2, damped=True).rows[1]
+    >>> row.number, row.rank, row.n_parameters
+    (2, 3, 4)
     """
 
     number: int

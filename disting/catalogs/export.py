@@ -64,7 +64,7 @@ def decisions_csv(decided: Decisions) -> str:
     """CSV text of all pairs, models numbered from 1, or named N:I where they are of several
     sizes.
     """
-    names = [_cell(name) for name in _names(decided)]
+    names = [cell(name) for name in _names(decided)]
 
     def rest(i: int, j: int) -> tuple[Domain, str, str, str, str, str, str]:
         """Domain, image, closure, the positive equivalents of both sides, damping, quantity."""
@@ -121,11 +121,11 @@ def _names(decided: Decisions) -> Sequence[int | str]:
     return numbers if numbered else names
 
 
-def _cell(name: int | str) -> int | str:
+def cell(name: int | str) -> int | str:
     """A name that no spreadsheet takes for a formula: = + - @ at its beginning, or behind what may
     part cells, are written as \\u003d and the like.
 
-    >>> _cell("=1+1"), _cell("x;@SUM(A1)"), _cell("a-b")
+    >>> cell("=1+1"), cell("x;@SUM(A1)"), cell("a-b")
     ('\\\\u003d1+1', 'x;\\\\u0040SUM(A1)', 'a-b')
     """
     if isinstance(name, int):

@@ -10,13 +10,14 @@ from typing import Any
 
 from disting.cli.output import written_file, written_folder
 from disting.conditions.rule import RULES
-from disting.errors import shown
+from disting.errors import InputError, shown
 from disting.model.chain import Sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
 from disting.model.question import Domain
-from disting.network.notation import NOTATIONS
+from disting.network.network import Network
+from disting.network.notation import NOTATIONS, network_of, notations_of
 
 
 def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
@@ -57,6 +58,19 @@ Listed = Path | str
 """A list of models: a file, or the name of a family of networks."""
 
 
+FILE = ".json:"  # between a file and the name of a model in it
+
+
+def parted(text: str) -> tuple[str, str]:
+    """A file and the name of a model in it; "" and the text where it names something else.
+
+    >>> parted("own.json:two leaks"), parted("3:1")
+    (('own.json', 'two leaks'), ('', '3:1'))
+    """
+    path, mark, name = text.partition(FILE)
+    return (f"{path}{FILE[:-1]}", name) if mark else ("", text)
+
+
 def sizes_or_list(text: str) -> range | Listed:
     """Sizes, or a list of models."""
     return _list(text) or sizes(text)
@@ -65,6 +79,16 @@ def sizes_or_list(text: str) -> range | Listed:
 def size_or_list(text: str) -> int | Listed:
     """One number of masses, or a list of models."""
     return _list(text) or MASSES(text)
+
+
+def size_list_or_network(text: str) -> int | Listed | Network:
+    """One number of masses, a list of models, or a network in a notation."""
+    if _list(text) is None and notations_of(text):
+        try:
+            return network_of(text)
+        except InputError as problem:
+            raise argparse.ArgumentTypeError(str(problem)) from None
+    return size_or_list(text)
 
 
 def size_or_family(text: str) -> int | str:

@@ -6,13 +6,14 @@ needs none of it.
 
 import argparse
 import json
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import (
+    FILE,
     add_also,
     add_bounds,
     add_damped,
@@ -21,6 +22,7 @@ from disting.cli.arguments import (
     add_no_cache,
     add_notation,
     add_quantity,
+    parted,
 )
 from disting.cli.compare_words import both_ways, every_way, explained, in_letters
 from disting.cli.output import emitted
@@ -34,15 +36,16 @@ from disting.general.any_model import of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor
-from disting.model.drawing import text_drawing
 from disting.model.names import chains_named, damping_option, name_of, read
 from disting.model.question import Settings
 from disting.network.notation import network_of
-from disting.verdict.comparison import compare, names_of
+from disting.verdict.comparison import compare, determinable, names_of
+from disting.verdict.meaning import undetermined
 from disting.verdict.query import Query, View
-from disting.verdict.result import Verdict
+from disting.verdict.result import Relation, Verdict
 
-FILE = ".json:"  # between a file and the name of a model in it
+Known = tuple[str, int, int]
+"""The name of a model, how much of it is determined, how many parameters it has."""
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
     " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
@@ -72,50 +75,81 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(
             "what holds within ranges is told in words only: leave --json or --bound away"
         )
-    texts = (options.left, options.right)
-    if options.json:
-        emitted(
-            options.json, json.dumps(file_of(texts, options), indent=1, ensure_ascii=False) + "\n"
-        )
-        return 0
-    sides = _sides(texts, options)
+    sides = models_named((options.left, options.right), options)
     asked = query(options.conditions, View.EXACT, options.domain)
-    chains = _chains(sides)
     if options.also:
-        return _under_experiments(chains, asked, options)
-    if not chains:
-        with engine_for(options) as (engine, _, _progress):
-            found = compare(*sides, query=asked, engine=engine)
-        print(explained(found, list(map(in_letters, sides))))
-        return 0
-    chains, verdict = decided(chains, asked, options)
-    ways = both_ways(verdict, chains, dict(options.bound)) if _tells_ways(verdict, options) else ()
-    print("\n".join([explained(verdict, list(map(text_drawing, chains))), *ways]))
+        return _under_experiments(sides, asked, options)
+    found = judged(sides, asked, options)
+    if options.json:
+        _written(file_of(found, asked, options), options)
+    if options.json != "-":
+        print("\n".join(_told(found, options)))
     return 0
 
 
-def file_of(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """Two models in the order of their verdict, and how much of each is determined."""
+
+    models: tuple[Chain | AnyModel, Chain | AnyModel]
+    verdict: Verdict
+    known: tuple[Known, ...]
+
+
+def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
+    """The verdict on two models, proven where that is asked for."""
+    chains = _chains(sides)
+    if chains:
+        ordered, verdict = decided(chains, asked, options)
+        return Judged((ordered[0], ordered[1]), verdict, _known_of(ordered, options))
+    left, right = sides
+    with engine_for(options) as (engine, _, _progress):
+        verdict = compare(left, right, query=asked, engine=engine)
+        known = determinable(left, right, engine)
+    if options.prove:
+        from disting.verdict.proof import prove
+
+        verdict = prove(verdict, left, right)
+    return Judged((left, right), verdict, known)
+
+
+def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models, as they are named, with all that its check needs."""
     from disting.verdict.everywhere import everywhere_file
-    from disting.verdict.verdict_file import Stored, as_file, exact, has_more, verdict_file
 
-    sides = _sides(texts, options)
+    sides = models_named(texts, options)
     asked = query(options.conditions, View.EXACT, options.domain)
-    chains = _chains(sides)
-    if options.also:
-        with engine_for(options) as (engine, _, _progress):
-            a, b = chains
-            return everywhere_file(a, b, options.also, query=asked, engine=engine)
-    if not chains:
-        with engine_for(options) as (engine, _, _progress):
-            return verdict_file(*sides, query=asked, engine=engine)
-    ordered, verdict = decided(chains, asked, options)
-    beside = decided(ordered, exact(asked), options)[1] if has_more(verdict) else None
-    return as_file(Stored((ordered[0], ordered[1]), (), asked, Settings(), verdict, beside))
+    if not options.also:
+        return file_of(judged(sides, asked, options), asked, options)
+    left, right = _chains(sides)
+    with engine_for(options) as (engine, _, _progress):
+        return everywhere_file(left, right, options.also, query=asked, engine=engine)
 
 
-def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
-    """Two of what can be named: a chain, a network in a notation, a model file.json:name."""
+def file_of(found: Judged, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
+    """The verdict on two models with all that its check needs."""
+    from disting.verdict.verdict_file import Stored, as_file, exact, has_more
+
+    beside = None
+    if has_more(found.verdict):
+        beside = judged(found.models, exact(asked), options).verdict
+    return as_file(Stored(found.models, (), asked, Settings(), found.verdict, beside))
+
+
+def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
+    emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
+
+
+def _told(found: Judged, options: argparse.Namespace) -> Iterator[str]:
+    """The verdict in words."""
+    verdict, chains = found.verdict, _chains(found.models)
+    yield explained(verdict, list(map(in_letters, found.models)), _unknown(verdict, found.known))
+    if chains and _tells_ways(verdict, options):
+        yield from both_ways(verdict, chains, dict(options.bound))
+
+
+def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
+    """What is named by each text: a chain, a network in a notation, a model file.json:name."""
     networks = {text: _network(text, options) for text in texts if FILE not in text}
     named = [text for text, network in networks.items() if network is None]
     if len(set(texts)) == len(set(named)):
@@ -126,9 +160,8 @@ def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | An
         return [*chains_named(texts, damped=options.damped, sensor=options.quantity)]
     if options.also:
         raise InputError("--also belongs to numbered chains: leave it away")
-    for name in ("bound", "prove"):
-        if getattr(options, name, ()):
-            raise InputError(f"--{name} belongs to numbered chains: leave it away")
+    if getattr(options, "bound", ()):
+        raise InputError("--bound belongs to numbered chains: leave it away")
     if all(FILE in text for text in texts):
         from disting.cli.verdicts import refuse_chain_options
 
@@ -145,11 +178,11 @@ def _sides(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | An
             strict=True,
         )
     )
-    lists = {path: read_models(path) for path, _ in map(_parted, texts) if path}
+    lists = {path: read_models(path) for path, _ in map(parted, texts) if path}
     keep_apart(model.name for found in lists.values() for model in found)
     return [
         lists[path][name] if path else networks[text] or chains[text]
-        for text, (path, name) in zip(texts, map(_parted, texts), strict=True)
+        for text, (path, name) in zip(texts, map(parted, texts), strict=True)
     ]
 
 
@@ -167,18 +200,19 @@ def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
     return chains if len(chains) == len(sides) else []
 
 
-def _parted(text: str) -> tuple[str, str]:
-    """A file and the name of a model in it; "" and the text where it names a chain."""
-    path, mark, name = text.partition(FILE)
-    return (f"{path}{FILE[:-1]}", name) if mark else ("", text)
-
-
-def _under_experiments(chains: Sequence[Chain], asked: Query, options: argparse.Namespace) -> int:
+def _under_experiments(
+    sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace
+) -> int:
     """Explain what further experiments tell, the chains as they are included."""
-    from disting.verdict.everywhere import compare_everywhere
+    from disting.verdict.everywhere import compare_everywhere, everywhere_file
 
-    left, right = chains
+    left, right = chains = _chains(sides)
     with engine_for(options) as (engine, _, _progress):
+        if options.json:
+            whole = everywhere_file(left, right, options.also, query=asked, engine=engine)
+            _written(whole, options)
+        if options.json == "-":
+            return 0
         found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
     asked_for = [named(text).experiment for text in options.also]
     experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
@@ -225,6 +259,35 @@ def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
         return None
     found = catalog(a.n_masses, damped=a.damped).verdict(left.number, right.number, asked.view)
     return replace(found, left=str(left), right=str(right))
+
+
+def _known_of(chains: Sequence[Chain], options: argparse.Namespace) -> tuple[Known, ...]:
+    """How much of two chains is determined: as their catalogue has it, or computed."""
+    a, b = chains
+    if all(_is_shipped(chain) for chain in chains):
+        names = names_of(a, b)
+        records = (
+            catalog(c.n_masses, damped=c.damped).records[read(name_of(c)).number] for c in chains
+        )
+        return tuple(
+            (n, r["rank"], len(r["parameters"])) for n, r in zip(names, records, strict=True)
+        )
+    with engine_for(options) as (engine, _, _progress):
+        return determinable(a, b, engine)
+
+
+def _is_shipped(chain: Chain) -> bool:
+    """Whether a catalogue tells of it."""
+    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False) == chain
+    acceleration = chain.sensor is Sensor.ACCELERATION
+    return plain and acceleration and chain.n_masses in SHIPPED_SIZES
+
+
+def _unknown(verdict: Verdict, known: Iterable[Known]) -> list[str]:
+    """What cannot be determined of two models that are told apart: before they are called so."""
+    if verdict.relation is not Relation.DISTINGUISHABLE:
+        return []
+    return list(filter(None, (undetermined(*one) for one in known)))
 
 
 def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:

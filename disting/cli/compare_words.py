@@ -22,13 +22,16 @@ from disting.verdict.result import Relation, Verdict
 MOST_TERMS = 30  # of a transfer function that is written out
 
 
-def explained(verdict: Verdict, drawn: list[str]) -> str:
-    """Relation, drawings, sentence, evidence, certainty, domain, inclusion."""
+def explained(verdict: Verdict, drawn: list[str], unknown: Sequence[str] = ()) -> str:
+    """Relation, drawings, what of the models is `unknown` whatever is measured, sentence, evidence,
+    certainty, domain, inclusion.
+    """
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
     drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
     heading = in_colour(verdict.relation.upper(), verdict.relation)
     lines = [heading, "", *drawings, ""]
+    lines += [*unknown, *[""] * bool(unknown)]
     if verdict.evidence:
         lines += [shown(verdict), ""]
     lines.append(verdict.sentence)
@@ -160,8 +163,10 @@ def both_ways(
         yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
 
 
-def in_letters(side: Chain | AnyModel) -> str:
-    """A chain's drawing, or a transfer function that fits a few lines."""
+def in_letters(
+    side: Chain | AnyModel, most_terms: int = MOST_TERMS, longer: str = ", in --json"
+) -> str:
+    """A chain's drawing, or a transfer function of so many terms; where a longer one is."""
     if isinstance(side, Chain):
         return text_drawing(side)
     chain = as_chain(side)
@@ -171,9 +176,9 @@ def in_letters(side: Chain | AnyModel) -> str:
     parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
     circuit = side.network is not None and side.network.sort is Sort.CIRCUIT
     letter = "Z" if circuit else "G"  # an impedance is called so
-    if sum(map(len, parts)) <= MOST_TERMS:
+    if sum(map(len, parts)) <= most_terms:
         return letter + str(side).removeprefix("G")
     if isinstance(side, MatrixModel):
-        return "{}(s) with {} outputs and {} inputs, in --json".format(letter, *side.shape)
+        return "{}(s) with {} outputs and {} inputs{}".format(letter, *side.shape, longer)
     root = ", in powers of sqrt(s)" * side.halves
-    return "{}(s) of degree {} over {}{}, in --json".format(letter, *side.degrees, root)
+    return "{}(s) of degree {} over {}{}{}".format(letter, *side.degrees, root, longer)

@@ -48,13 +48,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to"
         " the ground; +lag; +delay"
     )
-    named += "; or a network such as 'R0-p(R1,C1)'"
-    parser.add_argument("model", metavar="N:I|NETWORK", help=named)
+    named += "; or a network such as 'R0-p(R1,C1)'; or file.json:name, a model of your own"
+    parser.add_argument("model", metavar="N:I|NETWORK|FILE.json:NAME", help=named)
     others = (
         "another structure, or all of M masses (M+b1: all with this damper to the ground, M+b*:"
-        " with any set of them); of a network another network"
+        " with any set of them); of a network another network; of a model in a file file.json:name,"
+        " or file.json: all that are there"
     )
-    parser.add_argument("--to", default="", metavar="M:J|M|NETWORK", help=others)
+    parser.add_argument("--to", default="", metavar="M:J|M|NETWORK|FILE", help=others)
     text = "of a network: all networks of this family, such as circuits-5"
     parser.add_argument("--family", default="", metavar="FAMILY", help=text)
     text = "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly"
@@ -87,10 +88,11 @@ def run(options: argparse.Namespace) -> int:
     """Print the equivalents of a model, or formulas for them."""
     if not (options.to or options.family):
         raise InputError("say among which: --to 3:11, --to 3, or of a network --family circuits-5")
-    if options.notation or notations_of(options.model):
-        from disting.cli.network_equivalents import run as run_networks
+    texts = (options.model, options.to)
+    if options.notation or any(notations_of(text) or ".json" in text for text in texts):
+        from disting.cli.model_equivalents import run as run_models
 
-        return run_networks(options)
+        return run_models(options)
     if options.family or not options.to:
         raise InputError(
             "--family belongs to networks; of a numbered chain say --to 3 or --to 3:11"

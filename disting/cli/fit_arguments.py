@@ -16,6 +16,39 @@ SIGNS = ("+", "-", "auto")
 RULES = ("not-excluded", "paper")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
+BRIEF = """\
+usage: disting fit TRAIN [--test TEST] [options]
+
+The structures that explain a measured frequency response.
+
+what was measured
+  TRAIN                   a frequency response, or force and motion in time
+  --test TEST             an independent measurement of the same machine
+  --demo                  simulated data of a small drive instead of files
+  --sensor 1,2            masses that the sensors show (default: 1)
+  --actuator 2            mass that the force acts on (default: 1)
+  --experiment F:lock=2   another file of the machine, with a mass locked
+  --quantity velocity     what the sensor shows (default: acceleration)
+  --unit output=deg       a unit that the file does not say
+  --column HEADER         which of several responses in the file
+  --torque-constant K     Nm per A, where the input is a current
+  --band 10..200          use only these frequencies, in Hz
+
+candidates
+  --masses 1-3            how many masses (default: 1-4)
+  --undamped              springs without dampers beside them
+  --fix m1=0.02           a known parameter; --bound k12=0..500 is its range
+  --models NETWORK        circuits, compartments or branched machines instead
+
+results
+  --out DIR               a page with figures, tables and a .mat file
+  --json FILE             the result for programs; 'disting next FILE' reads it
+  --controller P=2,I=30   what a controller may rely on
+
+--help-all shows all options. Which files are read, what is meant by a unit or a
+sign, how to read the answer: 'disting report 3' writes the guide.
+"""
+
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
@@ -196,8 +229,7 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         "--case",
         type=int,
         choices=[1, 2, 3],
-        default=3,
-        help="cost function of the paper (default: 3)",
+        help="cost function of the paper (default: the likelihood of what the lines scatter by)",
     )
     text = (
         "of the frequency lines; auto: by what each scatters, as far as that is known; none: all"

@@ -64,8 +64,13 @@ def sensors(options: argparse.Namespace) -> list[str]:
 
 def _check(options: argparse.Namespace) -> None:
     several = len(sensors(options)) > 1 or options.experiment
-    if options.demo == bool(options.train):
-        raise InputError("give a file with measured data, or --demo for simulated data, not both")
+    if options.demo and options.train:
+        raise InputError("--demo brings its own data: leave it, or the files, away")
+    if not options.demo and not options.train:
+        raise InputError(
+            "a file with measured data is needed, such as disting fit bench.csv; --demo shows a fit"
+            " of simulated data"
+        )
     own = options.test or options.read or options.column or options.quantity
     if options.demo and (own or several):
         raise InputError(

@@ -1,4 +1,6 @@
-"""disting models: the numbered list of one size, or what can be determined of a file's models."""
+"""disting models: the numbered list of one size, or what can be determined of a file's models, of
+a family of networks, of a network.
+"""
 
 import argparse
 from collections.abc import Iterator, Sequence
@@ -8,32 +10,40 @@ from dataclasses import replace
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_or_list
+from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_list_or_network
+from disting.cli.compare_words import in_letters
 from disting.cli.effort import Work, announced
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import engine_for
-from disting.errors import InputError
+from disting.errors import InputError, listed
 from disting.experiments import Experiment, MeasuredChain, named
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general.any_model import unnamed
+from disting.general.any_model import of_network, unnamed
 from disting.general.identifiability import PARAMETERS
 from disting.model.drawing import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
+from disting.model.names import damping_option
+from disting.network.network import Network
 from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
 from disting.verdict.engine import Engine, Progress
 
 NOT_ASKED = "·"
 Found = Identifiability | ParameterIdentifiability
 MOST_LISTED = 25  # masses: 140 thousand models, in seconds
+MOST_TERMS = 200  # of a transfer function that is printed
 AT_ONCE = 7  # masses; 314 models take five seconds
 COLUMNS = ("model", "gap", "force", "sensor", "n/m", "free", "par", "rank", "sets", "drawing")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
-    text = f"number of masses; or a file of models, or {LISTS}: what can be determined of each"
-    parser.add_argument("masses", type=size_or_list, metavar="N|FILE.json|FAMILY", help=text)
+    text = (
+        f"number of masses; or a file of models, or {LISTS}, or a network such as 'R0-p(R1,C1)':"
+        " what can be determined of each"
+    )
+    metavar = "N|FILE.json|FAMILY|NETWORK"
+    parser.add_argument("masses", type=size_list_or_network, metavar=metavar, help=text)
     parser.add_argument(
         "--identifiability",
         action="store_true",
@@ -51,7 +61,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """List the models of one size, or of a file."""
+    """List the models of one size, or of a file; or tell of a network."""
+    if isinstance(options.masses, Network):
+        return _of_network(options.masses, options)
     if isinstance(options.masses, Listed):
         return _of_list(options.masses, options)
     if options.masses > MOST_LISTED:
@@ -105,6 +117,25 @@ def _of_list(source: Listed, options: argparse.Namespace) -> int:
         engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
         for model, question in zip(found, asked, strict=True):
             print(f"{model.name}: {engine.answer(PARAMETERS, question, engine.settings).sentence}")
+    return 0
+
+
+def _of_network(network: Network, options: argparse.Namespace) -> int:
+    """Tell the transfer function of a network, what does not enter, what can be determined."""
+    if options.also:
+        raise InputError("--also belongs to numbered chains: leave it away")
+    if options.damped is not None:
+        raise InputError(
+            f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
+            " dampers itself"
+        )
+    model = of_network(network)
+    with engine_for(options) as (engine, _, _progress):
+        found = engine.answer(PARAMETERS, (unnamed(model),), engine.settings)
+    print(f"{model.name}  {in_letters(model, MOST_TERMS, '')}")
+    if network.unseen:
+        print(f"what cannot be seen, as no way leads through it: {listed(network.unseen)}")
+    print(found.sentence)
     return 0
 
 

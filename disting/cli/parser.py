@@ -31,7 +31,9 @@ Subparsers = Any  # the object that argparse gives for sub-commands has no publi
 @dataclass(frozen=True, slots=True)
 class Command:
     """`text` says in a list of commands what `run` of its module does with the options; `add`
-    declares its arguments, in the same module if no other one is named.
+    declares its arguments, in the same module if no other one is named. Of a command with many
+    options `brief` names the few lines that `--help` shows, beside them; the rest is behind
+    `--help-all`.
     """
 
     name: str
@@ -40,6 +42,7 @@ class Command:
     run: str = "run"
     add: str = "add_arguments"
     arguments: str = ""
+    brief: str = ""
 
     def work(self) -> Callable[[argparse.Namespace], int]:
         """What runs it, imported."""
@@ -49,6 +52,13 @@ class Command:
         """Add its arguments to its parser."""
         if self.add:
             self._of(self.arguments or self.module, self.add)(parser)
+
+    def brief_help(self) -> str:
+        """Its help in brief; "" where there is none."""
+        if not self.brief:
+            return ""
+        found: str = getattr(import_module(f"disting.cli.{self.arguments}"), self.brief)
+        return found
 
     @staticmethod
     def _of(module: str, name: str) -> Callable[..., Any]:
@@ -170,6 +180,7 @@ COMMANDS = (
         "the structures that explain a measured frequency response",
         "fit",
         arguments="fit_arguments",
+        brief="BRIEF",
     ),
     Command(
         "plan",
@@ -182,6 +193,7 @@ COMMANDS = (
         "HTML pages, figures and tables of whole catalogues, or of your own models in a file",
         "report",
     ),
+    Command("draw", "the drawing of a model, as SVG or PNG", "draw"),
     CATALOG,
     Command(
         "simulate",
@@ -250,12 +262,22 @@ class _Parser(argparse.ArgumentParser):
     """A parser whose errors are one sentence, which says what may have been meant."""
 
     undeclared: Command | None = None
+    brief: str = ""
 
     def declare(self) -> None:
         """Add the arguments of its command, once."""
         command, self.undeclared = self.undeclared, None
-        if command is not None:
-            command.declare(self)
+        if command is None:
+            return
+        command.declare(self)
+        self.brief = command.brief_help()
+        if self.brief:
+            text = "show all options, each with what it means"
+            self.add_argument("--help-all", action=_HelpAll, nargs=0, help=text)
+
+    def format_help(self) -> str:
+        """In brief, where there is such a help."""
+        return self.brief or super().format_help()
 
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         """A command refuses itself what it does not know, so that its own help is named."""
@@ -280,6 +302,17 @@ class _Parser(argparse.ArgumentParser):
         """Say what is wrong and where help is; exit status 2."""
         complain(f"{_short(message).rstrip('.')} (see '{self.prog} --help')")
         self.exit(2)
+
+
+class _HelpAll(argparse.Action):
+    """The help of a command that has many options, whole."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Show it and end."""
+        if isinstance(parser, _Parser):
+            parser.brief = ""
+        parser.print_help()
+        parser.exit()
 
 
 def _offered(action: argparse.Action) -> list[str]:

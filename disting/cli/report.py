@@ -18,6 +18,7 @@ from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import LISTS, list_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError
+from disting.files import write_whole
 from disting.general.model_files import ModelList
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.query import View
@@ -45,15 +46,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write pages, figures and tables."""
-    from disting.report.model_list import page_name, refuse_matrices
+    from disting.report.model_list import page_name
+    from disting.report.write import write_report
 
     if not (options.masses or options.paper):
         raise InputError("name at least one number of masses, a file of models, or --paper")
     files = [x for x in options.masses if isinstance(x, Listed)]
     options.masses = [x for x in options.masses if not isinstance(x, Listed)]
     lists = [(page_name(Path(file)), file, list_of(file)) for file in files]
-    for _, file, found in lists:
-        refuse_matrices(found, str(file))
     if files and not options.masses and options.damping != "both":
         raise InputError(f"--{options.damping} belongs to numbered chains: leave it away")
     names = [name for name, *_ in lists]
@@ -61,26 +61,33 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("two files would have one page: rename one of them")
     if options.paper:
         _paper(options)
-    if options.masses:
-        _catalogues(options)
+    # pages of lists first: the start page and the search of the site find them
     for name, file, found in lists:
         _model_list(options, found, file, name)
+    if options.masses:
+        _catalogues(options)
+    elif lists and (options.out / "index.html").is_file():
+        write_report((), options.out, commands=parser())
     return 0
 
 
 def _model_list(options: argparse.Namespace, found: ModelList, file: Listed, name: str) -> None:
     """Write the page of a file of models, or of a family of networks."""
-    from disting.report.model_list import judged, write_model_list
-    from disting.report.network_motion import page_of_motion, write_motion
+    from disting.report import ladenheim
+    from disting.report.listing import Listing, judged
+    from disting.report.model_list import write_model_list
 
     title = found.title or Path(file).stem
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)
         decided = judged(found, engine, executor=pool, progress=progress)
-    motion = page_of_motion(decided, name)
-    paths = write_model_list(decided, title, name, options.out, motion=motion)
-    paths += write_motion(decided, title, name, options.out)
+    shown = Listing(decided, title, name)
+    site = bool(options.masses)
+    paths = write_model_list(shown, options.out, site=site)
+    if file == ladenheim.FAMILY:
+        page = ladenheim.ladenheim_page(shown, site=site or (options.out / "index.html").is_file())
+        paths.append(write_whole(options.out / ladenheim.ADDRESS, [page]))
     relations = relations_in_words(v.relation for *_, v in decided.pairs(View.POSITIVE))
     print(f"{title}, over positive parameters: {relations}")
     print(f"{len(paths)} files in {options.out}; open {paths[0]}")

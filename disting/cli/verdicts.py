@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
     asked = query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
     file = options.masses if isinstance(options.masses, Listed) else None
     if file:
-        refuse_chain_options(options, "prove")
+        refuse_chain_options(options)
     models = list_of(file) if file else None
     if not file:
         announced(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
@@ -97,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
+def refuse_chain_options(options: argparse.Namespace) -> None:
     """Raises InputError for options that speak of numbered chains, where models are a file's."""
     if options.damped is not None:
         raise InputError(
@@ -108,9 +108,6 @@ def refuse_chain_options(options: argparse.Namespace, *names: str) -> None:
         raise InputError(
             '--quantity belongs to numbered chains: write "sensor" at the chains of the file'
         )
-    for name in names:
-        if getattr(options, name):
-            raise InputError(f"--{name} belongs to numbered chains: leave it away")
 
 
 def listed_models(source: Listed) -> ModelList:

@@ -11,7 +11,7 @@ from disting.cli.arguments import (
     add_notation,
     add_quantity,
 )
-from disting.cli.compare import file_of
+from disting.cli.compare import file_named
 from disting.errors import InputError
 from disting.verdict.verification import Standing, verify
 
@@ -42,6 +42,6 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"name the other model too, such as: disting verify {options.what[0]} 3:4")
     if is_file and options.also:
         raise InputError("the file names its experiments: leave --also away")
-    found = verify(options.what[0] if is_file else file_of(options.what, options))
+    found = verify(options.what[0] if is_file else file_named(options.what, options))
     print(f"{' and '.join(options.what)}: {found.text}")
     return STATUS[found.standing]

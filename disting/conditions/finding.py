@@ -20,6 +20,10 @@ class Outcome(StrEnum):
     a limit.
 
     SOMETIMES: it holds for some parameter values and fails for others.
+
+    >>> from disting import findings
+    >>> findings("3:1", "3:11")[0].finding.outcome is Outcome.HOLDS
+    True
     """
 
     HOLDS = "holds"
@@ -36,6 +40,10 @@ class Finding:
 
     A bounded outcome whose bound does not reach 2**-LEAST_SAFETY becomes ABANDONED, whoever makes
     the finding.
+
+    >>> from disting import findings
+    >>> findings("2:1", "2:2")[0].finding
+    <Finding: condition 1 fails (proven)>
     """
 
     rule: Rule

@@ -16,7 +16,12 @@ from disting.evidence.kinds import InclusionEvidence, inclusion_evidence_from
 
 
 class Inclusion(StrEnum):
-    """Whose generic models have equivalents on the other side, or are limits of models there."""
+    """Whose generic models have equivalents on the other side, or are limits of models there.
+
+    >>> from disting import compare
+    >>> compare("2:1", "2:2").closure is Inclusion.RIGHT_IN_LEFT  # every 2:2 is a limit of 2:1
+    True
+    """
 
     EQUAL = "equal"
     LEFT_IN_RIGHT = "left-in-right"

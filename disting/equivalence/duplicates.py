@@ -164,7 +164,7 @@ def gate(
     '(R0**2 + R0*R1)/R1'
     """
     engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
-    made = [_model(m) for m in of_type(models, Iterable, "the models are a list of models")]
+    made = [model_of(m) for m in of_type(models, Iterable, "the models are a list of models")]
     again = [m.name for i, m in enumerate(made) if m.name in {x.name for x in made[:i]}]
     if again or not made:
         raise InputError(
@@ -182,7 +182,7 @@ def gate(
     return Gate(
         decided,
         tuple(tuple(made[i].name for i in group) for group in groups),
-        tuple(_duplicate(decided, made, g[0], i) for g in groups for i in g[1:]),
+        tuple(duplicate(decided, made, g[0], i) for g in groups for i in g[1:]),
         {
             m.name: engine.answer(PARAMETERS, (unnamed(m),), engine.settings)
             for i, m in enumerate(made)
@@ -192,7 +192,10 @@ def gate(
     )
 
 
-def _model(given: Given) -> AnyModel:
+def model_of(given: Given) -> AnyModel:
+    """The model that a chain, a network or a text for them is, or the model itself; raises
+    InputError.
+    """
     if isinstance(given, str):
         given = network_of(given) if notations_of(given) else chains_named([given])[0]
     if isinstance(given, Network):
@@ -203,7 +206,10 @@ def _model(given: Given) -> AnyModel:
     return of_type(given, Model | MatrixModel, wanted)
 
 
-def _duplicate(decided: Decisions, made: Sequence[AnyModel], kept: int, other: int) -> Duplicate:
+def duplicate(decided: Decisions, made: Sequence[AnyModel], kept: int, other: int) -> Duplicate:
+    """One of some models as another one that it is the same as, both by their places, with the
+    formulas that are known.
+    """
     verdict = decided.verdict(kept, other)
     domain = decided.query.view.domain
     left, right = made[kept], made[other]

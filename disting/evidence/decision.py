@@ -9,21 +9,22 @@ from disting.model.question import Domain, Relation
 
 THEOREMS = {
     "Foster and Cauer": (
-        "{left} and {right} are one-ports of two kinds of elements (or like them) and give any such"
-        " impedance"
+        "{left} and {right} are driving-point functions of two kinds of elements (or of parts like"
+        " them) and of one order: by Foster's and Cauer's theorems each gives all of them with"
+        " positive elements"
     ),
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a row",
     "duality": (
-        "{left} and {right} are dual: masses map to masses, springs and dampers are reversed and"
-        " scaled"
+        "{left} and {right} are dual: to each parameter set of one belongs one of the other,"
+        " positive if it is; masses become masses, springs and dampers are reversed and scaled"
     ),
     "Foster": (
-        "{left} and {right} are undamped with force and sensor at one place: both give any such"
-        " resonances (Foster's theorem)"
+        "{left} and {right} are undamped with force and sensor at one place: by Foster's theorem"
+        " each gives any resonances and antiresonances in turn"
     ),
     "replacement": (
-        "{left} and {right} are the same but for parts that can replace each other (one-ports of"
-        " two kinds of elements, or trees that hang at a compartment)"
+        "{left} and {right} are the same but for parts that can replace each other (two-terminal"
+        " parts of two kinds of elements, or trees that hang at a compartment)"
     ),
     "parts": (
         "{left} and {right} are undamped and their rows at both sides of the gap can be exchanged"

@@ -214,7 +214,8 @@ class Minor(Kind):
     (see `disting.network.minors`).
 
     `places`: (node of the whole, node of the part), 0 being the ground: several nodes of the whole
-    at one node of the part are one. `missing` and `rigid`: values of the whole whose elements are
+    at one node of the part are one; none where one-ports are the same but for the order of branches
+    in series. `missing` and `rigid`: values of the whole whose elements are
     not there, and of those in whose place nodes are connected directly.
     """
 
@@ -237,8 +238,9 @@ class Minor(Kind):
 
     @property
     def formula(self) -> str:
-        """Nodes of the whole in the part."""
-        return ", ".join(f"{a} → {b}" for a, b in self.places)
+        """Nodes of the whole in the part, or what tends to what."""
+        limits = [f"{p} missing" for p in self.missing] + [f"{p} rigid" for p in self.rigid]
+        return ", ".join([f"{a} → {b}" for a, b in self.places] or limits)
 
 
 @dataclass(frozen=True, slots=True)

@@ -79,3 +79,9 @@ from disting.fit.select import Selection as Selection
 from disting.fit.select import select as select
 from disting.fit.selection_json import read_model as read_model
 from disting.fit.selection_json import selection_to_dict as selection_to_dict
+from disting.model.presentation import offered as _offered
+
+
+def __dir__() -> list[str]:
+    """What the Tab key offers."""
+    return _offered(globals())

@@ -38,6 +38,11 @@ class Alternatives:
     FAMILY: infinitely many over the complex numbers, `equivalents` some of them, `free` the
     parameters that were fixed at random; `excluded`: domains without any. UNKNOWN: not decided,
     for this `reason`. Everything else is proven.
+
+    >>> from disting import Model, alternatives
+    >>> low_pass = Model.from_transfer_function("1", "s + a*b")
+    >>> alternatives(low_pass, {"a": 1, "b": 2}, low_pass).extent.value
+    'family'
     """
 
     model: str

@@ -52,10 +52,12 @@ from flint import fmpz_mpoly
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import residues
 from disting.algebra.symbols import factored
+from disting.general.elimination import branches
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.model.question import Domain
 
+PAIR = 2  # equations of which an unknown is eliminated
 CASES = 300  # that are opened before the search is given up
 ORDERS = 24  # in which unknowns are solved for
 ALL_ORDERS = 4  # unknowns: these have 24 orders
@@ -149,10 +151,10 @@ def _open(search: Search, case: Case) -> None:
     if _excluded(search, plain):
         return
     step = _linear(search, plain)
-    if step is None:
-        search.cases.append(replace(case, equations=plain))
-    else:
+    if step:
         _solve(search, replace(case, equations=plain), *step)
+    elif not _eliminate(search, replace(case, equations=plain)):
+        search.cases.append(replace(case, equations=plain))
 
 
 def _factored(
@@ -223,24 +225,41 @@ def _solve(
     hard: int,
 ) -> None:
     """Both cases of one linear equation, the one with factor 0 first."""
-    ring, positive = search.ring, search.ring.domain is Domain.POSITIVE
     others = (*case.equations[:number], *case.equations[number + 1 :])
     if hard == 3:
         _open(search, replace(case, equations=(*others, factor, rest)))
     elif hard == 2:
         search.generic.append(factor)
+    _place(search, replace(case, equations=others), at, rest, factor)
+
+
+def _place(search: Search, case: Case, at: int, rest: fmpz_mpoly, factor: fmpz_mpoly) -> None:
+    """The cases of one with the unknown -rest/factor, neither side being zero."""
+    ring, positive = search.ring, search.ring.domain is Domain.POSITIVE
     nonzero = unknown_factors(ring, (factor, rest) if positive else (factor,))
     asked = (*case.positive, ring.generators[at]) if positive else case.positive
-    found = placed(
-        ring,
-        Case(others, asked, case.solved, (*case.nonzero, *nonzero)),
-        at,
-        RationalFunction(-rest, factor),
-    )
+    known = replace(case, positive=asked, nonzero=(*case.nonzero, *nonzero))
+    found = placed(ring, known, at, RationalFunction(-rest, factor))
     if isinstance(found, Case):
         _open(search, found)
     else:
         search.closed.append(found)
+
+
+def _eliminate(search: Search, case: Case) -> bool:
+    """Whether two equations in two unknowns were replaced by others (see `elimination`)."""
+    ring = search.ring
+    found = branches(ring, *case.equations) if len(case.equations) == PAIR else None
+    if found is None:
+        return False
+    search.generic += found.generic
+    search.closed += [f"{factor} = 0" for factor in found.closed]
+    for branch in found.open:
+        if branch.line is None:
+            _open(search, replace(case, equations=(branch.factor, *case.equations)))
+        else:
+            _place(search, replace(case, equations=(branch.factor,)), *branch.line)
+    return True
 
 
 def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | str:

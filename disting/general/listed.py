@@ -31,7 +31,7 @@ from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, solved
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
-from disting.general.replacement import moved, sign_of_one_port
+from disting.general.replacement import moved
 from disting.general.target import Target, fibre_equations, rational_values, target
 from disting.model.question import Domain
 from disting.network.element import Port
@@ -64,7 +64,7 @@ def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
     if not (isinstance(given, Model) and isinstance(other, Model)) or given.halves != other.halves:
         return False
     network = other.network
-    if network is None or not sign_of_one_port(network) or len(network.seen) > MOST_ELEMENTS:
+    if network is None or not network.sign_of_one_port or len(network.seen) > MOST_ELEMENTS:
         return False
     goal = _goal(given, values)
     if goal is None or _positive(goal, other) != ():

@@ -56,7 +56,13 @@ FORMS = (
 
 @dataclass(frozen=True, slots=True)
 class ModelList(Shown):
-    """Models with different names, in order."""
+    """Models with different names, in order.
+
+    >>> from disting import Model
+    >>> found = ModelList((Model.from_transfer_function("k", "T*s + 1", name="lag"),), "Mine")
+    >>> found["lag"].parameters, len(found.models)
+    (('T', 'k'), 1)
+    """
 
     models: tuple[AnyModel, ...]
     title: str = ""
@@ -117,6 +123,12 @@ def read_models(path: Path | str) -> ModelList:
 def write_models(path: Path | str, found: ModelList) -> Path:
     """Write chains by their names and other models as transfer functions in lowest terms, which
     `read_models` reads back as they were; returns the path.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> lag = Model.from_transfer_function("k", "T*s + 1", name="lag")
+    >>> with TemporaryDirectory() as folder:
+    ...     read_models(write_models(Path(folder, "mine.json"), ModelList((lag,)))).models[0] == lag
+    True
     """
     return write_whole(as_path(path), [models_text(found)])
 

@@ -16,7 +16,15 @@ from disting.evidence.limits import Minor
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.model.question import Settings
-from disting.network.minors import Places, is_minor, left_out, minors
+from disting.network.minors import (
+    Places,
+    branches,
+    is_minor,
+    left_out,
+    minors,
+    rest_of,
+    taken_away,
+)
 from disting.network.network import Network
 from disting.questions.inclusion.profiles import by_profiles, inside, ordered
 
@@ -45,13 +53,8 @@ def confirms_inclusion(
     else is found again at fresh points.
     """
     if isinstance(evidence, Minor):
-        part, whole = (left, right) if evidence.left_is_part else (right, left)
-        a, b = part.network, whole.network
-        places = dict(evidence.places)
-        if a is None or b is None or not is_minor(a.grounded, b.grounded, places):
-            return False
-        as_told = evidence == _minor(a.grounded, b.grounded, places, evidence.left_is_part)
-        return as_told and evidence.left_is_part == left_is_smaller
+        pair = (left, right) if evidence.left_is_part else (right, left)
+        return evidence.left_is_part == left_is_smaller and _is_what_remains(evidence, *pair)
     fresh = [profile(GeneralModel(m), Representation.TF, 0, FRESH) for m in (left, right)]
     found = _by_profiles((fresh[0], fresh[1]), left_is_smaller)
     return found is not None and found.evidence == evidence
@@ -80,10 +83,31 @@ def _by_minors(small: AnyModel, large: AnyModel, left_is_part: bool) -> Inclusio
         return None
     part, whole = small.network.grounded, large.network.grounded
     places = next(minors(part, whole), None)
-    if places is None:
+    gone = taken_away(part, whole) if places is None else None
+    if places is not None:
+        evidence = _minor(part, whole, places, left_is_part)
+    elif gone is not None:
+        evidence = Minor(left_is_part, (), *gone)
+    else:
         return None
-    evidence = _minor(part, whole, places, left_is_part)
     return InclusionFinding(inside(left_is_part), Certainty.THEOREM, evidence=evidence)
+
+
+def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
+    """Whether the part is the whole without these elements: by its places, or, of one-ports, by
+    its branches.
+    """
+    if small.network is None or large.network is None:
+        return False
+    part, whole = small.network.grounded, large.network.grounded
+    if evidence.places:
+        places = dict(evidence.places)
+        known = is_minor(part, whole, places)
+        return known and evidence == _minor(part, whole, places, evidence.left_is_part)
+    ports = [(n.sort, n.order, n.sign_of_one_port) for n in (part, whole)]
+    form = branches(part)
+    known = ports[0] == ports[1] and part.sign_of_one_port != 0 and form is not None
+    return known and form == rest_of(whole, evidence.missing, evidence.rigid)
 
 
 def _minor(part: Network, whole: Network, places: Places, left_is_part: bool) -> Minor:

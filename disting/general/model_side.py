@@ -33,7 +33,7 @@ from disting.general.model_inclusions import (
     n_elements,
     numberings,
 )
-from disting.general.replacement import replaceable, sign_of_one_port
+from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
 from disting.model.question import Domain, Question, Settings
 from disting.questions.inclusion import Inclusions
@@ -203,7 +203,7 @@ def _unnamed(
 
 def _as_network(model: AnyModel, of: ComparedModel) -> AnyModel:
     network = of.subject.network
-    if network is not None and sign_of_one_port(network):
+    if network is not None and network.sign_of_one_port:
         object.__setattr__(model, "network", replace(network, name="network"))
     return model
 

@@ -1,7 +1,8 @@
 """Polynomials in the parameters p of a given model and the unknowns q of a searched one, and the
 signs that are seen at once.
 
-Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere.
+Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere,
+and so has a x^2 + b x + c with a, c of one sign and 4 a c - b^2 > 0 everywhere.
 Over real numbers the same is said of one in which all exponents are even, coefficients have one
 sign and some term contains no unknown: it has this sign for all q and all p without zeros. Over
 complex numbers only constants have a sign, which then says that they are not zero. Polynomials in
@@ -24,6 +25,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.question import Domain
 
+QUADRATIC = 2
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
 """A sign and distinct irreducible factors whose signs are not seen: their product has the sign
 of a polynomial, or is zero.
@@ -140,12 +142,27 @@ class Orthant:
         terms = polynomial.to_dict()
         signs = {1 if c > 0 else -1 for c in terms.values()}
         if len(signs) != 1:
-            return 0
+            return self._by_squares(polynomial) if self.domain is Domain.POSITIVE else 0
         if self.domain is Domain.REAL:
             even = all(e % 2 == 0 for exponents in terms for e in exponents)
             if not even or all(any(exponents[i] for i in self.unknowns) for exponents in terms):
                 return 0
         return signs.pop()
+
+    def _by_squares(self, polynomial: fmpz_mpoly) -> int:
+        """The sign of a polynomial of mixed terms that is quadratic in a variable, if its
+        discriminant shows one.
+        """
+        if len(polynomial) > self.terms:
+            return 0
+        for at, degree in enumerate(polynomial.degrees()):
+            if degree != QUADRATIC:
+                continue
+            c, b, a = self.coefficients(polynomial, at)
+            sign = self.sign(a)
+            if sign and sign == self.sign(c) and self.sign(4 * a * c - b**2) > 0:
+                return sign
+        return 0
 
     def parts(self, polynomial: fmpz_mpoly, odd: bool) -> Parts:
         """Sign and factors; `odd`: without factors of even multiplicity, which are not

@@ -57,7 +57,7 @@ def full_set(model: AnyModel) -> tuple[int, Part] | None:
     network = model.network
     if network is None or not isinstance(model, Model):
         return None
-    sign = sign_of_one_port(network)
+    sign = network.sign_of_one_port
     if not sign:
         return None
     kinds = sorted({e.kind.halves for e in network.seen})
@@ -65,17 +65,6 @@ def full_set(model: AnyModel) -> tuple[int, Part] | None:
         return None
     whole = _set_of(model, network.order, kinds[0], kinds[1])
     return (sign, whole) if whole is not None and _has_minor(network.grounded, whole) else None
-
-
-def sign_of_one_port(network: Network) -> int:
-    """1 where force and sensor, or current and voltage, are at the same two nodes, -1 where one is
-    turned; 0 of another network, and of one with gears.
-    """
-    (force, *more), (sensor, *others) = network.inputs, network.outputs
-    if network.is_directed or any(e.ratio for e in network.elements) or more or others:
-        return 0
-    ways = {(force.plus, force.minus): 1, (force.minus, force.plus): -1}
-    return ways.get((sensor.plus, sensor.minus), 0)
 
 
 def _set_of(model: Model, order: int, low: int, high: int) -> Part | None:

@@ -24,3 +24,9 @@ from disting.measurement.scaling import in_si as in_si
 from disting.measurement.time_series import TimeSeries as TimeSeries
 from disting.measurement.writing import csv_text as csv_text
 from disting.measurement.writing import write_csv as write_csv
+from disting.model.presentation import offered as _offered
+
+
+def __dir__() -> list[str]:
+    """What the Tab key offers."""
+    return _offered(globals())

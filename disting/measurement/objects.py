@@ -29,6 +29,10 @@ def from_arrays(
 ) -> FrequencyResponse:
     """Response from arrays of shape (n_f,): `frequency` in a unit of `units.FREQUENCIES`,
     complex `response`.
+
+    >>> data = from_arrays(range(1, 9), [1 + 1j, 2 - 1j] * 4, sensor="position")
+    >>> data.omega.round(2).tolist()[:2], data.sensor.value
+    ([6.28, 12.57], 'position')
     """
     omega = _numbers(frequency, "frequency") * factor(frequency_unit)
     values = _numbers(response, "response") * as_sign(sign)
@@ -47,6 +51,11 @@ def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
     (`read`); same options.
 
     An index with a name is a column too.
+
+    >>> import pandas as pd
+    >>> frame = pd.DataFrame({"frequency [Hz]": range(1, 9), "re": range(8, 0, -1), "im": range(8)})
+    >>> len(from_frame(frame))
+    8
     """
     return frequency_response(_table(frame), **options)
 
@@ -54,7 +63,13 @@ def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
 def series_from_frame(
     frame: Any, input: str | int, output: str | int, **options: Any
 ) -> TimeSeries:
-    """Samples from two columns of a pandas data frame; options of `read_time_series`."""
+    """Samples from two columns of a pandas data frame; options of `read_time_series`.
+
+    >>> import pandas as pd
+    >>> frame = pd.DataFrame({"u": [k % 3 for k in range(30)], "y": [k % 5 for k in range(30)]})
+    >>> series_from_frame(frame, "u", "y", sampling_rate=100.0).sensor.value
+    'position'
+    """
     return time_series(_table(frame), input, output, **options)
 
 
@@ -66,7 +81,13 @@ def from_control(
     sensor: Sensor | str = Sensor.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
-    """Response from a python-control FRD object: channel from `input` to `output` (from 0)."""
+    """Response from a python-control FRD object: channel from `input` to `output` (from 0).
+
+    >>> import control
+    >>> system = control.frd([1j * k for k in range(1, 9)], [1.0 * k for k in range(1, 9)])
+    >>> from_control(system, sensor="velocity").omega.tolist()[:3]
+    [1.0, 2.0, 3.0]
+    """
     data = getattr(system, "frdata", None)
     # its name before python-control 0.10.2
     data = getattr(system, "fresp", None) if data is None else data

@@ -37,6 +37,14 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     options and those of `TimeSeries.response` (`period`, `transient`, `lines`, `band`, `segment`,
     `least_coherence`) are then accepted; `sensor` is the quantity of the recorded output, `to` the
     quantity wanted. Raises InputError for a file or an option that cannot be understood.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> lines = ["frequency [Hz],re,im", *(f"{f},1,{f}" for f in range(1, 20))]
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "frf.csv")
+    ...     _ = file.write_text("\\n".join(lines))
+    ...     len(read(file)), read(file, sensor="velocity", sign=-1).G[0]
+    (19, np.complex128(-1-1j))
     """
     file = source(path)
     known = format_of(file)
@@ -50,6 +58,14 @@ def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[
     where it is a record of time series.
 
     `columns` as for `read`. Raises InputError where columns are missing.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> lines = ["f [Hz],re1,im1,re2,im2", *(f"{f},1,2,3,4" for f in range(1, 20))]
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "two.csv")
+    ...     _ = file.write_text("\\n".join(lines))
+    ...     beginnings(file)
+    (2, 4)
     """
     file = source(path)
     known = format_of(file)
@@ -67,6 +83,14 @@ def read_time_series(
     Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable
     [s]); `sensor` = quantity of the output, default position; `sign`; `reference` = the signal
     that a controller was asked for, of a record in closed loop.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> lines = ["t [s],iq [A],angle [rad]", *(f"{k / 100},{k % 7},{k % 5}" for k in range(60))]
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "record.csv")
+    ...     _ = file.write_text("\\n".join(lines))
+    ...     read_time_series(file, "iq [A]", "angle [rad]", time="t [s]").sampling_rate
+    100.0
     """
     file = source(path)
     return _records(file, format_of(file)).read(file, input, output, options)

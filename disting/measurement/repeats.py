@@ -25,6 +25,11 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
     (`outliers.left_out`).
 
     Raises InputError where frequencies or sensor quantities differ.
+
+    >>> from disting.measurement import from_arrays
+    >>> mean = mean_of([from_arrays(range(1, 9), [x, x + 1j] * 4) for x in (1.0, 3.0)])
+    >>> mean.G.real[:2].tolist(), mean.deviation[:2].round(6).tolist()
+    ([2.0, 2.0], [1.0, 1.0])
     """
     first, n = repeats[0], len(repeats)
     for other in repeats[1:]:
@@ -72,6 +77,11 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
 def are_opposite(one: FrequencyResponse, other: FrequencyResponse) -> bool:
     """Whether two responses of one machine have opposite signs: at most frequencies that they
     share, the phase is reversed.
+
+    >>> from disting.measurement import from_arrays
+    >>> one, other = (from_arrays(range(1, 9), [x * 1j, x] * 4) for x in (2, -2))
+    >>> are_opposite(one, other)
+    True
     """
     at = nearest(one.omega, other.omega)
     near = np.abs(one.omega[at] - other.omega) <= NEAR * other.omega

@@ -36,7 +36,11 @@ SORTED = "the frequencies were not in rising order and have been sorted"
 
 
 class Signal(NamedTuple):
-    """Name and unit of a measured signal."""
+    """Name and unit of a measured signal.
+
+    >>> str(Signal("motor current", "A"))
+    'motor current [A]'
+    """
 
     label: str = ""
     unit: str = ""

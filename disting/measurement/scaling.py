@@ -16,6 +16,11 @@ def in_si(
     The order of a unit (rad/s is a velocity) is that of the sensor where nobody said the sensor's
     quantity. Raises InputError for a unit that is given and not known, and for one that
     contradicts the quantity.
+
+    >>> from disting.measurement import from_arrays
+    >>> degrees = from_arrays(range(1, 9), [180, 360] * 4, sensor="position")
+    >>> in_si(degrees, output="deg", input="Nm").G.real[:2].round(4).tolist()
+    [3.1416, 6.2832]
     """
     there, here = motion(output or response.output.unit), drive(input or response.input.unit)
     for given, unit, example in ((output, there, "rad, mm/s, rpm"), (input, here, "A, Nm, N")):

@@ -27,6 +27,11 @@ class TimeSeries:
     `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked
     for, or None; `left_out` says what else the file has. Raises InputError for samples that are not
     finite, constant signals and unequal lengths.
+
+    >>> from disting.simulation import demo
+    >>> record = demo()
+    >>> len(record.u), record.sampling_rate, len(record.response("acceleration"))
+    (50000, 2500.0, 241)
     """
 
     u: Real

@@ -17,13 +17,26 @@ FORMULA = re.compile(
 
 
 def csv_text(response: FrequencyResponse) -> str:
-    """Comment lines with sensor, signals and origin; a header; one line a frequency."""
+    """Comment lines with sensor, signals and origin; a header; one line a frequency.
+
+    >>> from disting.measurement import from_arrays
+    >>> csv_text(from_arrays(range(1, 9), [1j, 2j] * 4, sensor="velocity")).splitlines()[1]
+    '# sensor: velocity'
+    """
     return "\n".join([*_head(response), *_rows(response), ""])
 
 
 def write_csv(response: FrequencyResponse, path: str | Path) -> None:
     """Write `csv_text` to a file; `read` gives an equal response. Raises InputError where the
     file cannot be written.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> from disting.measurement import from_arrays, read
+    >>> data = from_arrays(range(1, 9), [1j, 2j] * 4)
+    >>> with TemporaryDirectory() as folder:
+    ...     write_csv(data, Path(folder, "a.csv"))
+    ...     bool((read(Path(folder, "a.csv")).G == data.G).all())
+    True
     """
     try:
         write_whole(Path(path), [csv_text(response)])

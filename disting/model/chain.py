@@ -22,7 +22,11 @@ PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothi
 
 
 class Sensor(StrEnum):
-    """Measured quantity; its transfer function is s**order times the receptance."""
+    """Measured quantity; its transfer function is s**order times the receptance.
+
+    >>> Chain(2, sensor="velocity").sensor is Sensor.VELOCITY, Sensor.VELOCITY.order
+    (True, 1)
+    """
 
     POSITION = "position"
     VELOCITY = "velocity"
@@ -127,6 +131,44 @@ class Chain(Drawn):
         s/(b1 + m1*s)
         """
         return self._presenter.transfer_function(self)
+
+    def frequency_response(self, values: Mapping[str, float], omega: Any) -> Any:
+        """G(j omega) with numbers: complex array of the shape of `omega` [rad/s], shape (n_f,).
+
+        `values`: one for each of `parameters`, in SI units [kg, N/m, N s/m, s] or, of rotation,
+        [kg m^2, Nm/rad, Nm s/rad, s]; the response is then in m, m/s or m/s^2 per N, or in rad,
+        rad/s or rad/s^2 per Nm. Raises InputError for missing, unknown or negative values, and at
+        an undamped resonance.
+
+        >>> abs(Chain(1, damped=False, sensor="velocity").frequency_response({"m1": 2.0}, [1, 10]))
+        array([0.5 , 0.05])
+        """
+        return self._presenter.frequency_response(self, values, omega)
+
+    def state_space(self, values: Mapping[str, float]) -> Any:
+        """x' = A x + B u, y = C x + D u with numbers, equations (20) to (23), and the `delay` of
+        the input [s], which is in no matrix.
+
+        States, in this order: positions x1.. [m], velocities v1.. [m/s], of a lag the force [N];
+        `states` and `units` of what is returned name them. `values` and errors as in
+        `frequency_response`.
+
+        >>> space = Chain(1, damped=False, sensor="position").state_space({"m1": 2.0})
+        >>> space.states, space.B.tolist(), space.units["y"]
+        (('x1', 'v1'), [[0.0], [0.5]], 'm')
+        """
+        return self._presenter.state_space(self, values)
+
+    def to_control(self, values: Mapping[str, float]) -> Any:
+        """A `control.StateSpace` of python-control, its states, input u and output y named, without
+        the dead time; `values` and errors as in `frequency_response`. Raises InputError where
+        python-control is not installed (`pip install "disting[control]"`).
+
+        >>> drive = Chain(1, damped=False, sensor="position").to_control({"m1": 2.0})
+        >>> drive.nstates, drive.state_labels, complex(drive(1j))
+        (2, ['x1', 'v1'], (-0.5+0j))
+        """
+        return self._presenter.to_control(self, values)
 
     @property
     def indices(self) -> Indices:

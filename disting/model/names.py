@@ -59,6 +59,8 @@ def read(text: str) -> Name:
             + f"; did you mean {meant}?"
             * bool(meant)
         )
+    if match[1] and not int(match[1]):
+        raise InputError(f"{shown(text)}: a chain has one mass or more, for instance 3:{match[2]}")
     return Name(int(match[1] or 0), int(match[2]), match[3])
 
 

@@ -8,6 +8,7 @@ Nothing is drawn, and nothing that draws is imported, before somebody looks.
 
 from collections.abc import Mapping
 from pkgutil import resolve_name
+from types import ModuleType
 from typing import Any, Protocol
 
 from disting.errors import printable
@@ -18,7 +19,9 @@ LONGEST = 110  # characters of a line on a prompt
 
 
 class Presenter(Protocol):
-    """Whoever draws: a notebook's table as HTML, a picture as SVG, a plot with matplotlib."""
+    """Whoever draws: a notebook's table as HTML, a picture as SVG, a plot with matplotlib; and
+    whoever writes a chain as formulas or as numbers.
+    """
 
     def html(self, shown: Any, /) -> str:
         """The object as a piece of an HTML page, complete in itself."""
@@ -28,6 +31,15 @@ class Presenter(Protocol):
 
     def transfer_function(self, shown: Any, /) -> Any:
         """G(s) of a chain as a SymPy expression."""
+
+    def frequency_response(self, shown: Any, values: Any, omega: Any, /) -> Any:
+        """G(j omega) of a chain with numbers."""
+
+    def state_space(self, shown: Any, values: Any, /) -> Any:
+        """The matrices of a chain with numbers."""
+
+    def to_control(self, shown: Any, values: Any, /) -> Any:
+        """A chain with numbers for python-control."""
 
     def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
         """The object on axes of matplotlib, made where none are given; returns them."""
@@ -60,6 +72,13 @@ class Drawn(Presented):
 
     def _repr_svg_(self) -> str:
         return self._presenter.svg(self)
+
+
+def offered(names: Mapping[str, object]) -> list[str]:
+    """What the Tab key offers of a package with these global names: its public ones, no modules."""
+    return sorted(
+        name for name, of in names.items() if name[0] != "_" and not isinstance(of, ModuleType)
+    )
 
 
 def summary(of: object, text: str) -> str:

@@ -10,7 +10,12 @@ from typing import Any, Generic, Protocol, TypeVar
 
 
 class Domain(StrEnum):
-    """Admissible parameter values. What is said of complex values is said of generic ones."""
+    """Admissible parameter values. What is said of complex values is said of generic ones.
+
+    >>> from disting import Query, View, compare
+    >>> compare("3:1", "3:2").domain is Domain.POSITIVE
+    True
+    """
 
     COMPLEX = "complex"
     REAL = "real"
@@ -24,6 +29,10 @@ class Relation(StrEnum):
     DISTINGUISHABLE: those of one of them, at least, have none; the verdict's inclusion and its two
     shares tell of the other one. SOMETIMES: some parameters have an equivalent and others have
     none, of two models that are indistinguishable over complex parameters.
+
+    >>> from disting import compare
+    >>> compare("3:1", "3:11").relation is Relation.INDISTINGUISHABLE
+    True
     """
 
     DISTINGUISHABLE = "distinguishable"
@@ -39,6 +48,10 @@ class Settings:
     `seed` names the random points, `points` counts the independent ones behind every rank (error
     bounds multiply; more are taken where the least accepted bound needs them), `subset_limit`
     bounds the subsets of rows that a matroid search may visit (about 10 ns each).
+
+    >>> from disting import Engine, compare
+    >>> compare("3:1", "3:4", engine=Engine(Settings(seed="mine", points=4))).relation.value
+    'distinguishable'
     """
 
     seed: str = "disting"

@@ -20,7 +20,11 @@ REMEMBERED = 4096  # canonical forms; everything about a pair asks for them agai
 
 
 class Symmetry(StrEnum):
-    """One of the three generators."""
+    """One of the three generators.
+
+    >>> Symmetry.REFLECTION.value
+    'reflection of the free part'
+    """
 
     RECIPROCITY_FREE = "reciprocity of the free part"
     RECIPROCITY_GROUNDED = "reciprocity of the grounded part"

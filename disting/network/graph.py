@@ -1,11 +1,13 @@
 """Nodes and elements of a network as a graph: what is connected, what a port can see."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar
 
 from disting.network.element import Element, Port
 
 Edge = tuple[int, int]
+L = TypeVar("L")
 
 
 def edges(element: Element) -> tuple[Edge, ...]:
@@ -94,3 +96,27 @@ def renumbered(places: Mapping[int, int], element: Element) -> Element:
     nodes = tuple(places[i] for i in element.nodes)
     ratio = "" if element.known_ratio == 1 else element.ratio
     return Element(element.value, element.letter, nodes, ratio)
+
+
+def joined(
+    labelled: Iterable[tuple[tuple[int, ...], L]],
+    kept: Iterable[int],
+    in_series: Callable[[Iterable[L]], L],
+    in_parallel: Callable[[Iterable[L]], L],
+) -> dict[frozenset[int], L]:
+    """Labels of edges by their ends, when edges in parallel, and in series at nodes that are not
+    `kept`, have become one. An edge of one end goes to the ground.
+    """
+    between: dict[frozenset[int], list[L]] = {}
+    for nodes, label in labelled:
+        between.setdefault(frozenset((*nodes, 0)[:2]), []).append(label)
+    edges, held = {ends: in_parallel(labels) for ends, labels in between.items()}, set(kept)
+    while True:
+        degree = Counter(i for ends in edges for i in ends)
+        at = next((i for i, count in degree.items() if count == 2 and i not in held), None)
+        if at is None:
+            return edges
+        meeting = [ends for ends in edges if at in ends]
+        across = frozenset().union(*meeting) - {at}
+        made = in_series(edges.pop(ends) for ends in meeting)
+        edges[across] = in_parallel([edges[across], made]) if across in edges else made

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from disting.errors import InputError, shown
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import Drawn, plural, summary
 from disting.network.element import Element, Port, Sort
 from disting.network.graph import edges, parts, renumbered, seen_by_blocks, seen_by_flows
 
@@ -27,7 +27,7 @@ PORTS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Network(Shown):
+class Network(Drawn):
     """A linear network: `elements`, all of one sort; `inputs` and `outputs`, the ports of forces
     and sensors (of a circuit: where the current enters and the voltage is seen); `order`, how often
     what the sensors show is differentiated.
@@ -83,6 +83,17 @@ class Network(Shown):
     def is_directed(self) -> bool:
         """Whether elements work in one direction: flows."""
         return self.sort is Sort.COMPARTMENTS
+
+    @property
+    def sign_of_one_port(self) -> int:
+        """1 where force and sensor, or current and voltage, are at the same two nodes, -1 where one
+        is turned; 0 of another network, and of one with gears.
+        """
+        if self.is_directed or any(e.ratio for e in self.elements) or self.shape != (1, 1):
+            return 0
+        (force,), (sensor,) = self.inputs, self.outputs
+        ways = {(force.plus, force.minus): 1, (force.minus, force.plus): -1}
+        return ways.get((sensor.plus, sensor.minus), 0)
 
     @property
     def reference(self) -> int:

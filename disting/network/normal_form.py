@@ -47,6 +47,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from disting.network.graph import joined
 from disting.network.network import Network
 
 REMEMBERED = 4096  # networks
@@ -153,28 +154,11 @@ def _turned(part: Part) -> Part:
 
 def _of_graph(network: Network) -> NormalForm:
     """Parts between nodes that are no ends of ports and have two neighbours become one."""
-    between: dict[frozenset[int], list[Part]] = {}
-    for e in network.seen:
-        ends = frozenset((*e.nodes, 0)[:2])
-        between.setdefault(ends, []).append(Part("S", (e.kind.halves,)))
-    edges = {ends: in_parallel(parts) for ends, parts in between.items()}
+    labelled = [(e.nodes, Part("S", (e.kind.halves,))) for e in network.seen]
     kept = {i for p in network.ports for i in (p.plus, p.minus)}
-    while True:
-        at = _inner(edges, kept)
-        if at is None:
-            break
-        found = [ends for ends in edges if at in ends]
-        across = frozenset().union(*found) - {at}
-        made = in_series(edges.pop(ends) for ends in found)
-        edges[across] = in_parallel([edges[across], made]) if across in edges else made
+    edges = joined(labelled, kept, in_series, in_parallel)
     listed = (tuple(sorted(ends)) for ends in edges)
     return NormalForm(tuple((a, b, edges[frozenset((a, b))]) for a, b in sorted(listed)), ())
-
-
-def _inner(edges: dict[frozenset[int], Part], kept: set[int]) -> int | None:
-    """A node of two neighbours at which no port is; None if there is none."""
-    degree = Counter(i for ends in edges for i in ends)
-    return next((i for i, count in degree.items() if count == 2 and i not in kept), None)
 
 
 def _of_compartments(network: Network) -> NormalForm:

@@ -81,6 +81,10 @@ class Open:
 def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
     """HTML of a family with sets of ground dampers; `beside`: the pages of pairs beside it (see
     `families`).
+
+    >>> from disting.catalogs.damper_files import damper_catalog
+    >>> damper_page(damper_catalog(3, damped=True))[:15]
+    '<!DOCTYPE html>'
     """
     pages = families([], [found]) | dict(beside or {})
     catalog = chains_name(found.family.n_masses, found.family.damped) in pages

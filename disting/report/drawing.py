@@ -88,12 +88,20 @@ class Layout:
 
 
 def chain_svg(chain: Chain) -> str:
-    """Stand-alone SVG of a chain."""
+    """Stand-alone SVG of a chain.
+
+    >>> chain_svg(Chain(2))[:4]
+    '<svg'
+    """
     return svg(draw(chain))
 
 
 def chain_png(chain: Chain, *, scale: float = 3) -> bytes:
-    """PNG of a chain, `scale` pixels a unit."""
+    """PNG of a chain, `scale` pixels a unit.
+
+    >>> chain_png(Chain(2))[1:4]
+    b'PNG'
+    """
     return png(draw(chain), scale=scale)
 
 

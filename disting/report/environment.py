@@ -19,6 +19,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from disting.files import __version__
+from disting.report.scene import FILE_PALETTE
 
 BESIDE = "'self' file:"  # of a page that is opened from a disk not every browser knows 'self'
 ATTRIBUTE = re.compile(r' style="([^"]*)"')
@@ -100,4 +101,5 @@ def environment() -> Environment:
         keep_trailing_newline=True,
     )
     found.globals["version"] = __version__  # every page names it
+    found.globals["file_palette"] = dict(FILE_PALETTE)  # of pictures that a page saves
     return found

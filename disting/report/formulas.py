@@ -22,11 +22,16 @@ from disting.algebra.symbols import (
     content,
     factors,
     polynomial_of,
+    symbols,
     terms,
 )
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.images import images
+from disting.evidence.general import Formula
+from disting.general.expansion import Expansion
+from disting.general.expression import names as symbols_of
+from disting.general.expression import tree
 from disting.general.model import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination
@@ -136,6 +141,48 @@ def correspondence(given: Chain, other: Chain) -> Correspondence | None:
 @cache
 def _images(given: Chain) -> frozenset[Chain]:
     return frozenset(image.chain for image in images(given, dict.fromkeys(given.parameters, 1.0)))
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """Values of another model in those of this one: where these `where` are positive an equation
+    each, and what `root` stands for in them.
+    """
+
+    where: tuple[Markup, ...]
+    equations: tuple[Markup, ...]
+    root: tuple[Markup, ...]
+
+
+def written_values(found: Formula) -> Values:
+    """A formula for equivalents, typeset."""
+    _, where, values, root = found
+    equations = (equation(primed(name), _typed(text)) for name, text in values)
+    return Values(
+        tuple(math(_typed(text)) for text in where),
+        tuple(equations),
+        (math(symbol(root[0])), *(math(_typed(text)) for text in root[1:])) if root else (),
+    )
+
+
+def _typed(text: str) -> str:
+    """A rational function, factorised; a text that is none, such as infinity, as it is."""
+    if text.endswith("infinity"):
+        return f"<mi>{text.replace('infinity', '∞')}</mi>"
+    found = tree(text)
+    ring = symbols(sorted({*symbols_of(found)}) or ["s"])
+    return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(found))
+
+
+def typeset(polynomial: str) -> Markup:
+    """A polynomial that is zero, as an equation of its positive and its negative terms."""
+    ring = symbols(sorted({*symbols_of(tree(polynomial))}))
+    value = Expansion(ring, next(iter(ring.values())) ** 0).value(tree(polynomial)).num
+    sides = [
+        [(abs(c), powers) for c, powers in terms(value) if (c > 0) is sign]
+        for sign in (True, False)
+    ]
+    return equation(*("".join(summands(side)) for side in sides))
 
 
 def combinations(basis: Sequence[Combination]) -> tuple[Markup, ...]:

@@ -117,6 +117,10 @@ def index(
 ) -> str:
     """HTML of the index: the catalogues in the order given, families with ground dampers, and
     further pages; `across`: the catalogues of several sizes that have a page.
+
+    >>> from disting.catalogs import catalog
+    >>> "I have a measurement" in index([catalog(2, damped=True)])
+    True
     """
     masses = sorted({c.n_masses for c in catalogs})
     return render(

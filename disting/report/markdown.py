@@ -1,7 +1,8 @@
 """Pages of Markdown as pages of the site.
 
 Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
-to another page of the guide, or to a notebook, leads to the rendered page; a link that leads
+to another page of the guide, or to a notebook, leads to the rendered page; hard words lead to the
+glossary (`disting.report.glossary`); a link that leads
 elsewhere has no place in the site and stays as its words. An image is a drawing (SVG) beside the
 pages, and becomes a part of the page. A block named "picture" holds a model a line, such as `3:1
 --damped`, and is shown as their drawings; what follows a name is for those who read the text.
@@ -20,6 +21,7 @@ from markupsafe import Markup, escape
 
 from disting.model.family import Family
 from disting.model.names import chain_of
+from disting.report import glossary
 from disting.report.drawing import draw
 from disting.report.scene import PAGE_PALETTE
 from disting.report.svg import body
@@ -28,6 +30,10 @@ from disting.report.svg import body
 LONG = 40
 ENLARGED = 1.4  # drawings of chains
 FIGURE = Markup('<figure class="picture">{}<figcaption>{}</figcaption></figure>\n')
+COPIED = Markup(
+    '<div class="code"><pre tabindex="0"><code>{}</code></pre><button type="button"'
+    ' class="plainbutton interactive" data-copy data-text="{}">Copy</button></div>\n'
+)
 ADDRESS = re.compile(r"([a-z0-9-]+)\.md(#[\w-]+)?")
 NOTEBOOK = re.compile(r"\.\./\.\./reports/notebooks/([\w-]+)\.ipynb")
 PREFIX = "notebook-"  # of the names of pages of executed notebooks
@@ -97,6 +103,11 @@ def guide_page(
             if [child.type for child in token.children] == ["image"]:
                 before.hidden = after.hidden = True  # a figure is no part of a paragraph
     title = _words(tokens[1])
+    if glossary.PAGE in known and name != glossary.PAGE:
+        pairs = pairwise(tokens[2:])
+        glossary.linked(
+            inner for token, inner in pairs if inner.children and token.type != "heading_open"
+        )
     found = parser.renderer.render(
         tokens[3:], parser.options, {"drawings": drawings, "outputs": outputs}
     )
@@ -155,7 +166,20 @@ def _code(
         return env["outputs"][tokens[place].info]
     if tokens[place].info == "picture":
         return _pictures(tokens[place].content.splitlines())
-    return f'<pre tabindex="0"><code>{escape(tokens[place].content.rstrip())}</code></pre>\n'
+    content = tokens[place].content.rstrip()
+    return COPIED.format(content, typed(content))
+
+
+def typed(shown: str) -> str:
+    """What a reader types of a block: commands without their outputs, Python without its answers,
+    else the whole of it.
+
+    >>> typed("$ disting doctor\\nfine"), typed(">>> for i in (1,):\\n...     i\\n1")
+    ('disting doctor', 'for i in (1,):\\n    i')
+    """
+    marks = ("$ ",) if shown.startswith("$ ") else (">>> ", "... ")
+    lines = [line[len(marks[0]) :] for line in shown.splitlines() if line.startswith(marks)]
+    return "\n".join(lines) if shown.startswith(marks) else shown
 
 
 def _code_in_text(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:

@@ -118,12 +118,22 @@ class Grid:
 
 
 def matrix_svg(catalog: Catalog) -> str:
-    """The triangles as a stand-alone SVG."""
+    """The triangles as a stand-alone SVG.
+
+    >>> from disting import catalog
+    >>> matrix_svg(catalog(2, damped=True))[:4]
+    '<svg'
+    """
     return svg(figure(catalog))
 
 
 def matrix_png(catalog: Catalog) -> bytes:
-    """The triangles as a PNG of at most 5200 pixels width."""
+    """The triangles as a PNG of at most 5200 pixels width.
+
+    >>> from disting import catalog
+    >>> matrix_png(catalog(2, damped=True))[1:4]
+    b'PNG'
+    """
     return figure_png(figure(catalog))
 
 

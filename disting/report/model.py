@@ -122,7 +122,12 @@ def motion_of(catalog: Catalog) -> str:
 
 
 def model_page(catalog: Catalog, number: int) -> str:
-    """HTML of one model; beside it the style sheet of `write_report` is expected."""
+    """HTML of one model; beside it the style sheet of `write_report` is expected.
+
+    >>> from disting.catalogs import catalog
+    >>> "Model A2" in model_page(catalog(2, damped=True), 2)
+    True
+    """
     model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
     seen = {other: standing(number, other, v) for other, v in verdicts.items()}
     twins = [

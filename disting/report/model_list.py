@@ -1,128 +1,87 @@
-"""A list of general models as one HTML page that needs nothing else: the matrix of their verdicts
-as on a catalogue's page, groups, formulas, what can be determined, and every pair in words.
+"""A list of models as pages: the matrix of their verdicts as on a catalogue's page, groups, every
+pair in words; and a page for each model (`listed_model`).
 """
 
+import csv
+import io
 import re
-from collections.abc import Iterator, Mapping
-from concurrent.futures import Executor
-from dataclasses import dataclass
-from itertools import combinations
+from collections.abc import Iterable, Iterator
+from html import unescape
 from pathlib import Path
 
-from disting.catalogs.export import decisions_csv, decisions_json
-from disting.errors import InputError
-from disting.files import write_whole
-from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
-from disting.general.matrix_model import MatrixModel
+from disting.catalogs.export import cell, decisions_csv, decisions_json
+from disting.equivalence.duplicates import model_of
+from disting.errors import InputError, of_type
+from disting.files import as_path, write_whole
 from disting.general.model import Model
 from disting.general.model_files import ModelList
-from disting.report.domains import VIEWS, over
-from disting.report.environment import render
-from disting.report.formulas import TransferFunction, written_model
+from disting.model.presentation import plural
+from disting.report.domains import VIEWS
+from disting.report.environment import render, source
+from disting.report.listed_model import listed_model_page
+from disting.report.listing import Listing, judged
+from disting.report.network_motion import motion_page_of, page_of_motion
 from disting.report.payload import payload
-from disting.report.words import SAID, VIEW_TITLES, plural
-from disting.verdict.decisions import Decisions
-from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.report.words import SAID, VIEW_TITLES
+from disting.verdict.comparison import Given, refuse_ports
+from disting.verdict.engine import Engine
+from disting.verdict.query import View
+from disting.verdict.result import Verdict
 
+HEADING = re.compile(r"<h1>(.*?)</h1>", re.DOTALL)
 LISTED_PAIRS = 1000  # told one by one below the matrix
+COLUMNS = (
+    "number", "name", "parameters", "inputs", "outputs", "determinable", "sets", "group",
+    "complex_group",
+)  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class JudgedList:
-    """Models with the decisions on all pairs, in each of VIEWS; models are counted from 1."""
-
-    family: tuple[Model, ...]
-    decisions: Mapping[View, Decisions]
-    identifiabilities: tuple[GlobalIdentifiability, ...]
-
-    def relation(self, left: int, right: int, view: View) -> Relation:
-        """Relation of two models."""
-        return self.decisions[view].relation(left - 1, right - 1)
-
-    def verdict(self, left: int, right: int, view: View) -> Verdict:
-        """The verdict with its evidence."""
-        return self.decisions[view].verdict(left - 1, right - 1)
-
-    def pairs(self, view: View) -> Iterator[tuple[int, int, Verdict]]:
-        """All pairs, left < right."""
-        for left, right in combinations(range(1, len(self.family) + 1), 2):
-            yield left, right, self.verdict(left, right, view)
-
-    def classes(self, view: View) -> tuple[tuple[int, ...], ...]:
-        """Groups of two or more mutually indistinguishable models."""
-        return tuple(tuple(i + 1 for i in g) for g in self.decisions[view].classes())
-
-    def depending(self, view: View) -> tuple[tuple[int, int], ...]:
-        """The pairs that are indistinguishable for some parameters only."""
-        pairs = combinations(range(1, len(self.family) + 1), 2)
-        return tuple(p for p in pairs if self.relation(*p, view) is Relation.SOMETIMES)
-
-
-@dataclass(frozen=True, slots=True)
-class Card:
-    """What the page says of a model; `groups`: the number of its group in each of VIEWS, or 0."""
-
-    number: int
-    model: Model
-    known: GlobalIdentifiability
-    transfer: TransferFunction
-    groups: tuple[int, ...]
-
-    @property
-    def sets(self) -> str:
-        """How many parameter vectors have one behaviour."""
-        if self.known.is_infinite or self.known.local.rank < len(self.model.parameters):
-            return "infinitely many"
-        return str(self.known.count or "not known")
-
-
-def refuse_matrices(found: ModelList, path: str) -> None:
-    """Raises InputError for models with several inputs or outputs: a page has one formula each."""
-    several = next((m for m in found if isinstance(m, MatrixModel)), None)
-    if several is not None:
-        outputs, inputs = several.shape
-        raise InputError(
-            f"{path}: a page shows models with one input and one output, and {several.name} has"
-            f" {inputs} and {outputs}: ask 'disting verdicts' and 'disting models' of the file"
-        )
-
-
-def judged(
-    found: ModelList,
-    engine: Engine,
-    *,
-    executor: Executor | None = None,
-    progress: Progress = silent,
-) -> JudgedList:
-    """Decide all pairs over positive and over complex parameters, and what is identifiable."""
-    models = tuple(model for model in found if isinstance(model, Model))
-    subjects = engine.general_subjects(models)
-    decided = {
-        view: engine.decisions(
-            subjects, Query(view, inclusion=False), executor=executor, progress=progress
-        )
-        for view in VIEWS
-    }
-    asked = [(subject.model.model,) for subject in subjects]
-    engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
-    known = tuple(engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked)
-    return JudgedList(models, decided, known)
-
-
-def write_model_list(
-    found: JudgedList, title: str, name: str, out: Path, *, motion: str = ""
-) -> list[Path]:
-    """Write the page, and the verdicts over positive parameters as CSV and JSON, into a folder;
-    `motion`: the page beside it on which two of them move. Returns the paths.
+def write_model_list(shown: Listing, out: Path, *, site: bool = False) -> list[Path]:
+    """Write the page of the list, a page for each model, the verdicts over positive parameters as
+    CSV and JSON, the models as CSV, and the page on which two of them move, into a folder; `site`:
+    the pages around it, which are written too, stand beside it. Returns the paths.
     """
     out.mkdir(parents=True, exist_ok=True)
-    site, guide = ((out / page).is_file() for page in ("index.html", "guide/index.html"))
-    page = model_list_page(found, title, name, site=site, guide=guide, motion=motion)
-    decided = found.decisions[View.POSITIVE]
-    texts = {"html": page, "csv": decisions_csv(decided), "json": decisions_json(decided)}
-    return [write_whole(out / f"{name}.{kind}", [text]) for kind, text in texts.items()]
+    site, guide = (site or (out / page).is_file() for page in ("index.html", "guide/index.html"))
+    decided = shown.found.decisions[View.POSITIVE]
+    texts = {
+        f"{shown.name}.html": model_list_page(shown, site=site, guide=guide),
+        f"{shown.name}.csv": decisions_csv(decided),
+        f"{shown.name}.json": decisions_json(decided),
+        f"{shown.name}-models.csv": models_csv(shown),
+        "models/style.css": "".join(map(source, ("style.css", "model.css", "next.css"))),
+    }
+    if page_of_motion(shown):
+        texts[page_of_motion(shown)] = motion_page_of(shown, site=site and guide)
+    for card in shown.cards:
+        page = listed_model_page(shown, card.number, site=site and guide)
+        texts[f"{shown.folder}/{card.number}.html"] = page
+    (out / shown.folder).mkdir(parents=True, exist_ok=True)
+    return [write_whole(out / name, [text]) for name, text in texts.items()]
+
+
+def write_family(
+    models: Iterable[Given], title: str, out: Path | str, *, engine: Engine | None = None
+) -> list[Path]:
+    """Decide all pairs of some models over positive and complex parameters, and write their pages
+    into a folder: chains, networks or texts for them, general models; a function of one's own that
+    yields networks, for one. Returns the paths, the page of the matrix first. Raises InputError.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     pages = write_family(["R0-p(R1,C1)", "p(R0,R1-C1)"], "Two cells", folder)
+    ...     [page.name for page in pages][:2], len(pages)
+    (['list-two-cells.html', 'list-two-cells.csv'], 7)
+    """
+    engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
+    given = of_type(models, Iterable, "the models are a list of models, or what yields them")
+    called = of_type(title, str, "the title is a text")
+    made = ModelList(tuple(map(model_of, given)), called)
+    if len(made) < 2:
+        raise InputError("there is nothing to compare: a family has two models at least")
+    refuse_ports(made.models)
+    shown = Listing(judged(made, engine), called, page_name(Path(called)))
+    return write_model_list(shown, as_path(out))
 
 
 def page_name(path: Path) -> str:
@@ -137,54 +96,75 @@ def page_name(path: Path) -> str:
     return f"list-{name}"
 
 
-def model_list_page(
-    found: JudgedList,
-    title: str,
-    name: str,
-    *,
-    site: bool = False,
-    guide: bool = False,
-    motion: str = "",
-) -> str:
-    """HTML of the page; `site`, `guide`: whether these pages stand beside it, `motion`: the page on
-    which two of the models move.
-    """
-    domains = [over(found, view) for view in VIEWS]
-    cards = [
-        Card(
-            number=number,
-            model=model,
-            known=known,
-            transfer=written_model(model),
-            groups=tuple(
-                next((k for k, g in enumerate(of.groups, 1) if number in g), 0) for of in domains
-            ),
-        )
-        for number, (model, known) in enumerate(
-            zip(found.family, found.identifiabilities, strict=True), 1
-        )
-    ]
-    n_pairs = len(cards) * (len(cards) - 1) // 2
-    names = [model.name for model in found.family]
+def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) -> str:
+    """HTML of the page; `site`, `guide`: whether these pages stand beside it."""
+    found, count = shown.found, len(shown.cards)
+    n_pairs = count * (count - 1) // 2
+    data = payload(
+        found,
+        shown.domains,
+        VIEWS,
+        names=[model.name for model in found.family],
+        numbered=shown.numbered,
+        folder=shown.folder,
+        next={},
+        sketches={},
+    )
     return render(
         "models.html",
-        title=title,
-        name=name,
-        cards=cards,
-        domains=domains,
+        shown=shown,
         compared=n_pairs,
         views=[(view, VIEW_TITLES[view]) for view in VIEWS],
-        told=list(_told(found)) if n_pairs <= LISTED_PAIRS else [],
-        payload=payload(found, domains, VIEWS, names=names, next={}, sketches={}),
+        told=list(_told(shown)) if n_pairs <= LISTED_PAIRS else [],
+        payload=data,
         site=site,
         guide=guide,
-        motion=motion,
+        motion=page_of_motion(shown),
         plural=plural,
     )
 
 
-def _told(found: JudgedList) -> Iterator[tuple[int, int, Verdict, str, str]]:
+def models_csv(shown: Listing) -> str:
+    """The models as CSV: number, name, parameters, size, how many combinations of the parameters
+    are determinable, how many sets of them fit, and the groups over positive and complex parameters
+    (0: alone).
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for card in shown.cards:
+        outputs, inputs = (1, 1) if isinstance(card.model, Model) else card.model.shape
+        names = " ".join(card.model.parameters)
+        rest = (inputs, outputs, card.known.local.rank, card.sets, *card.groups)
+        writer.writerow((card.number, cell(card.model.name), names, *rest))
+    return out.getvalue()
+
+
+def _told(shown: Listing) -> Iterator[tuple[str, str, Verdict, str, str]]:
     """Every pair over positive parameters, with its relation there and over complex ones."""
-    for left, right, verdict in found.pairs(View.POSITIVE):
-        other = found.relation(left, right, View.EXACT)
-        yield left, right, verdict, SAID[verdict.relation], SAID[other]
+    for left, right, verdict in shown.found.pairs(View.POSITIVE):
+        other = shown.found.relation(left, right, View.EXACT)
+        names = shown.label(left), shown.label(right)
+        yield *names, verdict, SAID[verdict.relation], SAID[other]
+
+
+Link = tuple[str, str, str]
+"""Address, title and what is found there."""
+
+
+def lists_beside(out: Path) -> Iterator[tuple[Link, list[Link]]]:
+    """Yield the pages of lists that lie in a folder, each with those of its models."""
+    for page in sorted(out.glob("list-*.html")):
+        name, table = page.stem, page.with_name(f"{page.stem}-models.csv")
+        heading = HEADING.search(page.read_text(encoding="utf-8"))
+        if heading is None or not table.is_file():
+            continue
+        title = unescape(heading[1])
+        with table.open(encoding="utf-8", newline="") as rows:
+            numbered = [(row[0], row[1]) for row in csv.reader(rows) if row and row[0].isdecimal()]
+        models = [
+            (f"models/{name}/{number}.html", called, f"A{number} of {title}")
+            for number, called in numbered
+        ]
+        text = f"{plural(len(models), 'model')}: verdicts, drawings, formulas"
+        yield (page.name, title, text), models

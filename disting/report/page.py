@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from disting.catalogs import Catalog
+from disting.catalogs import Catalog, ModelRow
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.next_files import NextCatalog
 from disting.catalogs.sizes_files import name_of as sizes_name
@@ -29,6 +29,7 @@ from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sk
 from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
 from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
+from disting.verdict.meaning import undetermined
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -66,7 +67,12 @@ class Count:
 
 
 def page(catalog: Catalog, *, beside: Families | None = None) -> str:
-    """HTML of a catalogue; `beside`: the pages of pairs beside it (see `families`)."""
+    """HTML of a catalogue; `beside`: the pages of pairs beside it (see `families`).
+
+    >>> from disting.catalogs import catalog
+    >>> page(catalog(2, damped=True))[:15]
+    '<!DOCTYPE html>'
+    """
     pages = families([catalog]) | dict(beside or {})
     names = damper_name(catalog.n_masses, catalog.damped), sizes_name(catalog.damped)
     dampers, across = (name if name in pages else "" for name in names)
@@ -134,12 +140,18 @@ def _payload(
         order=catalog.family[1].sensor.order,
         chains=[chain.indices[1:] for chain in catalog.family],
         values=[start_values(chain) for chain in catalog.family],
+        known={row.number: said for row in catalog.rows if (said := not_known(row))},
         next=for_pairs(further),
         sketches={
             pair: [[s.box, s.parts, s.label] for s in sketches]
             for pair, sketches in sketches_for_pairs(further).items()
         },
     )
+
+
+def not_known(row: ModelRow) -> str:
+    """What cannot be determined of a model, named {0}; "" where there is nothing."""
+    return undetermined("{0}", row.rank, row.n_parameters)
 
 
 def summary(catalog: Catalog, view: View) -> str:

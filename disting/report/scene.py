@@ -5,8 +5,8 @@ Colours are roles (`Ink`), so that the same scene serves a page that knows light
 stand-alone file. Coordinates run to the right and downwards, in pixels at scale 1.
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import hypot
 
@@ -179,3 +179,22 @@ def extent(shape: Shape) -> tuple[float, float, float, float]:
                 x - {Anchor.START: 0.0, Anchor.MIDDLE: 0.5, Anchor.END: 1.0}[shape.anchor] * width
             )
             return left, y - size / 2, left + width, y + size / 2
+
+
+def framed(layers: Iterable[Layer], title: str, margin: float = 8) -> Scene:
+    """A scene of shapes that stand anywhere: moved so that all lie in it, with a margin."""
+    drawn = tuple(layers)
+    boxes = [extent(shape) for layer in drawn for shape in layer.shapes]
+    left, top = (min(box[i] for box in boxes) - margin for i in (0, 1))
+    right, bottom = (max(box[i] for box in boxes) + margin for i in (2, 3))
+    moved = (
+        Layer(layer.name, tuple(_moved(shape, -left, -top) for shape in layer.shapes))
+        for layer in drawn
+    )
+    return Scene(right - left, bottom - top, tuple(moved), title)
+
+
+def _moved(shape: Shape, dx: float, dy: float) -> Shape:
+    if isinstance(shape, Path):
+        return replace(shape, points=tuple((x + dx, y + dy) for x, y in shape.points))
+    return replace(shape, x=shape.x + dx, y=shape.y + dy)

@@ -22,9 +22,11 @@ from disting.report.environment import source
 from disting.report.families import Families, families
 from disting.report.guide import PREFIX, Part, guide, guide_files
 from disting.report.index import Link, index
+from disting.report.ladenheim import ADDRESS as LADENHEIM
 from disting.report.markdown import GuidePage
 from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
+from disting.report.model_list import lists_beside
 from disting.report.motion import motion_page
 from disting.report.next_page import next_page
 from disting.report.next_steps import found_for, page_of
@@ -104,6 +106,13 @@ PAGES: tuple[SitePage, ...] = (
             "what the paper prints, and what is found here, side by side",
         )
     ),
+    SitePage(
+        link=(
+            LADENHEIM,
+            "Ladenheim's 108 networks",
+            "circuits of at most five elements, network by network, in classes of what they can do",
+        )
+    ),
     *(
         SitePage(
             link=(
@@ -131,7 +140,13 @@ def write_report(
     each. Executed notebooks in the folder `notebooks` of `out` become pages of the guide. The same
     catalogues and notebooks give the same bytes. `out` is made if it does not exist; other files
     in it stay as they are, and the index leads to the pages of shipped catalogues and to other
-    known pages among them too. Returns the paths, in order.
+    known pages among them too, those of lists of models for one. Returns the paths, in order.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     paths = write_report([catalog(1, damped=True)], Path(folder))
+    ...     paths[-1].name
+    'index.html'
     """
     out.mkdir(parents=True, exist_ok=True)
     listed = sorted([*catalogs, *_beside(catalogs, out)], key=lambda c: (c.n_masses, c.damped))
@@ -148,7 +163,11 @@ def write_report(
     here = {name for name, _ in files}
     links = [p.link for p in PAGES if p.link[0] in here or (out / p.link[0]).is_file()]
     links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
-    files.append((ADDRESS, search_script(parts, site.pages, links).encode()))
+    lists = list(lists_beside(out))
+    links += [link for link, _ in lists]
+    listed_models = [model for _, models in lists for model in models]
+    script = search_script(parts, site.pages, [*links, *listed_models])
+    files.append((ADDRESS, script.encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
     start = index(listed, links, damped, together)
     files += [(STYLE, style.encode()), ("index.html", start.encode())]

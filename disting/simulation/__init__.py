@@ -2,6 +2,7 @@
 friction, dead time and lag.
 """
 
+from disting.model.presentation import offered as _offered
 from disting.simulation.bench import DEMO_BENCH as DEMO_BENCH
 from disting.simulation.bench import DEMO_MODEL as DEMO_MODEL
 from disting.simulation.bench import DEMO_PARAMETERS as DEMO_PARAMETERS
@@ -15,3 +16,8 @@ from disting.simulation.mechanics import frequency_response as frequency_respons
 from disting.simulation.mechanics import matrices as matrices
 from disting.simulation.mechanics import port_vectors as port_vectors
 from disting.simulation.stepping import Friction as Friction
+
+
+def __dir__() -> list[str]:
+    """What the Tab key offers."""
+    return _offered(globals())

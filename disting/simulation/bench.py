@@ -45,6 +45,9 @@ class Bench:
     sensor, to which the output is rounded (an encoder shows positions: use a position sensor) [unit
     of the output]; `friction` by mass, of a network by node; `seed` of phases and noise. An
     excitation that does not repeat is a single period with random phases.
+
+    >>> Bench(sampling_rate=4000.0, quantum=6e-6).periods
+    20
     """
 
     sampling_rate: float = 2500.0
@@ -185,6 +188,9 @@ def demo(seed: int = 0) -> TimeSeries:
     Inertias per torque constant 0.0045 and 0.005 A s^2/rad, antiresonance 53 Hz, resonance 77 Hz,
     dead time 0.3 ms; excited by a Schroeder multisine of 1 A (rms) from 10 to 250 Hz.
     `demo().response("acceleration")` is what a fit begins with.
+
+    >>> demo().input.unit, demo().output.unit
+    ('A', 'rad')
     """
     series = simulate(DEMO_MODEL, DEMO_PARAMETERS, Excitation(), replace(DEMO_BENCH, seed=seed))
     return replace(series, input=Signal("motor current", "A"), output=Signal("motor angle", "rad"))

@@ -18,7 +18,11 @@ HEADER = ("frequency_hz", "amplitude")
 
 
 class Kind(StrEnum):
-    """How the lines of one period are chosen."""
+    """How the lines of one period are chosen.
+
+    >>> Excitation(Kind.CHIRP, low=1.0, high=100.0).kind.value
+    'chirp'
+    """
 
     SCHROEDER = "schroeder"
     RANDOM_PHASE = "random-phase"
@@ -35,6 +39,9 @@ class Excitation:
     crest factor; random phases: uniform in 0..2 pi; chirp: one sweep of rising frequency a period
     (`every` has no meaning there). `spectrum` = frequency [Hz] and relative amplitude of each line
     of a multisine, which then has these and no others: `low`, `high` and `every` have no meaning.
+
+    >>> Excitation(low=5.0, high=400.0, rms=0.5).high
+    400.0
     """
 
     kind: Kind = Kind.SCHROEDER

@@ -30,7 +30,11 @@ Powers = Mapping[float, Real]
 
 
 class Matrices(NamedTuple):
-    """M, D and K of a machine, shape (N, N) each, in one system of units."""
+    """M, D and K of a machine, shape (N, N) each, in one system of units.
+
+    >>> matrices(Chain(1, ground_dampers=(1,), damped=False), {"m1": 2.0, "b1": 0.1}).D.tolist()
+    [[0.1]]
+    """
 
     M: Real
     D: Real
@@ -131,7 +135,11 @@ def matrices(model: AnyModel, values: Mapping[str, float]) -> Matrices:
 
 
 def port_vectors(model: AnyModel) -> tuple[Real, Real]:
-    """b and c, shape (N,): +1 and -1 at the nodes of the ports, nothing at the ground."""
+    """b and c, shape (N,): +1 and -1 at the nodes of the ports, nothing at the ground.
+
+    >>> [vector.tolist() for vector in port_vectors(Chain(2, meas_plus=2))]
+    [[1.0, 0.0], [0.0, 1.0]]
+    """
     form = form_of(model)
     return form.act, form.meas
 
@@ -161,7 +169,11 @@ def input_filter(model: AnyModel, values: Mapping[str, float], omega: Real) -> C
 
 
 def frequency_response(model: AnyModel, values: Mapping[str, float], omega: Real) -> Complex:
-    """G(j omega), shape (n_f,), of what the sensor of the model shows; `omega` [rad/s]."""
+    """G(j omega), shape (n_f,), of what the sensor of the model shows; `omega` [rad/s].
+
+    >>> abs(frequency_response(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
+    [0.5, 0.5]
+    """
     form, numbers = form_of(model), checked(model, values)
     moved = motion(form.powers(numbers), form.act, omega) @ form.meas
     front = (1j * np.asarray(omega)) ** form.order

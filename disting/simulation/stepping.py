@@ -25,6 +25,9 @@ class Friction:
 
     `coulomb` [N or N m], `viscous` [N s/m or N m s/rad], `speed` = v_s [m/s or rad/s], at which
     tanh(1) = 76 % of the Coulomb friction is reached.
+
+    >>> Friction(coulomb=0.05).viscous
+    0.0
     """
 
     coulomb: float = 0.0

@@ -53,7 +53,11 @@ DELETE: Final = f"DELETE FROM entry WHERE key = ? AND ({CELLS}) = (?, ?)"
 
 
 class CacheWarning(UserWarning):
-    """The cache was damaged or cannot be used; results stay right, only slower to get."""
+    """The cache was damaged or cannot be used; results stay right, only slower to get.
+
+    >>> import warnings
+    >>> warnings.simplefilter("ignore", CacheWarning)  # in a program that may lose its cache
+    """
 
 
 @dataclass(frozen=True)
@@ -100,6 +104,11 @@ class Store(contextlib.AbstractContextManager["Store", None]):
     settings, code version); values are JSON text. UnicodeEncodeError if one is not encodable as
     UTF-8; no state of the file or the disk raises an error, see CacheWarning. Threads may share a
     store, and so may forks.
+
+    >>> from disting import Engine, compare
+    >>> with Store.open(":memory:") as store:
+    ...     compare("4:1", "5:2", engine=Engine(store=store)).relation.value
+    'distinguishable'
     """
 
     def __init__(self, path: str, wait_seconds: float) -> None:

@@ -50,7 +50,12 @@ STAGES = {
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One condition in one representation, with what it found."""
+    """One condition in one representation, with what it found.
+
+    >>> from disting import findings
+    >>> findings("2:1", "2:2")[0].representation.value
+    'tf'
+    """
 
     representation: Stage
     finding: Finding

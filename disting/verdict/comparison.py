@@ -167,6 +167,17 @@ def sides_of(
     return Sides(engine.measured_subject(here, a), engine.measured_subject(there, b), tuple(notes))
 
 
+def determinable(
+    left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
+) -> tuple[tuple[str, int, int], ...]:
+    """Of both models, as `compare` names them: how many functions of the parameters are determined,
+    and how many parameters there are.
+    """
+    return tuple(
+        (side.name, side.rank, len(side.subject.parameters)) for side in _sides(left, right, engine)
+    )
+
+
 def both_places(
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
 ) -> tuple[tuple[Experiment, Experiment], ...]:

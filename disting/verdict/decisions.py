@@ -65,6 +65,12 @@ class Decisions(Shown):
     ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that
     were asked again over real or positive ones. `part`: those models of a mixed list that are
     chains, decided as chains; of their pairs all else here is a copy.
+
+    >>> from disting import Engine, Family, Query
+    >>> engine = Engine()
+    >>> sides = [engine.subject(f"A{i}", chain) for i, chain in enumerate(Family(2), 1)]
+    >>> engine.decisions(sides, Query()).verdict(0, 2).relation.value
+    'indistinguishable'
     """
 
     subjects: tuple[AnySide, ...]

@@ -55,6 +55,12 @@ def silent(what: str, done: int, total: int) -> None:
 class Engine:
     """Compares models with a store behind it; what is computed once in a process is kept in
     `memo` and `answers`.
+
+    >>> from disting import Store, compare
+    >>> with Store.open(":memory:") as store:
+    ...     engine = Engine(store=store)
+    ...     [compare("3:1", other, engine=engine).relation.value for other in ("A4", "A11")]
+    ['distinguishable', 'indistinguishable']
     """
 
     settings: Settings = field(default_factory=Settings)

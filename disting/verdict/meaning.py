@@ -62,6 +62,27 @@ def shown(verdict: Verdict) -> str:
             )
 
 
+def undetermined(name: str, rank: int, parameters: int) -> str:
+    """What no measurement with these inputs and outputs finds out of one model; "" where each
+    parameter is determined, at least up to finitely many values.
+
+    It is said before a model is called distinguishable: that its structure shows does not mean
+    that its values do.
+
+    >>> undetermined("2:2", 3, 4)
+    'Not all of 2:2 can be determined: what is measured fixes 3 combinations of its 4 parameters.'
+    >>> undetermined("2:1", 4, 4)
+    ''
+    """
+    if rank >= parameters:
+        return ""
+    fixed = f"{rank} combination{'s' * (rank != 1)}" if rank else "no combination"
+    return (
+        f"Not all of {name} can be determined: what is measured fixes {fixed} of its"
+        f" {parameters} parameters."
+    )
+
+
 def _the_same(verdict: Verdict) -> str:
     left, right = verdict.left, verdict.right
     over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"

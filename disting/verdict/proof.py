@@ -11,45 +11,52 @@ from itertools import combinations
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.fractionfree import OutOfTimeError
-from disting.behaviour.expanded import rank_is_at_most
+from disting.behaviour.expanded import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
+from disting.conditions.side import AnySide
 from disting.evidence.conditions import Ranks
-from disting.model.chain import Chain, Sensor
-from disting.model.names import chains_named
+from disting.general.matrix_model import AnyModel
+from disting.general.model_side import ComparedModel
+from disting.model.chain import Sensor
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
+from disting.verdict.chain_side import ComparedChain
+from disting.verdict.comparison import Given, models_named, sides_of
 from disting.verdict.decisions import Decisions
-from disting.verdict.engine import Progress, silent
+from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Verdict
 
 SECONDS = 10.0  # for one proof
-# these invariants of this structure have this rank at most
-Claim = tuple[Structure, tuple[str, ...], int]
+# these invariants of this model have this rank at most
+Claim = tuple[Structure | AnyModel, tuple[str, ...], int]
 
 
 def prove(
     verdict: Verdict,
-    left: Chain | str,
-    right: Chain | str,
+    left: Given,
+    right: Given,
     seconds: float = SECONDS,
     *,
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
 ) -> Verdict:
     """The verdict with certainty PROVEN if it rests on a rank that can be proven in time, else as
-    it is; the chains as `compare` takes them.
+    it is; the models as `compare` takes them.
 
     >>> from disting import Family, compare
     >>> a = Family(3, damped=True)
     >>> compare(a[1], a[7]).certainty.value, prove(compare(a[1], a[7]), a[1], a[7]).certainty.value
     ('bounded', 'proven')
     """
-    claim = _claim(verdict, *chains_named([left, right], damped=damped, sensor=sensor))
-    return (
-        replace(verdict, certainty=Certainty.PROVEN, safety=0)
-        if claim and _holds(claim, seconds)
-        else verdict
-    )
+    sides = sides_of(*models_named(left, right, damped, sensor), (), Engine())
+    return proven_again(verdict, sides.left, sides.right, seconds)
+
+
+def proven_again(verdict: Verdict, left: AnySide, right: AnySide, seconds: float) -> Verdict:
+    """The same of two models as they are compared."""
+    claim = _claim(verdict, left, right)
+    holds = claim is not None and _holds(claim, seconds)
+    return replace(verdict, certainty=Certainty.PROVEN, safety=0) if holds else verdict
 
 
 def prove_all(
@@ -68,27 +75,39 @@ def prove_all(
 
 
 def _claims(decided: Decisions) -> Iterator[tuple[tuple[int, int], Claim]]:
-    for i, j in combinations(range(len(decided.chains)), 2):
+    for i, j in combinations(range(len(decided.subjects)), 2):
         if decided.rule(i, j) in (RANK.name, DEPENDENCES.name):
-            claim = _claim(decided.verdict(i, j), decided.chains[i], decided.chains[j])
+            claim = _claim(decided.verdict(i, j), decided.subjects[i], decided.subjects[j])
             if claim:
                 yield (i, j), claim
 
 
-def _claim(verdict: Verdict, left: Chain, right: Chain) -> Claim | None:
+def _claim(verdict: Verdict, left: AnySide, right: AnySide) -> Claim | None:
     """What is not proven of a bounded verdict by ranks."""
     evidence = verdict.evidence
     if verdict.certainty is not Certainty.BOUNDED or not isinstance(evidence, Ranks):
         return None
-    if any("[" in row for row in evidence.rows):  # of several experiments, not of these chains
-        return None
     smaller = left if evidence.left < evidence.right else right
     rows = () if evidence.all_rows else evidence.rows
-    return canonical(smaller).chain.structure, rows, min(evidence.left, evidence.right)
+    if isinstance(smaller, ComparedChain):
+        # of several experiments, not of these chains
+        several = any("[" in row for row in evidence.rows)
+        model: Structure | AnyModel = canonical(smaller.chain).chain.structure
+    elif isinstance(smaller, ComparedModel):
+        # single invariants of several transfer functions, or before G0
+        several = any("[" in row or "-" in row for row in rows)
+        model = smaller.subject
+    else:
+        return None
+    return None if several else (model, rows, min(evidence.left, evidence.right))
 
 
 def _holds(claim: Claim, seconds: float) -> bool:
+    model, rows, most = claim
     try:
-        return rank_is_at_most(*claim, seconds)
+        if isinstance(model, Structure):
+            return rank_is_at_most(model, rows, most, seconds)
+        entries = [(e.numerator, e.denominator) for e in model.entries]
+        return coefficients_have_rank(entries, model.parameters, rows, most, seconds)
     except OutOfTimeError:
         return False

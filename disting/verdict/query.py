@@ -23,6 +23,9 @@ class View(StrEnum):
     All of them are over complex parameters. `real` and `positive` are `exact`, and then look
     whether equivalents with such parameters exist; `positive` is what is meant where nothing is
     said.
+
+    >>> View.POSITIVE.domain.value, View.MARKOV.domain.value
+    ('positive', 'complex')
     """
 
     TF = "tf"
@@ -53,6 +56,10 @@ class Query:
 
     `inclusion`: after the exact decision, say also whose models lie in the other's closure and
     which positive models have positive equivalents; this is most of the work.
+
+    >>> from disting import compare
+    >>> compare("3:1", "3:4", query=Query(View.COMBINED, ("1", "4", "5"))).decided_by
+    '5'
     """
 
     view: View = View.POSITIVE

@@ -44,6 +44,11 @@ class Verdict(Shown):
     unequal rank `inclusions` says why. `left_positive`: which positive left models have a positive
     equivalent on the right, where generic left ones have equivalents there; `right_positive`: the
     reverse. `premises`: damping and sensor quantity of both, None of models that are no chains.
+
+    >>> from disting import compare
+    >>> found = compare("2:1", "2:2")
+    >>> found.relation.value, found.decided_by, found.certainty.value
+    ('distinguishable', '1', 'proven')
     """
 
     left: str

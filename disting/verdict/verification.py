@@ -26,12 +26,11 @@ from disting.model.presentation import summary
 from disting.model.question import Domain
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.verdict.cascade import decide, follows, over_domain
-from disting.verdict.chain_side import ComparedChain
 from disting.verdict.comparison import Sides
 from disting.verdict.engine import Engine
 from disting.verdict.everywhere import FORMAT as EVERYWHERE
 from disting.verdict.everywhere import differing_everywhere, read_everywhere
-from disting.verdict.proof import prove
+from disting.verdict.proof import proven_again
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.verdict_file import (
@@ -65,6 +64,10 @@ class Verification:
     `verdicts`: the sentences of the verdicts, none where one does not hold; `models`: whose models
     they are on; `found_again`: what was checked; `as_written`: what the file says and no check can
     show.
+
+    >>> from disting import verdict_file, verify
+    >>> verify(verdict_file("2:1", "2:2")).standing.value
+    'holds'
     """
 
     standing: Standing
@@ -299,8 +302,8 @@ def _condition_again(claim: _Claim) -> Told:
     view = claim.query.view if claim.query.view in (View.TF, View.MARKOV) else View.COMBINED
     again = decide(left, right, Query(view, (v.decided_by,), claim.query.markov))
     proven = v.certainty is Certainty.PROVEN and again.certainty is Certainty.BOUNDED
-    if proven and isinstance(left, ComparedChain) and isinstance(right, ComparedChain):
-        again = prove(again, left.chain, right.chain, SECONDS)
+    if proven:
+        again = proven_again(again, left, right, SECONDS)
     return _told(again) if again.representation is v.representation else (None, 0, None)
 
 

@@ -302,3 +302,21 @@ def test_the_doctor_names_what_is_there():
 def test_proofs_on_request():
     table = rows(called("verdicts", 3, "--damped", "--prove", "--csv", "-").stdout)
     assert {r["certainty"] for r in table if r["decided_by"] in ("4", "5")} == {"proven"}
+
+
+def test_models_tells_of_a_network_what_enters_and_what_is_determined():
+    done = disting("models", "1~2, 2~#, 3~#; F1; S1")
+    assert done.stdout.splitlines() == [
+        "1~2, 2~#, 3~#; F1; S1  G(s) = ((k02 + k12)*s**2 + m2*s**4)/(k02*k12 + (k02*m1 + k12*m1"
+        " + k12*m2)*s**2 + m1*m2*s**4)",
+        "what cannot be seen, as no way leads through it: k03, m3",
+        "6 parameters, only 4 determinable; globally: k02, k12, m1, m2; not: k03, m3; 2 can be"
+        " chosen freely.",
+    ]
+    for arguments, wanted in (
+        (["R0-p(R1,C1"], "the circuit ends too early"),
+        (["R1-C1", "--damped"], "--damped belongs to numbered chains"),
+        (["R1-C1", "--also", "lock=1"], "--also belongs to numbered chains"),
+    ):
+        refused = disting("models", *arguments)
+        assert refused.returncode == 2 and wanted in refused.stderr

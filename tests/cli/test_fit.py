@@ -186,7 +186,7 @@ def test_time_series_are_fitted_like_their_response():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("fit",), "give a file with measured data, or --demo"),
+        (("fit",), "a file with measured data is needed, such as disting fit bench.csv; --demo"),
         (("fit", "missing.csv"), "there is no file missing.csv"),
         (("fit", "--demo", "x.csv"), "not both"),
         (("fit", "--demo", "--masses", "1-"), "written like 3, 1-4 or 1,3"),

@@ -119,12 +119,12 @@ def test_names_are_no_formulas_of_a_spreadsheet(tmp_path):
 BAD = [
     (("verdicts", "MODELS", "--damped"), "belongs to numbered chains"),
     (("verdicts", "MODELS", "--quantity", "velocity"), '"sensor" at the chains'),
-    (("verdicts", "MODELS", "--prove"), "--prove belongs to numbered chains"),
     (("verdicts", "no.json"), "no.json cannot be read (No such file or directory)"),
     (("verdicts", "ONE"), "has one model: there is nothing to compare"),
     (("compare", "MODELS:nobody", "3:1"), "no model is called 'nobody'"),
     (("compare", "MODELS:", "3:1"), "no model is called ''"),
-    (("compare", "MODELS:drive", "3:1", "--prove"), "belongs to numbered chains"),
+    (("equivalents", "MODELS:nobody", "--to", "MODELS"), "no model is called 'nobody'"),
+    (("equivalents", "MODELS:drive", "--to", "2:1", "--formulas"), "values are listed, not formulas"),
     (("compare", "MODELS:drive", "3:1", "--bound", "m1=1..2"), "belongs to numbered chains"),
     (("compare", "MODELS:drive", "MODELS:by hand", "--damped"), "belongs to numbered chains"),
     (("compare", "MODELS:two leaks", "3:1+delay"), "no rational function"),
@@ -138,3 +138,26 @@ def test_bad_usage_is_one_sentence(command, cause, models, tmp_path):
     done = called(*[x.replace("MODELS", str(models)).replace("ONE", str(one)) for x in command])
     assert (done.returncode, done.stdout) == (2, "")
     assert cause in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_equivalents_of_a_model_in_a_file(models):
+    """Two vessels are two low passes for some values: k = k12 and both poles, in either order."""
+    values = "k12=1,k01=2,k02=5"
+    done = called("equivalents", f"{models}:two leaks", "--to", models, "--set", values)
+    assert done.returncode == 0 and "two leaks: of " in done.stdout and "other model" in done.stdout
+    data = json.loads(
+        called(
+            "equivalents",
+            f"{models}:by hand",
+            "--to",
+            "2:1",
+            "--set",
+            "M=1,m=2,d=1/5,k=3",
+            "--json",
+        ).stdout
+    )
+    (found,) = data["equivalents"]
+    assert found["name"] == "2:1" and found["relation"] == SAME
+    assert found["values"] == [
+        {"domain": "positive", "parameters": {"m1": "1", "m2": "2", "k12": "3", "d12": "1/5"}}
+    ]

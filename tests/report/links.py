@@ -16,7 +16,7 @@ SETS = rf"{NUMBER}(?:\+b\d)*"
 UNDERSTOOD = {
     "chains-": rf"{NUMBER}|{NUMBER}[-:]{NUMBER}",
     "sizes-": rf"\d:{NUMBER}(?:-\d:{NUMBER})?",
-    "list-": rf"{NUMBER}-{NUMBER}",
+    "list-": rf"{NUMBER}|{NUMBER}-{NUMBER}",
     "dampers-": rf"{SETS}|{SETS}/{SETS}|group-\d+",
     "motion-": rf"{NUMBER}-{NUMBER}(?:,present)?",
     "index": r"machine=[\w,]+",

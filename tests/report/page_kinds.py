@@ -9,6 +9,7 @@ from disting.catalogs import catalog
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.parser import parser
+from disting.cli.verdicts import list_of
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.joint import Further
 from disting.fit.search.setup import Setup
@@ -18,7 +19,8 @@ from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.onward import Site
 from disting.report.fit.style import Drawn
-from disting.report.model_list import judged, write_model_list
+from disting.report.listing import Listing, judged
+from disting.report.model_list import write_model_list
 from tests.report.fit.conftest import DRIVE, response
 from tests.report.fit.test_responses import data
 from tests.report.test_model_list import MODELS, hostile, of
@@ -47,6 +49,9 @@ def kinds(masses: int) -> dict[str, str]:
         "catalogue, a pair": f"{chains}#2-5",
         "catalogue, a model": f"{chains}#A5",
         "list of models": "list-vessels.html#1-2",
+        "list of models, a model": "models/list-vessels/1.html",
+        "family of networks": "list-circuits-4.html#10-26",
+        "family of networks, a model": "models/list-circuits-4/45.html",
         "list of models alone, hostile": "alone/list-hostile.html",
         "model": f"models/{masses}-damped/1.html",
         "sizes": "sizes-damped.html",
@@ -80,8 +85,12 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
         across=[sizes_catalog(damped=True)],
     )
     engine = Engine()
-    write_model_list(judged(of(MODELS), engine), "Two vessels", "list-vessels", folder)
-    write_model_list(judged(hostile(), engine), "Hostile", "list-hostile", folder / "alone")
+    write_model_list(Listing(judged(of(MODELS), engine), "Two vessels", "list-vessels"), folder)
+    family = judged(list_of("circuits-4"), engine)
+    write_model_list(Listing(family, "Circuits", "list-circuits-4"), folder)
+    write_model_list(
+        Listing(judged(hostile(), engine), "Hostile", "list-hostile"), folder / "alone"
+    )
     found = fits(whole)
     starts = waterfall(found[0][1].described)
     for address, selection, train, test in found:

@@ -36,7 +36,7 @@ CUT = r"""() => {
     if (!around && box.right > wide + 1) tell("beyond the window", e);
     if (style.position === "fixed" && (box.top < -1 || box.bottom > innerHeight + 1)) tell("beyond the window", e);
     if (around && ownWords(e) && !around.scrollLeft && box.left < around.getBoundingClientRect().left - 1) tell("before its box", e);
-    if (style.display !== "inline" && style.overflowY === "visible" && e.localName !== "svg" && e.clientHeight && e.scrollHeight > e.clientHeight + 8) tell("spills over", e);
+    if (style.display !== "inline" && style.overflowY === "visible" && e.localName !== "svg" && e.localName !== "mo" && e.clientHeight && e.scrollHeight > e.clientHeight + 8) tell("spills over", e);
     if (ownWords(e) && style.display !== "inline" && style.overflowX === "visible" && e.scrollWidth > e.clientWidth + 1) tell("words out of their box", e);
   }
   for (const text of document.querySelectorAll("svg:not(.store) text")) {

@@ -101,10 +101,17 @@ def test_links_lead_to_files_and_the_listing_to_every_page() -> None:
     assert "disting/guide/index.md" in TEXTS["README.md"]
 
 
-def test_four_parts_in_the_order_of_the_listing() -> None:
+def test_parts_in_the_order_of_the_listing() -> None:
     listed = re.findall(r"^\| \[[^]]+\]\(([\w-]+)\.md\)", TEXTS["index.md"], re.MULTILINE)
     listing = guide_parts(guide_texts())
-    assert [title for title, _ in listing] == ["Start", "How-to", "Understanding", "Reference"]
+    assert [title for title, _ in listing] == [
+        "Start",
+        "A measurement",
+        "A model",
+        "Understanding",
+        "For those who work on it",
+        "Reference",
+    ]
     assert [name for _, names in listing for name in names] == listed
     assert f'rel="next" href="{listed[0]}.html"' in written()["guide/index.html"]
     last = parts()[-1].pages[-1].name
@@ -134,6 +141,9 @@ def test_an_image_is_a_drawing_of_the_guide_or_words() -> None:
     )
 
 
+COPY = ("data-copy", "data-text")
+
+
 def rendered(text: str) -> GuidePage:
     return guide_page("here", f"# Title\n\n{text}", ["here", "there"])
 
@@ -159,7 +169,7 @@ def test_markup_is_text(frame: str) -> None:
     assert {tag for tag, _ in outline.elements}.isdisjoint({"script", "b", "a", "img", "iframe"})
     assert "<script>alert(1)</script>" in outline.text and "{{ 7*7 }}" in outline.text
     assert all(
-        key in ("id", "class", "tabindex", "role", "aria-label")
+        key in ("id", "class", "tabindex", "role", "aria-label", "type", *COPY)
         for _, a in outline.elements
         for key in a
     )
@@ -233,6 +243,12 @@ def found(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
     return [item.inner_text() for item in tab.locator("#finds li .what").all()]
 
 
+def where(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
+    """Pages on which something is found."""
+    tab.fill("#finder", text)
+    return [item.inner_text() for item in tab.locator("#finds li .where").all()]
+
+
 def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("models/3-damped/4.html")
     tab.keyboard.press("/")
@@ -251,6 +267,17 @@ def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> Non
     assert found(tab, "A3")[:2] == ["A3 of 3 masses, damped", "A3 of 2 masses, undamped"]
     assert found(tab, "zzyzx") == []
     assert tab.locator(".finder .nothing").inner_text() == "Nothing found"
+    first = {
+        "belt": "Belt axis: where does it rub?",
+        "backlash": "backlash",
+        "encoder": "Two encoders",
+    }
+    assert {word: found(tab, word)[0] for word in first} == first
+    assert "When not to use it" in where(tab, "backlash") and "Read measured data" in where(
+        tab, "frequency response"
+    )
+    places = where(tab, "frequency response")
+    assert len(places) > 5 and not [p for p in places[:5] if p.startswith(("disting.", "All "))]
 
 
 def test_the_keyboard_searches_and_goes(visit) -> None:  # type: ignore[no-untyped-def]

@@ -17,6 +17,7 @@ from tests.report.guide_blocks import TEXTS, blocks, commands_alone, transcripts
 CHEAP = tuple(
     f"disting {command}"
     for command in (
+        "compare 2:",
         "compare 3:",
         "compare 4:",
         'compare "',

@@ -12,8 +12,11 @@ import pytest
 from disting import Engine, InputError, Model, ModelList, Query, View, global_identifiability
 from disting.general.global_identifiability import IDENTIFIABILITY
 from disting.general.model_files import models_of
+from disting.report import write_family
 from disting.report.formulas import written_model
-from disting.report.model_list import judged, model_list_page, page_name, write_model_list
+from disting.report.listed_model import listed_model_page
+from disting.report.listing import Listing, judged
+from disting.report.model_list import model_list_page, page_name, write_model_list
 from tests.cli.process import called
 from tests.report.outline import Outline
 
@@ -53,8 +56,9 @@ def vessels():
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory, vessels) -> Path:  # type: ignore[no-untyped-def]
     folder = tmp_path_factory.mktemp("lists")
-    write_model_list(vessels, "Two vessels", NAME, folder)
-    write_model_list(judged(hostile(), Engine()), HOSTILE[0], "list-hostile", folder)
+    write_model_list(Listing(vessels, "Two vessels", NAME), folder)
+    bad = Listing(judged(hostile(), Engine()), HOSTILE[0], "list-hostile")
+    write_model_list(bad, folder)
     return folder
 
 
@@ -77,30 +81,42 @@ def test_what_is_judged_is_what_compare_says(vessels) -> None:  # type: ignore[n
     assert vessels.depending(View.POSITIVE) == ((1, 2), (1, 3), (2, 3))
 
 
-def test_the_page_says_it_without_a_script(vessels) -> None:  # type: ignore[no-untyped-def]
-    page = model_list_page(vessels, "Two vessels", NAME)
+def test_the_pages_say_it_without_a_script(vessels) -> None:  # type: ignore[no-untyped-def]
+    shown = Listing(vessels, "Two vessels", NAME)
+    page = model_list_page(shown)
     outline = Outline(page)
     assert outline.texts["h1"] == ["Two vessels"]
-    for card, model in enumerate(vessels.family, 1):
-        assert f'id="model-{card}-title">{model.name}<' in page
-        assert f"Parameters: {', '.join(model.parameters)}. " in page
-        assert global_identifiability(model).sentence in page
+    for number, model in enumerate(vessels.family, 1):
+        assert f'<a href="models/{NAME}/{number}.html">{model.name}</a>' in page
+        own = Outline(listed_model_page(shown, number))
+        assert f"Parameters: {', '.join(model.parameters)}. " in own.text
+        assert global_identifiability(model).sentence in own.text
+        assert own.count("math") >= 4
     for left, right, verdict in vessels.pairs(View.POSITIVE):
         assert f"{vessels.family[left - 1].name} and {vessels.family[right - 1].name}</th>" in page
         assert verdict.evidence.sentence(verdict.left, verdict.right) in page
-    assert outline.count("math") >= 5 * 4
     found = data(page)
     assert found["names"] == [m.name for m in vessels.family] and found["models"] == 5
-    assert set(found["views"]) == {"positive", "exact"}
+    assert set(found["views"]) == {"positive", "exact"} and not found["numbered"]
 
 
 def test_links_lead_to_pages_that_are_there(vessels, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
-    first = write_model_list(vessels, "Two vessels", NAME, tmp_path)[0].read_text("utf-8")
+    shown = Listing(vessels, "Two vessels", NAME)
+    first = write_model_list(shown, tmp_path)[0].read_text("utf-8")
     assert 'href="index.html"' not in first and "guide/" not in first
     (tmp_path / "index.html").touch()
-    again = write_model_list(vessels, "Two vessels", NAME, tmp_path)
+    again = write_model_list(shown, tmp_path)
     assert 'href="index.html"' in again[0].read_text("utf-8")
-    assert [p.name for p in again] == [f"{NAME}.{kind}" for kind in ("html", "csv", "json")]
+    files = [f"{NAME}.html", f"{NAME}.csv", f"{NAME}.json", f"{NAME}-models.csv", "style.css"]
+    assert [p.name for p in again] == [*files, *(f"{n}.html" for n in range(1, 6))]
+
+
+def test_the_table_of_models_says_what_the_pages_say(vessels, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    path = write_model_list(Listing(vessels, "Two vessels", NAME), tmp_path)[3]
+    head, *rows = path.read_text("utf-8").splitlines()
+    assert head == ("number,name,parameters,inputs,outputs,determinable,sets,group,complex_group")
+    assert rows[0] == "1,two leaks,k01 k02 k12,1,1,3,2,0,1"
+    assert [row.split(",")[-2:] for row in rows[3:]] == [["1", "2"], ["1", "2"]]
 
 
 def test_names_are_text_in_the_page(site: Path) -> None:
@@ -207,7 +223,9 @@ def test_a_pair_is_found_by_its_names_and_told(visit, vessels) -> None:  # type:
     tab.keyboard.press("Enter")
     assert tab.inner_text("#detail h3") == "two leaks and low passes"
     tab.click('#detail [data-slot="left-name"]')
-    assert tab.url.endswith("#model-1")
+    assert tab.url.endswith(f"models/{NAME}/1.html")
+    assert tab.inner_text("h1") == "two leaks"
+    tab.click(".path a")
     tab.fill("#find", "nobody")
     tab.press("#find", "Enter")
     assert tab.inner_text("#trouble").startswith("Type the name of a model")
@@ -230,3 +248,69 @@ def test_hostile_names_are_told_and_not_obeyed(visit) -> None:  # type: ignore[n
     tab.click("#detail summary")
     assert tab.inner_text("#detail .why").startswith("{L} has a numerator of degree 0")
     assert "{R} and {L} a numerator" in tab.inner_text("#detail .why")
+
+
+def gantries():
+    """Two motors that drive one beam, without and with a belt between them: a family of one's
+    own.
+    """
+    for belt in ("", ", 1~3"):
+        for sensor in (1, 2, 3):
+            yield f"1~2, 2~3{belt}; F1; S{sensor}"
+
+
+@pytest.fixture(scope="module")
+def own(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    return write_family(gantries(), "Gantries", tmp_path_factory.mktemp("own"))
+
+
+def test_a_family_of_ones_own_has_the_same_pages(own: list[Path]) -> None:
+    assert [p.name for p in own[:4]] == [
+        "list-gantries.html", "list-gantries.csv", "list-gantries.json", "list-gantries-models.csv",
+    ]  # fmt: skip
+    page = Outline(own[0].read_text("utf-8"))
+    texts = list(gantries())
+    assert page.texts["h1"] == ["Gantries"] and page.count("svg", role="img") >= len(texts)
+    assert data(own[0].read_text("utf-8"))["names"] == texts
+    for number, text in enumerate(texts, 1):
+        model = Outline((own[0].parent / f"models/list-gantries/{number}.html").read_text("utf-8"))
+        assert f"A{number}: {text} \u2013 Gantries" in model.text
+        assert model.count("svg", role="img") >= 1 and "Transfer function" in model.text
+
+
+def test_values_on_a_page_are_equivalents(tmp_path: Path) -> None:
+    """Put into the other circuit by hand: R0' = R0 + R1 for p(R0,R1-C1) from R0-p(R1,C1)."""
+    folder = write_family(["R0-p(R1,C1)", "p(R0,R1-C1)"], "Cells", tmp_path)[0].parent
+    page = (folder / "models/list-cells/1.html").read_text("utf-8")
+    r0 = "<msubsup><mi>R</mi><mn>0</mn><mo>\u2032</mo></msubsup><mo>=</mo>"
+    plus = "<msub><mi>R</mi><mn>0</mn></msub><mo>+</mo><msub><mi>R</mi><mn>1</mn></msub>"
+    assert f"<math>{r0}{plus}</math>" in page
+    assert "no measurement at this port tells it from" in page and "Impedance" in page
+    assert "equivalents &#34;R0-p(R1,C1)&#34; --to &#34;p(R0,R1-C1)&#34; --set C1=..,R0=" in page
+
+
+def test_networks_of_several_ports_have_pages(tmp_path: Path) -> None:
+    texts = ["1~2; F1; S1 S2", "1~2, 2~#; F1; S1 S2"]
+    folder = write_family(texts, "Two encoders", tmp_path)[0].parent
+    page = Outline((folder / "models/list-two-encoders/2.html").read_text("utf-8"))
+    assert "From input 1 to output 2" in page.texts["h3"]
+    assert "2 outputs, 1 input" in page.text
+
+
+@pytest.mark.parametrize(
+    ("models", "title", "cause"),
+    [
+        (["R1"], "One", "two models at least"),
+        (["R1", "R1"], "Two", "names 2 models"),
+        (["R1-C1", "1~2; F1; S1 S2"], "Ports", "outputs"),
+        (["R1-C1", "p(R1,C1)"], "\u00e4", "no letter"),
+        (7, "Seven", "a list of models"),
+        (["R1-C1", 3], "Three", "a model is a chain"),
+    ],
+)
+def test_what_is_no_family_is_refused(
+    models: object, title: str, cause: str, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=cause):
+        write_family(models, title, tmp_path / "none")  # type: ignore[arg-type]
+    assert not (tmp_path / "none").exists()

@@ -13,7 +13,7 @@ from disting import Engine, Family, Query, Sensor, View, catalog, compare, read_
 from disting.general.model import Model
 from disting.general.model_files import ModelList, models_of, write_models
 from disting.model.names import name_of
-from disting.report.model_list import judged
+from disting.report.listing import judged
 from disting.verdict.joint import family_safety
 from disting.verdict.verification import Standing
 from tests.cli.process import called

@@ -2,16 +2,30 @@
 proven.
 """
 
+from dataclasses import replace
+
 import pytest
 import sympy
 
-from disting import Certainty, Engine, Family, Query, View, compare
+from disting import (
+    Certainty,
+    Engine,
+    Family,
+    MatrixModel,
+    Model,
+    Query,
+    View,
+    compare,
+    local_identifiability,
+    network_of,
+)
 from disting.algebra.fractionfree import OutOfTimeError, rank
 from disting.algebra.symbols import symbols
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import rank_is_at_most
+from disting.behaviour.expanded import coefficients_have_rank, rank_is_at_most
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
+from disting.general.any_model import of_network
 from disting.model.question import Settings
 from disting.verdict.proof import prove, prove_all
 
@@ -127,3 +141,33 @@ def test_nothing_is_raised_without_a_proof():
     assert exact.decided_by == "exact" and prove(exact, family[1], family[6]) == exact
     open_pair = compare(family[1], family[11], query=Query(View.COMBINED))
     assert prove(open_pair, family[1], family[11]) == open_pair
+
+
+MODELS = [
+    Model.from_state_space([["-k12-k01", "k21"], ["k12", "-k21-k02"]], [1, 0], [1, 0]),
+    Model.from_transfer_function("(a+b)*s + c", "(s + a + b)*(s + c*d)"),
+    MatrixModel.from_state_space(
+        [["-k12-k01", "k21"], ["k12", "-k21-k02"]], [1, 0], [[1, 0], [0, 1]]
+    ),
+    of_network(network_of("R0-p(R1,C1)-R2")),
+]
+
+
+@pytest.mark.parametrize("model", MODELS, ids=str)
+def test_ranks_of_general_models_are_the_sampled_ones(model):
+    entries = [(e.numerator, e.denominator) for e in model.entries]
+    found = local_identifiability(model).rank
+    assert coefficients_have_rank(entries, model.parameters, (), found, 20.0)
+    assert not coefficients_have_rank(entries, model.parameters, (), found - 1, 20.0)
+
+
+def test_general_models_are_proven_apart_by_their_ranks():
+    """b1, b0 and a0 of the first one obey an equation, of the second one none."""
+    less = Model.from_transfer_function("a*c*s + a*c*b", "s**2 + b*s + b**2", name="less")
+    more = Model.from_transfer_function("a*s + c", "s**2 + b*s + d", name="more")
+    asked = Query(View.COMBINED, ("4",))
+    found = compare(less, more, query=asked)
+    assert found.certainty is Certainty.BOUNDED
+    assert prove(found, less, more).certainty is Certainty.PROVEN
+    turned = replace(found, evidence=replace(found.evidence, left=1))
+    assert prove(turned, less, more).certainty is Certainty.BOUNDED  # the rank is 2, not 1

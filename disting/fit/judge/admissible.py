@@ -24,6 +24,9 @@ DESIGNED = ("inertia", "stiffness", "resonance", "antiresonance")
 class Rule(StrEnum):
     """Which candidates may be selected: what the data do not exclude, or of that what the paper's
     criteria admit.
+
+    >>> Rule("paper") is Rule.PAPER
+    True
     """
 
     NOT_EXCLUDED = "not-excluded"

@@ -22,7 +22,13 @@ STEP = 1e-4  # of a logarithm, for derivatives of the results
 
 
 def poles(structure: Structure, p: Real) -> Complex:
-    """Roots of det A(s) [rad/s], shape (2 N,), the lag's pole not among them."""
+    """Roots of det A(s) [rad/s], shape (2 N,), the lag's pole not among them.
+
+    >>> from disting import Chain
+    >>> drive = Chain(2, damped=False).structure
+    >>> sorted(poles(drive, np.array([1.0, 1.0, 2.0])).imag.round(6))[-1]  # sqrt(k (1/m1 + 1/m2))
+    np.float64(2.0)
+    """
     mass, damping, stiffness = matrices(structure, _named(structure, p))
     n = structure.n_masses
     inverse = 1.0 / np.diag(mass)[:, None]
@@ -35,6 +41,11 @@ def poles(structure: Structure, p: Real) -> Complex:
 def zeros(structure: Structure, p: Real) -> Complex:
     """Zeros of the receptance [rad/s]: finite roots of the determinant of A(s) bordered by the
     two ports.
+
+    >>> from disting import Chain
+    >>> drive = Chain(2, damped=False).structure
+    >>> sorted(zeros(drive, np.array([1.0, 1.0, 4.0])).imag.round(6))[-1]  # sqrt(k / m2)
+    np.float64(2.0)
     """
     n = structure.n_masses
     bordered = [np.pad(matrix, (0, 1)) for matrix in matrices(structure, _named(structure, p))]

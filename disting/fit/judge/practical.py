@@ -32,7 +32,11 @@ class Seen(Protocol):
 
 
 def importance(columns: Real) -> Real:
-    """delta_j^msqr = |S_j Delta p_j| of (16), shape (n_p,); Brun et al. 2001."""
+    """delta_j^msqr = |S_j Delta p_j| of (16), shape (n_p,); Brun et al. 2001.
+
+    >>> importance(np.array([[3.0, 0.0], [4.0, 1.0]])).tolist()
+    [5.0, 1.0]
+    """
     return np.asarray(np.linalg.norm(columns, axis=0))
 
 
@@ -61,6 +65,9 @@ def collinearity_index(columns: Real) -> float:
 def condition_indices(columns: Real) -> Real:
     """mu_max / mu_k of S-tilde (18), rising, shape (n_p,); Belsley 1991; critical above 10 to
     30.
+
+    >>> condition_indices(np.eye(2)).tolist()
+    [1.0, 1.0]
     """
     values = _singular_values(columns)
     with np.errstate(divide="ignore"):
@@ -198,6 +205,9 @@ def worst_direction(columns: Real, names: Sequence[str]) -> dict[str, float]:
 class Thresholds:
     """Largest admissible condition index, importance ratio and collinearity index; the first
     row of Table 1 by default.
+
+    >>> Thresholds(condition_index=100.0).collinearity
+    20.0
     """
 
     condition_index: float = 30.0

@@ -30,7 +30,8 @@ MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)
 @dataclass(frozen=True, eq=False)
 class StateSpace:
     """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force;
-    `delay` of the input [s].
+    `delay` of the input [s]; `states` by name, `units` of states, of the input u and the output y
+    where the parameters are in SI units of translation.
     """
 
     A: Real
@@ -38,6 +39,8 @@ class StateSpace:
     C: Real
     D: Real
     delay: float
+    states: tuple[str, ...]
+    units: dict[str, str]
 
     def __repr__(self) -> str:
         return summary(
@@ -65,7 +68,10 @@ def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateS
         c, d = c @ a, c @ b
     if chain.lag:
         a, b, c, d = _lagged(a, b, c, d, values["T1"])
-    return StateSpace(a, b, c, d, values.get("Td", 0.0))
+    units = {f"x{i}": "m" for i in range(1, n + 1)} | {f"v{i}": "m/s" for i in range(1, n + 1)}
+    units |= {"F": "N"} if chain.lag else {}
+    ports = {"u": "N", "y": ("m", "m/s", "m/s^2")[chain.sensor.order]}
+    return StateSpace(a, b, c, d, values.get("Td", 0.0), tuple(units), units | ports)
 
 
 def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real, Real, Real]:
@@ -81,11 +87,15 @@ def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real
 
 
 def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.StateSpace":
-    """A python-control StateSpace, without the dead time, which no finite state space has;
-    needs disting[control].
+    """A python-control StateSpace, its states, input u and output y named, without the dead time,
+    which no finite state space has; needs disting[control].
+
+    >>> to_control(Chain(1, damped=False), {"m1": 2.0}).nstates
+    2
     """
     ss = state_space(chain, values, sign)
-    return _control().StateSpace(ss.A, ss.B, ss.C, ss.D)
+    names = {"states": list(ss.states), "inputs": ["u"], "outputs": ["y"]}
+    return _control().StateSpace(ss.A, ss.B, ss.C, ss.D, remove_useless_states=False, **names)
 
 
 def to_control_transfer_function(
@@ -93,6 +103,10 @@ def to_control_transfer_function(
 ) -> "control.TransferFunction":
     """A python-control TransferFunction, without the dead time, from poles, zeros and gain;
     needs disting[control].
+
+    >>> drive = to_control_transfer_function(Chain(1, damped=False, sensor="position"), {"m1": 2.0})
+    >>> complex(drive(1j)).real
+    -0.5
     """
     found = zero_pole(chain, values, sign)
     top, bottom = (np.atleast_1d(np.poly(roots)).real for roots in (found.zeros, found.poles))
@@ -148,6 +162,9 @@ def _control() -> Any:
 class Exported:
     """A structure with numbers under its name, such as 3:11+b1, and the units of its parameters,
     "" where the data do not tell.
+
+    >>> Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"}).units["m1"]
+    'kg'
     """
 
     name: str
@@ -160,6 +177,13 @@ def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
     """A MATLAB v5 file: A, B, C, D and delay of the first model, and the struct array `models` with
     name, A, B, C, D, delay, z, p, k, parameters and units of each. The same models give the same
     bytes.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "drive.mat")
+    ...     write_mat(path, [Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})])
+    ...     path.read_bytes()[:6]
+    b'MATLAB'
     """
     from scipy.io import savemat
 
@@ -184,7 +208,12 @@ def _plain(model: Exported, sign: int) -> dict[str, Any]:
 
 
 def control_script(models: Sequence[Exported], sign: int = 1) -> str:
-    """A Python program that makes a python-control StateSpace of each model, by name."""
+    """A Python program that makes a python-control StateSpace of each model, by name.
+
+    >>> drive = Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})
+    >>> "m1 = 2 kg" in control_script([drive])
+    True
+    """
     return "".join([_HEAD, *(_entry(model, sign) for model in models), "}\n", _DELAYS, *(
         f"    {model.name!r}: {model.values.get('Td', 0.0)!r},\n" for model in models
     ), "}\n"])  # fmt: skip
@@ -215,6 +244,9 @@ def predicted(
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
     """Response of a fitted chain, or of the same chain with other ports, at angular frequencies
     [rad/s].
+
+    >>> abs(predicted(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
+    [0.5, 0.5]
     """
     return Plant(chain.structure, omega, sign).response(
         np.array([values[name] for name in chain.parameters])

@@ -29,6 +29,9 @@ def figure_1(
 def variants(chain: Chain) -> Iterator[Chain]:
     """Yield a chain with every set of ground dampers, with and without lag and dead time: 4
     times 2^N models.
+
+    >>> len(list(variants(Chain(2))))
+    16
     """
     masses = range(1, chain.n_masses + 1)
     sets = [chosen for size in range(chain.n_masses + 1) for chosen in combinations(masses, size)]
@@ -37,7 +40,11 @@ def variants(chain: Chain) -> Iterator[Chain]:
 
 
 def whole_family(sizes: Sequence[int], sensor: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
-    """Every chain under (36)-(38) of these sizes, with its variants."""
+    """Every chain under (36)-(38) of these sizes, with its variants.
+
+    >>> len(whole_family([2]))  # three models, each with 16 variants
+    48
+    """
     return tuple(
         v for n in sizes for chain in Family(n, damped=True, sensor=sensor) for v in variants(chain)
     )

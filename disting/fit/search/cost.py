@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
+from disting.fit.noise.scatter import Scatter
 from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
@@ -36,6 +37,9 @@ NOISE = 3.0  # times the usual step of a response from line to line: what noise 
 class Case(IntEnum):
     """Which residuals: complex plane (7), amplitude and phase (12), logarithm of the amplitude
     and phase (14).
+
+    >>> Case(3) is Case.LOGARITHM
+    True
     """
 
     COMPLEX = 1
@@ -125,15 +129,19 @@ class Cost(SquaredCost):
         np.multiply(gradient.imag, second, out=columns[..., n_f:])
         return columns.swapaxes(-1, -2)
 
-    def scatter(self, rho: Real) -> Real:
-        """Standard deviation of the residuals, shape (2 n_f,), for a relative deviation `rho`,
-        shape (n_f,), of the data.
-        """
+    def scatter(self, known: Scatter) -> Real:
+        """Standard deviation of the residuals, shape (2 n_f,), of data that scatter so."""
         first, second = self._both
-        size = np.abs(self.measured.G) if self.case is not Case.LOGARITHM else 1.0 / log(10)
-        return np.concatenate(
-            [first * size * rho, second * rho * (size if self.case is Case.COMPLEX else 1.0)]
-        )
+        plane = known.rho * known.size
+        amplitude = known.rho / log(10) if self.case is Case.LOGARITHM else plane
+        phase = plane if self.case is Case.COMPLEX else known.rho
+        return np.concatenate([first * amplitude, second * phase])
+
+    def likely(self, known: Scatter) -> "Cost":
+        """Minus twice the logarithm of the likelihood of data that scatter so, but for a constant:
+        squared distances in the complex plane in units of sigma / sqrt 2, of variance 1 each.
+        """
+        return replace(self, case=Case.COMPLEX, weights=None, lines=sqrt(2) / known.sigma)
 
     @property
     def parts(self) -> tuple["Cost", ...]:
@@ -210,6 +218,11 @@ def _way(measured: FrequencyResponse) -> Real:
 def lines_by_deviation(measured: FrequencyResponse) -> Real:
     """Weight |G|/sigma of each line, scaled to a mean square of 1; raises InputError where the
     data has no deviation.
+
+    >>> from disting.measurement import from_arrays
+    >>> data = from_arrays(range(1, 9), [1, 7] * 4, deviation=[1.0] * 8)
+    >>> lines_by_deviation(data)[:2].round(6).tolist()
+    [0.2, 1.4]
     """
     if measured.deviation is None:
         raise InputError(
@@ -221,6 +234,11 @@ def lines_by_deviation(measured: FrequencyResponse) -> Real:
 def lines_by_coherence(measured: FrequencyResponse) -> Real:
     """Weight sqrt(gamma^2 / (1 - gamma^2)), the inverse of the relative deviation, scaled to a
     mean square of 1.
+
+    >>> from disting.measurement import from_arrays
+    >>> data = from_arrays(range(1, 9), [1] * 8, coherence=[0.9] * 8)
+    >>> lines_by_coherence(data)[:2].round(6).tolist()
+    [1.0, 1.0]
     """
     if measured.coherence is None:
         raise InputError(

@@ -50,6 +50,11 @@ class Identifiability(Shown):
     identifiable combinations, the most readable found. That both are identifiable, and that no
     other parameter is, is wrong with a probability of at most 2**-safety (0: proven). `scalings`
     and `renamings`: symmetries; `self_dual`: see Origin.DUALITY.
+
+    >>> from disting import identifiability
+    >>> found = identifiability("2:2")
+    >>> found.rank, found.level.value, [x.text for x in found.basis]
+    (3, 'not identifiable', ['k12/d12', 'm1 + m2', 'k12/(m1*m2)'])
     """
 
     parameters: tuple[str, ...]

@@ -15,6 +15,10 @@ class Level(StrEnum):
 
     GLOBAL: one parameter vector has this behaviour. LOCAL: several, but finitely many. NOT:
     infinitely many. UNKNOWN: finitely many; whether more than one is not known.
+
+    >>> from disting import identifiability
+    >>> identifiability("2:1").level is Level.GLOBAL
+    True
     """
 
     GLOBAL = "global"

@@ -15,6 +15,7 @@ from disting.fit.select import Selection
 from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
+from disting.report.fit.answer import answer
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import limits, nearest, weakest
 from disting.report.fit.not_excluded import shown_set
@@ -70,6 +71,7 @@ def fit_page(
     """
     candidate = selection.described
     shown = shown_responses(selection, train, test, figures)
+    rows = [result_row(r, train) for r in results]
     return render(
         "fit.html",
         selection=selection,
@@ -77,7 +79,8 @@ def fit_page(
         title=name(candidate.chain),
         drawing=drawing(seen_together(candidate.chain, selection)),
         description=seen_together(candidate.chain, selection).title,
-        results=[result_row(r, train) for r in results],
+        answer=answer(selection, rows),
+        results=rows,
         parameters=parameter_rows(candidate, selection.task, train),
         responses=shown,
         figures=figures[sum(len(one.panels) for one in shown) :],

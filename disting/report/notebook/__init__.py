@@ -1,4 +1,5 @@
-"""What a notebook shows of an object: a drawing, a table, a plot with matplotlib.
+"""What a notebook shows of an object: a drawing, a table, a plot with matplotlib; and a chain as
+formulas or numbers.
 
 The rooms below ask for it as `disting.model.presentation.Presenter`, which `Notebook` is.
 """
@@ -6,12 +7,18 @@ The rooms below ask for it as `disting.model.presentation.Presenter`, which `Not
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from disting.algebra.notation import Expr
 from disting.behaviour.expanded import transfer_function
+from disting.fit.results.export import StateSpace, state_space, to_control
 from disting.model.chain import Chain
+from disting.network.network import Network
 from disting.report.drawing import chain_svg
+from disting.report.network_drawing import network_svg
 from disting.report.notebook.plots import drawn_on
 from disting.report.notebook.tables import table_of
+from disting.simulation.mechanics import checked, frequency_response
 
 
 class Notebook:
@@ -21,13 +28,27 @@ class Notebook:
         """The object as a piece of an HTML page; raises TypeError for what has none."""
         return table_of(shown)
 
-    def svg(self, shown: Chain, /) -> str:
-        """The drawing of a chain on white paper, which is right in light and dark notebooks."""
-        return chain_svg(shown)
+    def svg(self, shown: Chain | Network, /) -> str:
+        """The drawing of a chain or a network on white paper, which is right in light and dark
+        notebooks.
+        """
+        return chain_svg(shown) if isinstance(shown, Chain) else network_svg(shown)
 
     def transfer_function(self, shown: Chain, /) -> Expr:
         """G(s) from force to sensor."""
         return transfer_function(shown)
+
+    def frequency_response(self, shown: Chain, values: Mapping[str, float], omega: Any, /) -> Any:
+        """G(j omega) with numbers."""
+        return frequency_response(shown, values, np.asarray(omega, dtype=float))
+
+    def state_space(self, shown: Chain, values: Mapping[str, float], /) -> StateSpace:
+        """The matrices with numbers."""
+        return state_space(shown, checked(shown, values))
+
+    def to_control(self, shown: Chain, values: Mapping[str, float], /) -> Any:
+        """The same for python-control."""
+        return to_control(shown, checked(shown, values))
 
     def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
         """The object on axes of matplotlib; raises TypeError for what has no plot."""

@@ -28,27 +28,28 @@ const createChainNames = (data) => {
     catalogue: (i, j) => (several && all[i - 1][0] === all[j - 1][0] && family(all[i - 1][0]) ? `chains-${all[i - 1][0]}-${kind}.html${pairHash([all[i - 1][1], all[j - 1][1]])}` : ""),
   };
 };
-// General models, by their names; in an address by their numbers.
+// Models of a list, by their names; numbered ones are called A1, A2, .. too, their names are texts that commands read; in an address by numbers.
 const createListNames = (data) => {
   const there = (numbers) => numbers.every((i) => i >= 1 && i <= data.models) && numbers[0] !== numbers[1];
   const names = data.names.map((name) => name.toLowerCase());
-  const number = (word) => 1 + (names.includes(word) ? names.indexOf(word) : names.findIndex((name) => word && name.startsWith(word))); // in full, or its beginning
+  const called = (word) => (data.numbered && /^a?\d+$/.test(word) && there([+word.replace("a", "")]) ? +word.replace("a", "") : 0);
+  const number = (word) => called(word) || 1 + (names.includes(word) ? names.indexOf(word) : names.findIndex((name) => word && name.startsWith(word))); // in full, or its beginning
   return {
-    typed: () => "",
+    typed: (i) => data.names[i - 1],
     seek: (text) => {
-      const whole = number(text.trim().toLowerCase()); // a name may have a comma of its own
-      const found = whole ? [whole] : [...new Set(text.split(/[,;/]/).map((part) => number(part.trim().toLowerCase())))];
-      if (found.length > 2 || found.includes(0)) return { trouble: "Type the name of a model, or two names with a comma between them." };
-      return { models: found.sort((a, b) => a - b) };
+      const parts = [[text], ...[...text.matchAll(/[,;/]/g)].map(({ index }) => [text.slice(0, index), text.slice(index + 1)])]; // a name may have a comma of its own
+      const found = parts.map((of) => of.map((part) => number(part.trim().toLowerCase()))).find((of) => !of.includes(0));
+      if (!found) return { trouble: "Type the name of a model, or two names with a comma between them." };
+      return { models: [...new Set(found)].sort((a, b) => a - b) };
     },
     follow: (hash) => {
       if (!namedBy(hash)) return null;
       const numbers = (/^(?:a(\d+)|(\d+)[-:](\d+))$/i.exec(namedBy(hash)) || []).slice(1).filter(Boolean).map(Number).sort((a, b) => a - b);
       return numbers.length && there(numbers) ? { models: numbers } : { trouble: `There is no ${namedBy(hash)} here: the models are 1 to ${data.models}.` };
     },
-    name: (i) => data.names[i - 1],
+    name: (i) => (data.numbered ? `A${i}` : data.names[i - 1]),
     hash: (models) => (models.length === 2 ? pairHash(models) : `#A${models[0]}`),
-    page: (i) => `#model-${i}`,
+    page: (i) => `${data.folder}/${i}.html`,
     catalogue: () => "",
   };
 };

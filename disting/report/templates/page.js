@@ -38,7 +38,7 @@
     for (const name of ["viewBox", "aria-label", "width"]) if (source) svg.setAttribute(name, source.getAttribute(name));
     svg.firstElementChild.setAttribute("href", `#chain-${number}`);
     const link = slot(`${side}-name`);
-    link.textContent = nameOf(number);
+    link.textContent = data.numbered ? `${nameOf(number)}: ${data.names[number - 1]}` : nameOf(number);
     if (names.page(number)) link.href = names.page(number);
     else link.removeAttribute("href"); // of a size whose pages are not beside this one
   };
@@ -78,22 +78,24 @@
     caption.textContent = twoCurves(svg, models, numbers.map(nameOf));
     figure.hidden = !caption.textContent;
   };
+  const known = (numbers) => numbers.flatMap((i) => (data.known?.[i] ? [data.known[i].replace("{0}", nameOf(i))] : [])).join(" "); // before any "distinguishable": what cannot be determined
   const takeAway = (low, high, v, view) => { // the same verdict elsewhere: a command, Python, and a reference to it with its address
-    slot("takeaway").hidden = Boolean(data.names);
-    if (data.names) return;
+    slot("takeaway").hidden = Boolean(data.names && !data.numbered);
+    if (slot("takeaway").hidden) return;
+    const quoted = (text) => (data.names ? `"${text}"` : text), damping = data.names ? "" : ` --${data.damped ? "damped" : "undamped"}`;
     const [left, right] = [low, high].map(names.typed);
     const why = data.texts[data.entries[entry(low, high, view)][NAMES.indexOf("why")]].replace(/\{([LR])\}/g, (_, side) => (side === "L" ? left : right));
-    const cited = `${left} and ${right}, ${data.premise}, are ${data.said[v.relation]} over ${v.domain} parameters${v.aside}${v.by ? ` (${v.rule})` : ""}: ${why} ${v.certainty}`.trim();
+    const cited = `${left} and ${right}${data.names ? "" : `, ${data.premise},`} are ${data.said[v.relation]} over ${v.domain} parameters${v.aside}${v.by ? ` (${v.rule})` : ""}: ${why} ${v.certainty}`.trim();
     put({
-      shell: `disting compare ${left} ${right} --${data.damped ? "damped" : "undamped"}`,
-      python: `disting.compare("${left}", "${right}", damped=${data.damped ? "True" : "False"})`,
+      shell: `disting compare ${quoted(left)} ${quoted(right)}${damping}`,
+      python: `disting.compare("${left}", "${right}"${data.names ? "" : `, damped=${data.damped ? "True" : "False"}`})`,
       cited: `disting ${data.version}: ${cited} ${location.href.split("#")[0]}${names.hash([low, high])}`,
     });
     for (const button of slot("takeaway").querySelectorAll("[data-copy]")) button.textContent = "Copy";
   };
   const fillPair = (low, high, view) => {
     const v = verdict(low, high, view);
-    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: v.shown, why: `${v.why} ${v.more}`.trim(), formula: v.formula, link: "", next: further(low, high) });
+    put({ title: `${nameOf(low)} and ${nameOf(high)}`, badge: data.said[v.relation], shown: `${v.relation === "distinguishable" ? known([low, high]) : ""} ${v.shown}`.trim(), why: `${v.why} ${v.more}`.trim(), formula: v.formula, link: "", next: further(low, high) });
     explain(v);
     compare([low, high], v);
     slot("sketches").replaceChildren(...sketches(`${low}-${high}`));
@@ -110,7 +112,7 @@
     draw("right", high);
     slot("right-figure").hidden = slot("views").hidden = false;
     for (const other of Object.keys(data.views)) slot(`in-${other}`).textContent = short(verdict(low, high, other));
-    byId("status").textContent = `${nameOf(low)} and ${nameOf(high)}: ${short(v)}. ${v.shown || v.why} ${limits ? slot("limit").textContent : ""}`.trim();
+    byId("status").textContent = `${nameOf(low)} and ${nameOf(high)}: ${short(v)}. ${slot("shown").textContent || v.why} ${limits ? slot("limit").textContent : ""}`.trim();
   };
   const fillLimits = (model, others) => { // of two sizes
     const smaller = (i) => names.masses(i) < names.masses(model), larger = (i) => names.masses(i) > names.masses(model);
@@ -124,7 +126,7 @@
     const others = Array.from({ length: data.models }, (_, i) => i + 1).filter((i) => i !== model);
     const counted = RELATIONS.map((r, at) => [r, others.filter((i) => relations[entry(model, i, view)] === at)]).filter(([, of]) => of.length);
     const words = counted.map(([r, of]) => `${data.said[r]} from ${of.length}${r === "distinguishable" ? "" : ` (${of.map(nameOf).join(", ")})`}`);
-    put({ title: nameOf(model), badge: "", where: data.titles[view], shown: `Of the other models: ${words.join("; ")}.`, why: "", formula: "", certainty: "", next: "" });
+    put({ title: nameOf(model), badge: "", where: data.titles[view], shown: `${known([model])} Of the other models: ${words.join("; ")}.`.trim(), why: "", formula: "", certainty: "", next: "" });
     slot("sketches").replaceChildren();
     slot("badge").className = "badge";
     draw("left", model);

@@ -20,12 +20,14 @@
       return [{ title: `${name}${two ? "" : ` of ${size} mass${size === "1" ? "" : "es"}`}, ${kind}`, where: asked.length > 1 && !page ? "Verdict" : "Model", words: "", address: page || address }];
     });
   };
-  // how well an entry answers: its title before its words, a beginning before a middle, a short title before a long one
+  // how well an entry answers: its title before its words, a beginning before a middle, a short title before a long one, the guide before the reference
+  const REFERENCE = /^guide\/(?:python-|commands)/, BEHIND = 95;
   const weight = (entry, query, words) => {
     if (!words.every((word) => entry.text.includes(word))) return 0;
     const title = entry.low;
-    const start = title === query ? 400 : title.split(/[^\w]+/).includes(query) ? 200 : title.startsWith(query) ? 150 : title.includes(query) ? 100 : words.every((word) => title.includes(word)) ? 60 : 10;
-    return start - Math.min(title.length, 80) / 10;
+    const start = title === query ? 400 : title.split(/[^\w]+/).includes(query) ? 200 : title.startsWith(query) ? 150 : title.includes(query) ? 100 : words.every((word) => title.includes(word)) ? 60 : entry.text.includes(query) ? 30 : 10;
+    const behind = start < 400 && REFERENCE.test(entry.address) ? BEHIND : 0;
+    return Math.max(start - behind - Math.min(title.length, 80) / 10, 0.1);
   };
   const find = (text) => {
     const query = text.trim().toLowerCase(), words = query.split(/\s+/).filter(Boolean);

@@ -29,7 +29,7 @@ from disting.report.fit.criteria import limits, nearest, weakest
 from disting.report.fit.selection_page import reasoning
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import parameters_by_threshold
-from disting.report.fit.words import name
+from disting.report.fit.words import name, readable
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
 
@@ -134,10 +134,24 @@ def test_hostile_text_stays_text(outline: Outline, empty: Outline) -> None:
 def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     said = " ".join(outline.text.split())
     admissible = sum(c.admissible for c in selection.candidates)
-    assert (
-        f"2 masses, damper b2 Selected from 24 fitted candidates, of which {admissible} are"
-        " admissible: 5 parameters" in said
+    others, more = len(selection.members) - 1, len(selection.containing)
+    beginning = (
+        "2 masses, damper b2: this explains the measurement Of 24 fitted structures it is the"
+        " simplest that the data allow."
     )
+    assert beginning in said and (others, more) == (0, 7)
+    assert "7 larger ones contain it, with parts that these data do not show." in said
+    order = (
+        "misfit 0.9",
+        "structures left 8 of 24",
+        "resonance 1 58",
+        "The rule: Of",
+        "In more words",
+    )
+    places = [said.index(words) for words in order]
+    assert places == sorted(places)
+    assert f"5 parameters, cost J = {readable(selection.described.j_train)} on training" in said
+    assert f"{admissible} of 24 fitted candidates are admissible" in said
     assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
     drawings = [a for t, a in outline.elements if t == "svg"]
     sketched = len(selection.members) + sum(len(m.twins) for m in selection.members)

@@ -1,5 +1,5 @@
-"""Networks with the transfer function of a given one: among some, or in a family, and with which
-values.
+"""Models with the transfer function of a given one, networks or a user's own: among some, or in a
+family, and with which values.
 """
 
 from collections.abc import Mapping, Sequence
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from disting.errors import InputError
 from disting.general.alternatives import Alternatives, alternatives
 from disting.general.any_model import of_network
+from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.model.presentation import Shown, summary
 from disting.network.network import Network
@@ -18,23 +19,23 @@ from disting.verdict.result import Relation, Verdict
 
 
 @dataclass(frozen=True, slots=True)
-class NetworkEquivalent(Shown):
-    """Another network, what is known of the pair, and its values where those of the given one are
+class ModelEquivalent(Shown):
+    """Another model, what is known of the pair, and its values where those of the given one are
     said.
     """
 
-    network: Network
+    model: AnyModel
     verdict: Verdict
     values: Alternatives | None = None
 
     def __repr__(self) -> str:
-        return summary(self, f"{self.network.name}, {self.verdict.told}")
+        return summary(self, f"{self.model.name}, {self.verdict.told}")
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; values rounded to 15 digits where they are irrational."""
         found = () if self.values is None else self.values.equivalents
         return {
-            "name": self.network.name,
+            "name": self.model.name,
             "relation": self.verdict.relation.value,
             "sentence": self.verdict.sentence,
             "extent": "" if self.values is None else self.values.extent.value,
@@ -48,35 +49,39 @@ class NetworkEquivalent(Shown):
         }
 
 
-def network_equivalents(
-    given: Network,
-    others: Sequence[Network],
+def model_equivalents(
+    given: Network | AnyModel,
+    others: Sequence[Network | AnyModel],
     values: Mapping[str, object] | None = None,
     *,
     query: Query | None = None,
     engine: Engine | None = None,
-) -> list[NetworkEquivalent]:
-    """Those of the other networks that are not told apart from the given one over positive values
+) -> list[ModelEquivalent]:
+    """Those of the other models that are not told apart from the given one over positive values
     (or in the domain of the query), with all their values that give its transfer function at
-    `values`, exactly. Raises InputError.
+    `values`, exactly. Models of other numbers of inputs and outputs are passed over. Raises
+    InputError.
 
     >>> from disting.network import network_of
     >>> given, other = network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")
-    >>> (found,) = network_equivalents(given, [other], {"R0": 1, "R1": 2, "C1": "1/2"})
+    >>> (found,) = model_equivalents(given, [other], {"R0": 1, "R1": 2, "C1": "1/2"})
     >>> found.verdict.relation.value, str(found.values.equivalents[0])
     ('indistinguishable', 'C1 = 2/9, R0 = 3, R1 = 3/2')
     """
-    model = of_network(given)
+    model = _as_model(given)
     if values is not None and not isinstance(model, Model):
-        raise InputError("values are found of networks with one input and one output")
+        raise InputError("values are found of models with one input and one output")
     found = []
-    for other in others:
-        if other == given or other.shape != given.shape:
+    for there in map(_as_model, others):
+        if (there.name, there) == (model.name, model) or there.shape != model.shape:
             continue
-        verdict = compare(given, other, query=query, engine=engine)
+        verdict = compare(model, there, query=query, engine=engine)
         if verdict.relation is not Relation.DISTINGUISHABLE:
-            there = of_network(other)
             asked = values is not None and isinstance(model, Model) and isinstance(there, Model)
             at = alternatives(model, values, there) if asked else None  # type: ignore[arg-type]
-            found.append(NetworkEquivalent(other, verdict, at))
+            found.append(ModelEquivalent(there, verdict, at))
     return found
+
+
+def _as_model(given: Network | AnyModel) -> AnyModel:
+    return of_network(given) if isinstance(given, Network) else given

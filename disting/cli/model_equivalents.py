@@ -1,22 +1,31 @@
-"""The command `equivalents` of a network: which others do the same, and with which values."""
+"""The command `equivalents` of a network or of a model in a file: what else does the same, and with
+which values.
+"""
 
 import argparse
 import json
 from collections.abc import Iterator
+from pathlib import Path
 
+from disting.cli.arguments import parted
 from disting.cli.output import emitted
 from disting.cli.plain import keep_apart
 from disting.cli.workers import engine_for
 from disting.equivalence import assignments
 from disting.errors import InputError
 from disting.general.alternatives import Alternatives
+from disting.general.any_model import of_network
 from disting.general.fibre import Extent
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.general.model_files import read_models
+from disting.model.names import chains_named, name_of
 from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.families import family_of
-from disting.network.notation import network_of
+from disting.network.notation import network_of, notations_of
 from disting.schemas import Format
-from disting.verdict.network_equivalents import NetworkEquivalent, network_equivalents
+from disting.verdict.model_equivalents import ModelEquivalent, model_equivalents
 from disting.verdict.result import Relation
 
 OPEN = (Relation.UNDECIDED, Relation.SOMETIMES)
@@ -26,17 +35,17 @@ def run(options: argparse.Namespace) -> int:
     """Print the networks that are not told apart from one, with values where they are given."""
     if options.also or options.formulas or options.latex or options.sympy:
         raise InputError(
-            "of networks values are listed, not formulas or experiments: leave --also, --formulas,"
-            " --latex and --sympy away"
+            "of networks and models of a file values are listed, not formulas or experiments: leave"
+            " --also, --formulas, --latex and --sympy away"
         )
-    given = network_of(options.model, options.notation)
-    listed = family_of(options.family).networks if options.family else ()
-    named = [network_of(options.to, options.notation)] if options.to else []
-    others = [network for network in (*listed, *named) if network != given]
-    keep_apart(network.name for network in (given, *others))
+    (given,) = _named(options.model, options)
+    listed = map(of_network, family_of(options.family).networks) if options.family else ()
+    named = _named(options.to, options) if options.to else []
+    others = [model for model in (*listed, *named) if model.name != given.name]
+    keep_apart(model.name for model in (given, *others))
     values = assignments(options.values) if options.values else None
     with engine_for(options) as (engine, _, _progress):
-        found = network_equivalents(given, others, values, engine=engine)
+        found = model_equivalents(given, others, values, engine=engine)
     if options.json:
         whole = {
             "format": Format.NETWORK_EQUIVALENTS.value,
@@ -45,19 +54,33 @@ def run(options: argparse.Namespace) -> int:
         }
         emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
         return 0
-    print("\n".join(_lines(given.name, len(others), found)))
+    other = "other network" if given.network else "other model"
+    print("\n".join(_lines(given.name, len(others), other, found)))
     return 0
 
 
-def _lines(given: str, count: int, found: list[NetworkEquivalent]) -> Iterator[str]:
+def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
+    """What a text names: a network, a chain, file.json:name, or all models of file.json."""
+    if text.endswith(".json"):
+        return list(read_models(Path(text)))
+    path, name = parted(text)
+    if path:
+        return [read_models(Path(path))[name]]
+    if options.notation or notations_of(text):
+        return [of_network(network_of(text, options.notation))]
+    (chain,) = chains_named([text], damped=options.damped)
+    return [Model.from_chain(chain, name=name_of(chain))]
+
+
+def _lines(given: str, count: int, other: str, found: list[ModelEquivalent]) -> Iterator[str]:
     same = [x for x in found if x.verdict.relation is Relation.INDISTINGUISHABLE]
     yield (
-        f"{given}: of {plural(count, 'other network')} {len(same)} can do the same for all positive"
+        f"{given}: of {plural(count, other)} {len(same)} can do the same for all positive"
         f" values, {sum(x.verdict.relation is OPEN[1] for x in found)} for some,"
         f" {sum(x.verdict.relation is OPEN[0] for x in found)} undecided"
     )
     for x in found:
-        yield f"{x.network.name}  {x.verdict.told} ({x.verdict.rule or 'nothing settles it'})"
+        yield f"{x.model.name}  {x.verdict.told} ({x.verdict.rule or 'nothing settles it'})"
         if x.values is not None:
             yield from (f"  {line}" for line in _values(x.values))
 

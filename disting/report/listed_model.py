@@ -1,0 +1,137 @@
+"""The page of one model of a list: its drawing, which others are the same, with their values as
+formulas, its transfer function, what can be determined.
+"""
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+from disting.equivalence.duplicates import duplicate
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.network.element import Sort
+from disting.network.network import Network
+from disting.report.environment import render
+from disting.report.formulas import TransferFunction, Values, written_model, written_values
+from disting.report.listing import Card, Listing
+from disting.report.words import plural, rule_in_words
+from disting.verdict.meaning import shown as measured
+from disting.verdict.query import View
+from disting.verdict.result import Relation, Verdict
+
+MOST_VALUES = 6  # parameters of a model whose values are written as formulas of another's
+MOST_TWINS = 12  # of which formulas are written
+FUNCTIONS = {Sort.CIRCUIT: "impedance"}
+SEEN = {
+    Sort.MACHINE: "experiment with this force and sensor",
+    Sort.CIRCUIT: "measurement at this port",
+    Sort.COMPARTMENTS: "experiment with this input and output",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Twin:
+    """A model that is not told from this one for all positive parameters: `said` in a sentence, its
+    `values` in those of this one where formulas are known, and the `command` that gives numbers.
+    """
+
+    card: Card
+    relation: Relation
+    pair: str
+    said: str
+    values: tuple[Values, ...]
+    command: str
+
+
+def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str:
+    """HTML of one model; beside it the style sheet that `write_model_list` writes is expected.
+    `site`: whether the pages of the site stand around it.
+    """
+    found, card = shown.found, shown.cards[number - 1]
+    verdicts = {
+        other: found.verdict(min(number, other), max(number, other), View.POSITIVE)
+        for other in range(1, len(shown.cards) + 1)
+        if other != number
+    }
+    twins = [
+        _twin(shown, number, other, v)
+        for other, v in verdicts.items()
+        if v.relation is not Relation.DISTINGUISHABLE
+    ]
+    apart = Counter(
+        v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE
+    )
+    complex_same = [
+        shown.cards[o - 1]
+        for o in verdicts
+        if found.relation(number, o, View.EXACT) is Relation.INDISTINGUISHABLE
+        and verdicts[o].relation is not Relation.INDISTINGUISHABLE
+    ]
+    drawn = [c.drawing for c in (card, *(t.card for t in twins)) if c.drawing]
+    network = card.model.network
+    return render(
+        "listed-model.html",
+        shown=shown,
+        card=card,
+        twins=twins,
+        complex_same=complex_same,
+        told_apart=[(rule_in_words(rule), count) for rule, count in apart.most_common()],
+        drawings=drawn,
+        transfers=_transfers(card.model),
+        unseen=network.unseen if network else (),
+        function=FUNCTIONS.get(_sort(network), "transfer function"),
+        seen=SEEN.get(_sort(network), "experiment with this input and output"),
+        last=len(shown.cards),
+        site=site,
+        plural=plural,
+    )
+
+
+def _sort(network: Network | None) -> Sort:
+    """Which words are used of it; those of compartments suit any model."""
+    if network is None:
+        return Sort.COMPARTMENTS
+    is_filter = network.sort is Sort.CIRCUIT and network.inputs != network.outputs
+    return Sort.COMPARTMENTS if is_filter else network.sort
+
+
+def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
+    low, high = sorted((number, other))
+    named = replace(verdict, left=shown.label(low), right=shown.label(high))
+    said = measured(named) or "Nothing here settles them over positive parameters."
+    names = shown.cards[number - 1].model.name, shown.cards[other - 1].model.name
+    command = ""
+    if shown.numbered:
+        values = ",".join(f"{p}=.." for p in shown.cards[number - 1].model.parameters)
+        command = f'disting equivalents "{names[0]}" --to "{names[1]}" --set {values}'
+    return Twin(
+        shown.cards[other - 1],
+        verdict.relation,
+        f"{low}-{high}",
+        said,
+        _values(shown, number, other) if verdict.relation is Relation.INDISTINGUISHABLE else (),
+        command,
+    )
+
+
+def _values(shown: Listing, number: int, other: int) -> tuple[Values, ...]:
+    """Formulas for the values of another model, where both are small and it has finitely many."""
+    found, card = shown.found, shown.cards[other - 1]
+    size = len(card.model.parameters)
+    group = shown.cards[number - 1].groups[0]
+    members = shown.domains[0].groups[group - 1] if group else ()
+    if size > MOST_VALUES or card.known.local.rank < size or len(members) > MOST_TWINS:
+        return ()
+    known = duplicate(found.decisions[View.POSITIVE], found.family, number - 1, other - 1)
+    return tuple(map(written_values, known.formulas))
+
+
+def _transfers(model: AnyModel) -> list[tuple[str, TransferFunction]]:
+    """The transfer functions that are not zero, each with what it leads from and to."""
+    if isinstance(model, Model):
+        return [("", written_model(model))]
+    return [
+        (f"from input {k} to output {i}", written_model(entry))
+        for i, row in enumerate(model.rows, 1)
+        for k, entry in enumerate(row, 1)
+        if entry is not None
+    ]

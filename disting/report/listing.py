@@ -1,0 +1,182 @@
+"""A list of models that is shown: general models or networks with the verdicts on all pairs, how
+each is called, drawn, and what it determines.
+"""
+
+from collections.abc import Iterator, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+
+from disting.errors import InputError
+from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.general.model_files import ModelList
+from disting.model.presentation import plural
+from disting.network.notation import network_of, notations_of
+from disting.report.domains import VIEWS, Over, over
+from disting.report.network_drawing import scene_of
+from disting.report.page_drawing import Drawing
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class JudgedList:
+    """Models with the decisions on all pairs, in each of VIEWS; models are counted from 1."""
+
+    family: tuple[AnyModel, ...]
+    decisions: Mapping[View, Decisions]
+    identifiabilities: tuple[GlobalIdentifiability, ...]
+
+    def relation(self, left: int, right: int, view: View) -> Relation:
+        """Relation of two models."""
+        return self.decisions[view].relation(left - 1, right - 1)
+
+    def verdict(self, left: int, right: int, view: View) -> Verdict:
+        """The verdict with its evidence."""
+        return self.decisions[view].verdict(left - 1, right - 1)
+
+    def pairs(self, view: View) -> Iterator[tuple[int, int, Verdict]]:
+        """All pairs, left < right."""
+        for left, right in combinations(range(1, len(self.family) + 1), 2):
+            yield left, right, self.verdict(left, right, view)
+
+    def classes(self, view: View) -> tuple[tuple[int, ...], ...]:
+        """Groups of two or more mutually indistinguishable models."""
+        return tuple(tuple(i + 1 for i in g) for g in self.decisions[view].classes())
+
+    def depending(self, view: View) -> tuple[tuple[int, int], ...]:
+        """The pairs that are indistinguishable for some parameters only."""
+        pairs = combinations(range(1, len(self.family) + 1), 2)
+        return tuple(p for p in pairs if self.relation(*p, view) is Relation.SOMETIMES)
+
+
+@dataclass(frozen=True)
+class NamedDrawing(Drawing):
+    """The drawing of a model that is called otherwise than by its number."""
+
+    name: str
+
+    @property
+    def label(self) -> str:
+        """What is seen, in words."""
+        return f"{self.name}: {self.scene.title}"
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """What pages say of a model: how it is called, its drawing where it has one, what it
+    determines, and in each of VIEWS the number of its group, or 0.
+    """
+
+    number: int
+    label: str
+    model: AnyModel
+    drawing: NamedDrawing | None
+    known: GlobalIdentifiability
+    groups: tuple[int, ...]
+
+    @property
+    def name(self) -> str:
+        """Its own name, where it is called by a number."""
+        return self.model.name if self.label != self.model.name else ""
+
+    @property
+    def sets(self) -> str:
+        """How many parameter vectors have one behaviour."""
+        if self.known.is_infinite or self.known.local.rank < len(self.model.parameters):
+            return "infinitely many"
+        return str(self.known.count or "not known")
+
+    @property
+    def degrees(self) -> str:
+        """Of its transfer function, or how many it has."""
+        if isinstance(self.model, Model):
+            above, below = self.model.degrees
+            return f"{above} over {below}"
+        outputs, inputs = self.model.shape
+        return f"{plural(outputs, 'output')}, {plural(inputs, 'input')}"
+
+
+@dataclass(frozen=True)
+class Listing:
+    """What is shown: models and verdicts, the title, the name of the page without its suffix."""
+
+    found: JudgedList
+    title: str
+    name: str
+
+    @cached_property
+    def numbered(self) -> bool:
+        """Whether models are called A1, A2, ..: where their names are texts of networks, which are
+        long and which commands read.
+        """
+        return all(map(_is_named_by_its_text, self.found.family))
+
+    @property
+    def folder(self) -> str:
+        """Where the pages of the models are, as seen from the page of the list."""
+        return f"models/{self.name}"
+
+    def label(self, number: int) -> str:
+        """What a model is called."""
+        return f"A{number}" if self.numbered else self.found.family[number - 1].name
+
+    @cached_property
+    def domains(self) -> tuple[Over, ...]:
+        """What is said over each domain."""
+        return tuple(over(self.found, view) for view in VIEWS)
+
+    @cached_property
+    def cards(self) -> tuple[Card, ...]:
+        """The models."""
+        return tuple(map(self._card, range(1, len(self.found.family) + 1)))
+
+    def _card(self, number: int) -> Card:
+        model, label = self.found.family[number - 1], self.label(number)
+        scene = scene_of(model)
+        groups = tuple(
+            next((k for k, g in enumerate(of.groups, 1) if number in g), 0) for of in self.domains
+        )
+        return Card(
+            number=number,
+            label=label,
+            model=model,
+            drawing=NamedDrawing(number, scene, label) if scene else None,
+            known=self.found.identifiabilities[number - 1],
+            groups=groups,
+        )
+
+
+def judged(
+    found: ModelList,
+    engine: Engine,
+    *,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> JudgedList:
+    """Decide all pairs over positive and over complex parameters, and what is identifiable."""
+    subjects = engine.general_subjects(found.models)
+    decided = {
+        view: engine.decisions(
+            subjects, Query(view, inclusion=False), executor=executor, progress=progress
+        )
+        for view in VIEWS
+    }
+    asked = [(subject.model.model,) for subject in subjects]
+    engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
+    known = tuple(engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked)
+    return JudgedList(found.models, decided, known)
+
+
+def _is_named_by_its_text(model: AnyModel) -> bool:
+    if model.network is None or not notations_of(model.name):
+        return False
+    try:
+        return network_of(model.name) == model.network
+    except InputError:
+        return False
