@@ -11,6 +11,52 @@ paper).
 >>> found = select(data, figure_1([1, 2]))
 >>> print(found.selected.chain, round(found.selected.estimate.parameters["k12"], 6))
 2 masses, gap 0, force 1-0, sensor 1-0, damped, ground dampers 1 500.0
+
+What is in a `Selection`, with the records that it holds:
+
+>>> best, task = found.selected, found.task  # a Candidate with its Estimate, the Task with its Cost
+>>> found.explanation.explains, best.practical.rank, found.members[0].name
+(True, 5, '2:1+b1')
+
+>>> found.members[0].twins, found.alternatives, found.readings  # of Twin, Alternative, Reading
+((), (), ())
+>>> found.relied_on[0].name, found.explanation.misses  # of Statement, Miss
+('total inertia', ())
+>>> type(best.practical).__name__, type(found.explanation.scatter).__name__
+('Practical', 'Scatter')
+
+It goes to a file for programs, and comes back:
+
+>>> import json
+>>> from pathlib import Path
+>>> from tempfile import TemporaryDirectory
+>>> from disting.fit import read_model, selection_to_dict
+>>> with TemporaryDirectory() as folder:
+...     file = Path(folder, "fit.json")
+...     _ = file.write_text(json.dumps(selection_to_dict(found)))
+...     read_model(file)[0] == drive
+True
+
+What follows from it:
+
+>>> from disting.fit import confidence, fit_percent, physical, profile, sweep
+>>> [result.name for result in physical(best, task)][:3]  # each a Result
+['total inertia', 'motor inertia', 'load inertia']
+>>> round(fit_percent(best, task, data)), confidence(best, task, omega).amplitude.shape
+(100, (100,))
+>>> profile(best, task, "k12").name, sweep(found.candidates, "collinearity").criterion
+('k12', 'collinearity')
+
+Margins of a controller around it, and how much measuring excludes a rival:
+
+>>> from disting.fit import Controller, designed, gain, margins, plan
+>>> p = np.array([best.estimate.parameters[name] for name in drive.parameters])
+>>> margins(drive, p, Controller(P=0.5, loop="velocity")).stable
+True
+>>> asked = plan(drive, values, Chain(2, damped=True), omega, np.full(100, 0.05))  # a Plan
+>>> measured = FrequencyResponse(asked.rival.cost.measured.omega, predicted(drive, values, omega))
+>>> asked.power > 0.5, gain(asked.rival, measured) > 100, designed(asked).rate
+(True, True, 1000.0)
 """
 
 from disting.fit.judge.admissible import Rule as Rule

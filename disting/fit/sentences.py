@@ -38,6 +38,7 @@ def first_lines(found: Selection) -> tuple[str, ...]:
     """
     return (
         _verdict(found),
+        *_doubled(found),
         *found.quantities,
         *(_explained(found) if found.explanation.explains else _unexplained(found)),
     )[:5]

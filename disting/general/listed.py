@@ -19,6 +19,7 @@ A limit of functions has no larger degree (the larger one of numerator and denom
 of smaller degree has no function g, nor do its own minors.
 """
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 
@@ -27,10 +28,12 @@ from flint import Ordering, fmpq, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx
 from disting.algebra.determinants import minors as subdeterminants
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.errors import InputError
+from disting.general.any_model import in_powers
 from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, solved
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
+from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
 from disting.general.replacement import moved
 from disting.general.target import Target, fibre_equations, rational_values, target
 from disting.model.question import Domain
@@ -41,6 +44,7 @@ from disting.network.network import Network
 REMEMBERED = 512
 MOST_ELEMENTS = 6  # of a network of which all minors are looked at
 Values = dict[str, Fraction]
+PLACES = [place_name(i) for i in range(MOST_EXPONENTS)]
 
 
 def having(given: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...] | None:
@@ -61,17 +65,26 @@ def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as is
     shown.
     """
-    if not (isinstance(given, Model) and isinstance(other, Model)) or given.halves != other.halves:
+    if not (isinstance(given, Model) and isinstance(other, Model)):
         return False
     network = other.network
+    if not _is_in_one_variable(given.powers, other.powers):
+        return False
     if network is None or not network.sign_of_one_port or len(network.seen) > MOST_ELEMENTS:
         return False
     goal = _goal(given, values)
     if goal is None or _positive(goal, other) != ():
         return False
     degree = max(len(goal.numerator), len(goal.denominator)) - 1
-    minors = _of_degree(network, degree, other.halves)
+    matched = placed_network(network, other.powers)
+    minors = _of_degree(matched, degree, replace(other.powers, lost=0))
     return minors is not None and all(_positive(goal, m) == () for m in minors)
+
+
+def _is_in_one_variable(one: Powers, other: Powers) -> bool:
+    """Whether both count powers of the same v."""
+    weights = zip(one.weights, other.weights, strict=False)
+    return one.halves == other.halves and all(a == b for (_, a), (_, b) in weights)
 
 
 def _goal(given: Model, values: Values) -> Target | None:
@@ -94,7 +107,7 @@ def _positive(goal: Target, other: Model) -> tuple[Equivalent, ...] | None:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _of_degree(network: Network, degree: int, halves: bool) -> tuple[Model, ...] | None:
+def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ...] | None:
     """The minors of at least this degree, one for each function; None where not all are known."""
     todo, met, kept = [network], {network}, dict[object, Model]()
     while todo:
@@ -106,24 +119,17 @@ def _of_degree(network: Network, degree: int, halves: bool) -> tuple[Model, ...]
                     if found is None or found in met:
                         continue
                     met.add(found)
-                    model = Model.from_network(found)
+                    made = Model.from_network(found)
                 except InputError:
                     return None
-                if halves and not model.halves:
-                    model = _in_halves(model)
+                known = PLACES[: len(powers.weights)]
+                if not set(made.powers.exponents) <= set(known):
+                    return None
+                model = in_powers(made, powers, [known.index(n) for n in made.powers.exponents])
                 if max(model.degrees) >= degree:
                     kept.setdefault(model.content, model)
                     todo.append(found)
     return tuple(kept.values())
-
-
-def _in_halves(model: Model) -> Model:
-    """The same in powers of s^(1/2)."""
-    spread = [
-        tuple(part for terms in side for part in (terms, ()))[:-1]
-        for side in (model.numerator_terms, model.denominator_terms)
-    ]
-    return Model(model.parameters, spread[0], spread[1], model.name, True)
 
 
 def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:

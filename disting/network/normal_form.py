@@ -3,8 +3,10 @@ they are made of parts that can replace each other.
 
 Parts. A part is a one-port: elements between two nodes that nothing else touches inside. An element
 has the compliance (a circuit's: the impedance) 1/(p s^r). Let a part be of two kinds, A with the
-smaller r, B with the larger one, in series and parallel in any order. With x = s^(r_B - r_A) its
-compliance is s^(-r_A) F(x), F made of constants k (A) and of k/x (B) by sums and H -> 1/(x H).
+smaller r, B with the larger one (of constant phase elements in any order: with A and B exchanged
+x becomes 1/x, and K(n, c, z) K(n, z, c)), in series and parallel in any order. With x = s^(r_B -
+r_A) its compliance is s^(-r_A) F(x), F made of constants k (A) and of k/x (B) by sums and H -> 1/(x
+H).
 
 THEOREM (Foster, Cauer). K(n, c, z) is the set of F = [k] + [k_0/x] + sum of n terms k_i/(x + a_i),
 positive, a_i distinct, the first term there if c, the second one if z. All parts with the same n,
@@ -51,23 +53,25 @@ from disting.network.graph import joined
 from disting.network.network import Network
 
 REMEMBERED = 4096  # networks
-Count = tuple[tuple[tuple[int, int], int], ...]
-"""How many terms of which two kinds, the smaller power first."""
+Power = tuple[int, str]
+"""Of s: 2 r, and the exponent of a constant phase element, which is added to r."""
+Count = tuple[tuple[tuple[Power, Power], int], ...]
+"""How many terms of which two kinds, in order."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Part:
-    """A part in series ("S") or parallel ("P"): the powers r (in halves) of its single elements,
-    its terms of two kinds, and parts of three kinds or more, written out.
+    """A part in series ("S") or parallel ("P"): the powers r of its single elements, its terms of
+    two kinds, and parts of three kinds or more, written out.
     """
 
     form: str
-    single: tuple[int, ...]
+    single: tuple[Power, ...]
     terms: Count = ()
     others: tuple["Part", ...] = ()
 
     @property
-    def kinds(self) -> set[int]:
+    def kinds(self) -> set[Power]:
         """Powers of all that is in it."""
         inside = {r for pair, _ in self.terms for r in pair}
         return {*self.single, *inside, *(r for part in self.others for r in part.kinds)}
@@ -120,7 +124,7 @@ def in_parallel(parts: Iterable[Part]) -> Part:
 
 
 def _joined(form: str, parts: Iterable[Part]) -> Part:
-    single, terms, others = set[int](), Counter[tuple[int, int]](), list[Part]()
+    single, terms, others = set[Power](), Counter[tuple[Power, Power]](), list[Part]()
     for part in parts:
         inside = part if part.form == form or len(part.single) == 1 == len(part.kinds) else None
         if inside is None and len(part.kinds) == 2:
@@ -154,7 +158,7 @@ def _turned(part: Part) -> Part:
 
 def _of_graph(network: Network) -> NormalForm:
     """Parts between nodes that are no ends of ports and have two neighbours become one."""
-    labelled = [(e.nodes, Part("S", (e.kind.halves,))) for e in network.seen]
+    labelled = [(e.nodes, Part("S", (e.power,))) for e in network.seen]
     kept = {i for p in network.ports for i in (p.plus, p.minus)}
     edges = joined(labelled, kept, in_series, in_parallel)
     listed = (tuple(sorted(ends)) for ends in edges)

@@ -20,7 +20,7 @@ from disting.report.drawing import draw
 from disting.report.model import folder_of
 from disting.report.page_drawing import Part
 from disting.report.scene import Layer
-from disting.report.words import short_title
+from disting.report.words import not_known, short_title
 from disting.verdict.result import Relation
 
 
@@ -87,6 +87,7 @@ def _machine(c: Catalog) -> dict[str, object]:
         "groups": c.classes(),
         "depends": _depending(c),
         "open": _undecided(c),
+        "known": {row.number: said for row in c.rows if (said := not_known(row))},
     }
 
 

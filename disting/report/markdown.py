@@ -1,11 +1,12 @@
 """Pages of Markdown as pages of the site.
 
-Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
-to another page of the guide, or to a notebook, leads to the rendered page; hard words lead to the
-glossary (`disting.report.glossary`); a link that leads
-elsewhere has no place in the site and stays as its words. An image is a drawing (SVG) beside the
-pages, and becomes a part of the page. A block named "picture" holds a model a line, such as `3:1
---damped`, and is shown as their drawings; what follows a name is for those who read the text.
+Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A
+link to another page of the guide, or to a notebook, leads to the rendered page; hard words lead
+to the glossary (`disting.report.glossary`); a link that leads elsewhere has no place in the site
+and stays as its words. An image is a drawing (SVG) beside the pages, and becomes a part of the
+page. A block named "picture" holds a model a line, such as `3:1 --damped`, or a network, and is
+shown as their drawings; what follows the name of a chain is for those who read the text, what
+follows a network is said below it.
 """
 
 import re
@@ -21,9 +22,11 @@ from markupsafe import Markup, escape
 
 from disting.model.family import Family
 from disting.model.names import chain_of
+from disting.network.notation import network_of, notations_of
 from disting.report import glossary
 from disting.report.drawing import draw
-from disting.report.scene import PAGE_PALETTE
+from disting.report.network_drawing import draw_network
+from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body
 
 # letters; a table with two such cells in a row is read row by row where the screen is narrow
@@ -148,15 +151,23 @@ def _drawing(
 
 def _pictures(lines: Sequence[str]) -> str:
     """Drawings of the models that a block names."""
-    return "".join(_picture(*re.split(r"\s{2,}", line)[:1]) for line in lines)
+    return "".join(_picture(*re.split(r"\s{2,}", line, maxsplit=1)) for line in lines)
 
 
-def _picture(model: str) -> str:
+def _picture(model: str, said: str = "") -> str:
+    """A chain with its drawing in words; a network with what is said of it."""
+    if notations_of(model):
+        scene = draw_network(network_of(model))
+        return _figure(scene, said)
     name, _, option = model.partition(" ")
     scene = draw(chain_of(name, Family(1, damped=option == "--damped")))
+    return _figure(scene, f"{name}: {scene.title}")
+
+
+def _figure(scene: Scene, said: str) -> str:
     size = f'width="{scene.width * ENLARGED:.0f}" viewBox="0 0 {scene.width:g} {scene.height:g}"'
     drawn = Markup(f'<svg class="chain" {size}>{body(scene, PAGE_PALETTE)}</svg>')
-    return FIGURE.format(drawn, f"{name}: {scene.title}")
+    return FIGURE.format(drawn, said)
 
 
 def _code(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from disting.catalogs import Catalog, ModelRow
+from disting.catalogs import Catalog
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.next_files import NextCatalog
 from disting.catalogs.sizes_files import name_of as sizes_name
@@ -28,8 +28,16 @@ from disting.report.motion import start_values
 from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sketches_for_pairs
 from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
-from disting.report.words import VIEW_TITLES, headline, listed, plural, short_title, title, totals
-from disting.verdict.meaning import undetermined
+from disting.report.words import (
+    VIEW_TITLES,
+    headline,
+    listed,
+    not_known,
+    plural,
+    short_title,
+    title,
+    totals,
+)
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -147,11 +155,6 @@ def _payload(
             for pair, sketches in sketches_for_pairs(further).items()
         },
     )
-
-
-def not_known(row: ModelRow) -> str:
-    """What cannot be determined of a model, named {0}; "" where there is nothing."""
-    return undetermined("{0}", row.rank, row.n_parameters)
 
 
 def summary(catalog: Catalog, view: View) -> str:

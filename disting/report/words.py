@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterator, Sized
 from typing import Protocol
 
-from disting.catalogs import Catalog
+from disting.catalogs import Catalog, ModelRow
 from disting.conditions.rule import RULES
 from disting.model.presentation import plural as plural
 from disting.model.question import Domain
+from disting.verdict.meaning import undetermined
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -25,6 +26,13 @@ SAID = {relation: relation.value for relation in Relation} | {
     Relation.SOMETIMES: "sometimes indistinguishable",
 }
 """Relations as pages name them."""
+
+
+def not_known(row: ModelRow) -> str:
+    """What cannot be determined of a model, which pages name in the place of {0}; "" where there is
+    nothing.
+    """
+    return undetermined("{0}", row.rank, row.n_parameters)
 
 
 class Decided(Protocol):

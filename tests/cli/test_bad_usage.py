@@ -59,7 +59,7 @@ WORDS = [
     (("simulate", "--seed", "-1"), "at least 0"),
     (("simulate", "--quantum", "nan"), "finite and not negative"),
     (("simulate", "--samples", "99999999999"), "not enough memory"),
-    (("fit",), "or --demo"),
+    (("fit",), "--demo shows a fit"),
     ((*DEMO, "--test", "x.csv"), "--demo brings its own data"),
     ((*DEMO, "--read", "to=velocity"), "--demo brings its own data"),
     ((*DEMO, "--profiles"), "--out"),

@@ -111,6 +111,7 @@ def test_test_data_that_are_the_training_data_are_said(tmp_path):
     path = file_of(tmp_path / "a.csv", "acceleration")
     found = fitted(path, (1,), test=read(path))
     assert any("training and test data are the same numbers" in said for said in suspicions(found))
+    assert "training and test data are the same numbers" in first_lines(found)[1]
     other = fitted(path, (1,), test=read(file_of(tmp_path / "b.csv", "acceleration", 2)))
     assert not any("the same numbers" in said for said in suspicions(other))
 

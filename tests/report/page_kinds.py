@@ -28,7 +28,7 @@ from tests.report.test_model_list import MODELS, hostile, of
 REPORTS = Path(__file__).parents[2] / "reports"
 SHIPPED = ("paper", "notebooks")  # parts of the site that other commands write, in minutes
 LONG = (
-    "fit", "glossary", "theorems", "notebook", "notebook-bench-commissioned", "commands",
+    "fit", "glossary", "theorems", "gallery", "notebook-bench-commissioned", "commands",
     "python-measurement",
 )  # fmt: skip
 SIGHTS = ((1280, 800), (1920, 1080), (390, 844), (320, 640))

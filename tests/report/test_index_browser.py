@@ -36,7 +36,7 @@ DESCRIBE = """(descriptions) => JSON.stringify(descriptions.map(([masses, damper
   const uses = [...form.querySelectorAll("use")].map((use) => use.getAttribute("href"));
   const links = (name) => [...form.querySelectorAll(`[data-slot="${name}"] a`)].map((a) => a.getAttribute("href"));
   return {
-    model: form.dataset.model, number: read("number"), remark: read("remark"), said: read("twins"),
+    model: form.dataset.model, number: read("number"), remark: read("remark"), said: read("twins"), known: read("known"),
     twins: links("twins"), links: links("links"), uses, missing: uses.filter((use) => !document.querySelector(use)),
     label: form.querySelector("svg").getAttribute("aria-label"),
     offered: form.elements.force.options.length * form.elements.sensor.options.length,
@@ -79,6 +79,9 @@ def test_every_model_is_reached_by_its_description(visit) -> None:  # type: igno
                 f"models/{n}-{kind}/{number}.html",
                 f"{shipped.name}.html#A{number}",
             ]
+            row = shipped.rows[number - 1]
+            rank = f"fixes {row.rank} combination{'s' * (row.rank != 1)} of its {row.n_parameters}"
+            assert rank in found["known"] if row.rank < row.n_parameters else not found["known"]
             group = next((g for g in groups if number in g), (number,))
             pairs = [sorted((number, other)) for other in group if other != number]
             assert found["twins"] == [f"{shipped.name}.html#{low}-{high}" for low, high in pairs]

@@ -74,6 +74,7 @@
     const links = (of) => of.flatMap((other, at) => [at ? ", " : "", link(`A${other}`, `${c.name}.html${pairHash([number, other])}`, `A${other}: verdict and evidence`)]);
     put("number", `A${number} of ${c.title}`);
     put("remark", how ? `Listed with ${how}: the transfer function is the same.` : "");
+    put("known", (c.known[number] || "").replace("{0}", `A${number}`)); // before any "distinguishable"
     put("twins", ...(twins.length ? [
       `Whatever its positive parameters, ${twins.length} other ${one ? "model" : "models"} cannot be told apart from it with this force and sensor: `,
       ...links(twins), ".",
