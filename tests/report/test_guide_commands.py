@@ -27,6 +27,8 @@ CHEAP = tuple(
         "models 3",
         "models vessels",
         "models decay",
+        "models mill",
+        "compare mill",
         "next",
         "schema",
         "simulate",
