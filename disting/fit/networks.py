@@ -13,13 +13,22 @@ import numpy as np
 
 from disting.errors import InputError, listed
 from disting.fit.judge.exclusion import basis_of, limit, statistic
-from disting.fit.judge.explanation import FEW_CLEAR, Miss, explanation
+from disting.fit.judge.explanation import FEW_CLEAR, Miss
 from disting.fit.judge.practical import Seen
-from disting.fit.noise.covariance import expected, noise
-from disting.fit.noise.scatter import Scatter, scatter
+from disting.fit.judge.responses import explained, noises, scatters, together
+from disting.fit.noise.covariance import expected
+from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.descent import Box, fine, rough
-from disting.fit.search.network_plant import NetworkPlant, measured_as, random_starts
+from disting.fit.search.joint import AnyCost, JointCost
+from disting.fit.search.network_plant import (
+    AnyNetworkPlant,
+    NetworkPlant,
+    NetworkPlants,
+    measured_as,
+    random_starts,
+)
+from disting.fit.search.setup import Setup
 from disting.fit.search.whitened import Whitened
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse
@@ -137,14 +146,15 @@ class NetworkSelection(Shown):
 
 
 def fit_networks(
-    measured: FrequencyResponse,
+    measured: FrequencyResponse | Sequence[FrequencyResponse],
     networks: Sequence[Network],
     *,
     engine: Engine | None = None,
     progress: Progress = silent,
 ) -> NetworkSelection:
-    """Fit networks with one input and one output to a measured response; `measured.sensor` says
-    what sensors of machines show, an impedance is that of circuits. Raises InputError.
+    """Fit networks to a measured response, or to several: those of the first sensor to all inputs,
+    then those of the next one, as a `MatrixModel` has its rows. `measured.sensor` says what sensors
+    of machines show, an impedance is that of circuits. Raises InputError.
 
     >>> import numpy as np
     >>> from disting.network import network_of
@@ -155,23 +165,19 @@ def fit_networks(
     >>> fit_networks(cell, candidates).sentence
     'R0-p(R1,C1) is the simplest that explains the data, which cannot be told from p(R0,R1-C1).'
     """
-    asked = [measured_as(network, measured) for network in networks]
-    for network in asked:
-        if network.shape != (1, 1):
-            raise InputError(f"{network.name} has several inputs or outputs: fit one of each")
-    if not asked:
-        raise InputError("name at least one network to fit")
+    data = [measured] if isinstance(measured, FrequencyResponse) else list(measured)
+    asked = _asked(data, networks)
     engine = engine or Engine()
     subjects = engine.general_subjects([of_network(network) for network in asked])
     decided = engine.decisions(subjects, Query(View.POSITIVE, inclusion=False))
     first = _first_of_same(decided, len(asked))
-    cost, found = Cost(measured, Case.LOGARITHM), list[tuple[NetworkPlant, Real]]()
+    cost, found = _cost(data), list[tuple[AnyNetworkPlant, Real]]()
     chosen = [i for i, k in enumerate(first) if i == k]
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
-        plant = NetworkPlant(asked[i], measured.omega)
-        found.append((plant, _searched(plant, cost, measured, i)))
-    known = scatter(measured, [plant.response(p) for plant, p in found])
+        plant = _plant(asked[i], data)
+        found.append((plant, _searched(plant, cost, data[0], i)))
+    known = together(scatters(cost, [plant.response(p) for plant, p in found]))
     fits = [
         replace(
             _judged(plant, p, cost, known, subjects[i].rank),
@@ -185,6 +191,41 @@ def fit_networks(
     return replace(whole, fits=tuple(order))
 
 
+def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> list[Network]:
+    """The networks with sensors that show what was measured; raises InputError."""
+    if not networks or not data:
+        raise InputError("name at least one network to fit, and a measured response")
+    asked = [measured_as(network, data[0]) for network in networks]
+    for network in asked:
+        outputs, inputs = network.shape
+        if network.shape != asked[0].shape:
+            raise InputError(
+                f"{network.name} has {outputs} x {inputs} outputs and inputs, {asked[0].name} has"
+                f" {' x '.join(map(str, asked[0].shape))}: fit them apart"
+            )
+        if outputs * inputs != len(data):
+            raise InputError(
+                f"{network.name} has {outputs} x {inputs} outputs and inputs: give as many measured"
+                f" responses, not {len(data)}"
+            )
+    if len({one.sensor for one in data}) > 1:
+        raise InputError("sensors of a network show one quantity: give the responses in one")
+    return asked
+
+
+def _cost(data: Sequence[FrequencyResponse]) -> AnyCost:
+    costs = tuple(Cost(one, Case.LOGARITHM) for one in data)
+    if len(costs) == 1:
+        return costs[0]
+    return JointCost(costs, tuple(Setup(sensor=str(k)) for k in range(1, len(costs) + 1)))
+
+
+def _plant(network: Network, data: Sequence[FrequencyResponse]) -> AnyNetworkPlant:
+    if len(data) == 1:
+        return NetworkPlant(network, data[0].omega)
+    return NetworkPlants(network, tuple(one.omega for one in data))
+
+
 def _first_of_same(decided: Decisions, count: int) -> list[int]:
     """For each network the first one that gives the same responses for all positive values."""
     first = list(range(count))
@@ -196,7 +237,9 @@ def _first_of_same(decided: Decisions, count: int) -> list[int]:
     return first
 
 
-def _searched(plant: NetworkPlant, cost: Cost, measured: FrequencyResponse, number: int) -> Real:
+def _searched(
+    plant: AnyNetworkPlant, cost: AnyCost, measured: FrequencyResponse, number: int
+) -> Real:
     """The best values found."""
     draw = np.random.default_rng((SEED, number))
     starts = random_starts(plant, measured, STARTS, draw)
@@ -209,7 +252,7 @@ def _searched(plant: NetworkPlant, cost: Cost, measured: FrequencyResponse, numb
 
 
 def _judged(
-    plant: NetworkPlant, start: Real, cost: Cost, known: Scatter, rank: int
+    plant: AnyNetworkPlant, start: Real, cost: AnyCost, known: Scatter, rank: int
 ) -> FittedNetwork:
     """Brought to the last digit in units of the scatter, and seen beside it."""
     whitened = Whitened(cost, known)
@@ -217,7 +260,7 @@ def _judged(
     residual, columns = whitened.of(plant, p)
     ones = np.ones(len(residual))
     missed = expected(columns, ones)
-    seen = explanation(residual, missed, cost, known)
+    seen = explained(cost, residual, missed, known)
     level = seen.chi2
     return FittedNetwork(
         network=plant.network,
@@ -227,7 +270,7 @@ def _judged(
         chi2=level,
         residual=residual,
         basis=basis_of(columns),
-        noise=noise(residual, ones, missed),
+        noise=noises(cost, residual, ones, missed),
         explains=seen.explains,
         misses=seen.misses,
     )

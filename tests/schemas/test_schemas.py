@@ -55,7 +55,9 @@ MODELS = {
         {"name": "decay", "A": [["-k"]], "C": [1], "x0": ["c"]},
         {
             "name": "train",
-            "components": [{"name": "A", "elements": [{"name": "B", "type": "Disk", "inertia": 2}]}],
+            "components": [
+                {"name": "A", "elements": [{"name": "B", "type": "Disk", "inertia": 2}]}
+            ],
             "structure": [],
             "force": "A.B",
             "sensor": "A.B",
