@@ -195,6 +195,29 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
     assert (low, high) == pytest.approx((1e-3, 1e-2), rel=0.05)
 
 
+def test_an_exponent_is_found_and_a_capacitor_excluded():
+    texts = ["R0-p(R1,C1)", "R0-p(R1,P1)", "p(R0,R1-P1)", "R0-p(R1,W1)"]
+    plant = NetworkPlant(network_of(texts[1]), np.logspace(0, 5, 60))
+    assert plant.parameters == ("P1", "R0", "R1", "n1")
+    noise = 2e-3 * np.random.default_rng(5).normal(size=(60, 2)) @ [1, 1j]
+    measured = plant.response(np.array([1e-4, 10.0, 50.0, 0.83])) * (1 + noise)
+    data = FrequencyResponse(plant.omega, measured, sensor="position")
+    found = fit_networks(data, list(map(network_of, texts)))
+    assert [f.network.name for f in found.left] == [texts[1]]
+    best = found.left[0]
+    assert (best.same, best.rank) == ((texts[2],), 4)
+    assert best.values["n1"] == pytest.approx(0.83, abs=5e-3)
+    assert best.relative["n1"] == pytest.approx(2e-3, rel=2)
+
+
+@needs_data
+def test_a_capacitor_is_a_constant_phase_element_of_exponent_one():
+    """A dummy cell of resistors and a capacitor: 150 and 502 ohm, published."""
+    (fit,) = fit_networks(read(DATA / "Circuit2_EIS_1.z"), [network_of("R0-p(R1,CPE1)")]).fits
+    assert fit.values["n1"] == pytest.approx(1, abs=5e-3)
+    assert (fit.values["R0"], fit.values["R1"]) == pytest.approx((150, 502), rel=5e-3)
+
+
 @needs_data
 @pytest.mark.parametrize(
     ("file", "published"),
