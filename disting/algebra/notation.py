@@ -9,7 +9,7 @@ parameters are, but for the frequency variable s.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
@@ -57,10 +57,10 @@ def quotient(
     below: Sequence[Polynomial],
     *,
     evaluate: bool = True,
-    halves: bool = False,
+    power: Callable[[int], Expr] = int,
 ) -> Expr:
     """A rational function of s, from the coefficients of the powers 0, 1, .. of numerator and
-    denominator; with `halves` of the powers 0, 1/2, 1, ..
+    denominator, or of those that `power` makes of 0, 1, ..
 
     >>> from disting.algebra.symbols import symbols
     >>> k, m = symbols(["k", "m"]).values()
@@ -69,7 +69,7 @@ def quotient(
     """
     from sympy import Rational
 
-    (n, top), (d, bottom) = (_in_s(side, evaluate, halves) for side in (above, below))
+    (n, top), (d, bottom) = (_in_s(side, evaluate, power) for side in (above, below))
     return _product((Rational(n, d), [*top, *((x, -e) for x, e in bottom)]), evaluate)
 
 
@@ -147,19 +147,17 @@ def split_name(name: str) -> tuple[str, str]:
     return head[0], name[head.end() :].strip("_").replace("_", ",")
 
 
-def _in_s(coefficients: Sequence[Polynomial], evaluate: bool, halves: bool) -> Product:
+def _in_s(
+    coefficients: Sequence[Polynomial], evaluate: bool, power: Callable[[int], Expr]
+) -> Product:
     """A polynomial in s as one product: a sum with brackets around its longer coefficients, or
     its only term.
     """
-    from sympy import Rational
-
     found: list[Product] = []
     for i, coefficient in enumerate(coefficients):
         products = _products(terms(coefficient))
         shown = [(1, [(_added(products, evaluate), 1)])] if i and len(products) > 1 else products
-        found += [
-            (number, [*powers, (symbol("s"), Rational(i, 1 + halves))]) for number, powers in shown
-        ]
+        found += [(number, [*powers, (symbol("s"), power(i))]) for number, powers in shown]
     return found[0] if len(found) == 1 else (1, [(_added(found, evaluate), 1)])
 
 

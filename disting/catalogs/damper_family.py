@@ -6,21 +6,23 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 
-from disting.catalogs.damper_settled import preload, read_settled
+from disting.catalogs.damper_settled import read_settled
 from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.export import premise_text
-from disting.catalogs.files import shipped_folder
 from disting.errors import InputError
 from disting.model.family import Family
 from disting.model.presentation import plural, summary
-from disting.questions.same.low_cost import PATIENTLY, SETTLED, SHARING
+from disting.model.symmetry import canonical
+from disting.questions.same.low_cost import PATIENTLY
 from disting.verdict.classes import Classes
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.grouping import classes
 from disting.verdict.result import Relation
 
-# masses: there shares and ideals are asked where the synthesis is silent; for 5 they take hours
+# masses: there shares and ideals are asked where the synthesis is silent; for 5 they take up to
+# hours, and `disting catalog settle` asks them once
 PATIENT_UP_TO = 4
 Name = tuple[int, Masses]
 """A model: its number in the family and the masses with a damper to the ground."""
@@ -96,7 +98,7 @@ def damper_family(
     *,
     damped: bool = True,
     which: DamperSets = DamperSets.ALL,
-    patient: bool = False,
+    folder: Path | None = None,
     engine: Engine | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
@@ -104,8 +106,7 @@ def damper_family(
     """The classes of a family with sets of ground dampers; what is finished is in the engine's
     store, so that a run resumes.
 
-    `patient`: ask the shares and the ideals of fibres for more than PATIENT_UP_TO masses too; what
-    was settled with them once is shipped and always known.
+    What was settled once is taken over: it is shipped, and may be in a `folder` of one's own.
 
     >>> found = damper_family(2, damped=True)
     >>> len(found), found.look_up((2, (1,)), (2, (2,)))[0].value
@@ -113,8 +114,12 @@ def damper_family(
     """
     family, sets = Family(n_masses, damped), which.of(n_masses)
     chains = [replace(chain, ground_dampers=masses) for chain in family for masses in sets]
-    more = [SETTLED, *([SHARING, PATIENTLY] if n_masses <= PATIENT_UP_TO or patient else [])]
-    engine = engine or Engine()
-    preload(engine, read_settled(shipped_folder()), [engine.subject("", c) for c in chains])
-    found = classes(chains, engine, more=more, executor=executor, progress=progress)
+    found = classes(
+        chains,
+        engine or Engine(),
+        settled=read_settled((canonical(chain).chain for chain in chains), folder),
+        more=[PATIENTLY] if n_masses <= PATIENT_UP_TO else [],
+        executor=executor,
+        progress=progress,
+    )
     return DamperFamily(family, sets, found)

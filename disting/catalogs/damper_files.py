@@ -4,8 +4,8 @@ masses.
 `dampers-<masses>-<undamped|damped>.jsonl`: a header with the pairs of classes that are undecided,
 then a line a model of the family with a list for each of its sets of dampers, in the order of
 `DamperSets.ALL`: `columns` (buckets of the tests that the header names, 10 for the exact decision;
-null where not known), `group`, `renamed`, `free` and `rank`, as in `verdict.classes`. The evidence
-is not kept: `compare` gives it.
+null where not known), `group`, `renamed`, `free` and `rank`, as in `verdict.classes`. Evidence is
+kept of what was settled once (`damper_settled`); of all else `compare` gives it.
 """
 
 import json
@@ -49,7 +49,7 @@ def damper_catalog(n_masses: int, *, damped: bool = True) -> DamperFamily:
     return read(shipped_folder(), n_masses, damped)
 
 
-def text_of(found: DamperFamily, settings: Settings, *, patient: bool = False) -> str:
+def text_of(found: DamperFamily, settings: Settings) -> str:
     """The file's text, naming the command that found it; the bytes do not depend on the machine
     or the order of the work.
     """
@@ -61,7 +61,7 @@ def text_of(found: DamperFamily, settings: Settings, *, patient: bool = False) -
         "sets": size,
     }
     header |= {
-        "command": f"{COMMAND} {family.n_masses}{' --patient' * patient}",
+        "command": f"{COMMAND} {family.n_masses}",
         "settings": settings.to_dict(),
         "tests": list(map(_written, classes.tests)),
     }
@@ -92,21 +92,11 @@ def read(folder: Path, n_masses: int, damped: bool) -> DamperFamily:
         raise CatalogError(f"{path} cannot be read ({reason}); {remedy}") from None
 
 
-def was_patient(folder: Path, n_masses: int, damped: bool) -> bool:
-    """Whether a file was made with --patient."""
-    header = (
-        (folder / f"{name_of(n_masses, damped)}.jsonl")
-        .read_text(encoding="utf-8")
-        .partition("\n")[0]
-    )
-    return str(json.loads(header)["command"]).endswith("--patient")
-
-
-def write(found: DamperFamily, settings: Settings, folder: Path, *, patient: bool = False) -> Path:
+def write(found: DamperFamily, settings: Settings, folder: Path) -> Path:
     """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
     name = name_of(found.family.n_masses, found.family.damped)
-    path = write_whole(folder / f"{name}.jsonl", [text_of(found, settings, patient=patient)])
+    path = write_whole(folder / f"{name}.jsonl", [text_of(found, settings)])
     write_provenance(folder)
     return path
 

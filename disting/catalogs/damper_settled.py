@@ -1,32 +1,39 @@
-"""Pairs of chains with dampers to the ground that were decided once with much time:
+"""Pairs of chains with dampers to the ground that were decided once, with patience:
 `settled-dampers.jsonl`, shipped.
 
-A line a pair of canonical chains with its finding; `damper_family` takes over what it finds there.
+A line a pair of canonical chains with its finding, which has its evidence. `damper_family` takes
+over what it finds there; that the evidence holds is looked at by itself (`holds`).
 """
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
 
 from disting.conditions.finding import Finding
-from disting.files import intact_text
+from disting.evidence.ideals import Refuted, Solved
+from disting.files import intact_text, shipped_folder
 from disting.model.chain import Chain
-from disting.questions.same.low_cost import SETTLED
-from disting.verdict.chain_side import ComparedChain
-from disting.verdict.engine import Engine, question_key
+from disting.model.question import Settings
+from disting.questions.same.evidence_check import Witness
+from disting.questions.same.exact import exact_again
 
 FILE = "settled-dampers.jsonl"
-Settled = dict[tuple[str, str], Finding]
-"""Findings on ordered pairs of canonical chains, by their texts."""
+Settled = dict[tuple[Chain, Chain], Finding]
+"""Findings on ordered pairs of canonical chains."""
 
 
-def read_settled(folder: Path) -> Settled:
-    """What the folder's file holds; nothing if there is none."""
-    path = folder / FILE
-    records = (
-        [json.loads(line) for line in intact_text(path).splitlines()] if path.is_file() else []
-    )
-    return {(r["left"], r["right"]): Finding.from_json(json.dumps(r["finding"])) for r in records}
+def read_settled(canonical_chains: Iterable[Chain], folder: Path | None = None) -> Settled:
+    """What is settled of these canonical chains: in the shipped file, and in the folder's own."""
+    named = {str(chain): chain for chain in canonical_chains}
+    found = Settled()
+    folders = dict.fromkeys(where.resolve() for where in (shipped_folder(), folder) if where)
+    for path in (where / FILE for where in folders):
+        for text in intact_text(path).splitlines() if path.is_file() else ():
+            record = json.loads(text)
+            if record["left"] in named and record["right"] in named:
+                pair = named[record["left"]], named[record["right"]]
+                found[pair] = Finding.from_json(json.dumps(record["finding"]))
+    return found
 
 
 def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
@@ -40,10 +47,16 @@ def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
         file.write(json.dumps(record, separators=(",", ":")) + "\n")
 
 
-def preload(engine: Engine, known: Settled, subjects: Sequence[ComparedChain]) -> None:
-    """Let the engine know the findings on these subjects."""
-    chains = {str(s.canonical.chain): s.canonical.chain for s in subjects}
-    for names, finding in known.items():
-        if chains.keys() >= set(names):
-            pair = (chains[names[0]], chains[names[1]])
-            engine.answers[question_key(SETTLED, pair, engine.settings)] = finding
+def holds(found: Finding, first: Chain, second: Chain, settings: Settings) -> bool:
+    """Whether a finding on two canonical chains of equal rank is what its evidence shows.
+
+    Outcome, bound and labels are compared with those that the settings draw. Shares are refuted
+    once more at the same point; of ideals, every solution is put into both transfer functions, and
+    a contradiction is found again at one fresh point. Raises NotSeenError where that takes too
+    long.
+    """
+    if found.evidence is None or found != exact_again(found.evidence, first, second, settings):
+        return False
+    if isinstance(found.evidence, Solved | Refuted):  # of these, only the labels were drawn again
+        return Witness().confirms(found.evidence, "fibre", first, second)
+    return True

@@ -1,25 +1,31 @@
 """Verifies a file of classes with dampers to the ground: its bytes against a rebuilt one, and
-what was settled once.
+what was settled once by its evidence.
 
 Settles what the classes with dampers to the ground leave open, a pair of classes after the
 other, each kept at once.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs.damper_family import DamperFamily, damper_family
-from disting.catalogs.damper_files import name_of, read, text_of, was_patient
-from disting.catalogs.damper_settled import append, read_settled
-from disting.conditions.finding import Outcome
+from disting.catalogs.damper_files import name_of, read, text_of
+from disting.catalogs.damper_settled import append, holds, read_settled
+from disting.conditions.finding import Finding, Outcome
+from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
-from disting.questions.same.evidence_check import Witness
-from disting.questions.same.low_cost import sharing_finding
+from disting.questions.same.low_cost import patient_finding
 from disting.verdict.chain_side import ComparedChain
-from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.engine import Engine, Progress, mapped, silent
 from disting.verdict.result import Relation
+
+Places = tuple[int, int]
+DECIDES = {
+    Outcome.HOLDS: Relation.INDISTINGUISHABLE,
+    Outcome.FAILS: Relation.DISTINGUISHABLE,
+}
 
 
 def verify_dampers(
@@ -34,63 +40,96 @@ def verify_dampers(
     """Everything that is wrong with a file and with what was settled for it, in sentences;
     empty if nothing is.
     """
-    stored, patient = read(folder, n_masses, damped), was_patient(folder, n_masses, damped)
+    stored = read(folder, n_masses, damped)
     rebuilt = damper_family(
         n_masses,
         damped=damped,
-        patient=patient,
+        folder=folder,
         engine=engine,
         executor=executor,
         progress=progress,
     )
     name = name_of(n_masses, damped)
-    wrong = list(false_settled(stored, folder, progress))
-    if (folder / f"{name}.jsonl").read_text(encoding="utf-8") != text_of(
-        rebuilt, engine.settings, patient=patient
-    ):
+    wrong = list(false_settled(stored, folder, engine.settings, executor, progress))
+    there = (folder / f"{name}.jsonl").read_text(encoding="utf-8")
+    if there != text_of(rebuilt, engine.settings):
         wrong.append(f"{name} is not what is computed now")
     return wrong
 
 
-def false_settled(stored: DamperFamily, folder: Path, progress: Progress = silent) -> Iterator[str]:
+def false_settled(
+    stored: DamperFamily,
+    folder: Path,
+    settings: Settings,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> Iterator[str]:
     """Yield a sentence for each settled pair of the family whose evidence does not hold, or
     that the file contradicts.
     """
-    place = {str(canonical(chain).chain): i for i, chain in enumerate(stored.found.chains)}
-    known = {
-        names: found for names, found in read_settled(folder).items() if place.keys() >= set(names)
-    }
-    witness = Witness()
-    for done, (names, found) in enumerate(known.items(), 1):
-        left, right = (place[name] for name in names)
+    classes = stored.found
+    place = {canonical(chain).chain: i for i, chain in enumerate(classes.chains)}
+    known = read_settled(place, folder)
+    asked = [(found, *pair, settings) for pair, found in known.items()]
+    for done, ((found, *chains, _), is_true) in enumerate(mapped(holds, asked, executor), 1):
+        left, right = (place[chain] for chain in chains)
         pair = stored.pair_text(left, right)
-        chains = (canonical(stored.found.chains[i]).chain for i in (left, right))
-        if found.evidence is None or not witness.confirms(found.evidence, "fibre", *chains):
+        if not is_true or classes.rank[left] != classes.rank[right]:
             yield f"{pair}: the evidence does not hold"
-        if stored.found.relation(left, right) is not Relation.DISTINGUISHABLE:
+        if classes.relation(left, right) is not DECIDES.get(found.outcome):
             yield f"{pair}: settled, but not in the file"
-        progress("settled evidence", done, len(known))
+        progress("settled evidence", done, len(asked))
 
 
 def settle_dampers(
     found: DamperFamily, folder: Path, settings: Settings, told: Callable[[str], None]
 ) -> int:
-    """Ask the shares about a representative of each open pair of classes that the file does not
-    settle; the number settled. `told` gets a sentence a pair.
+    """Ask shares and ideals about a representative of each open pair of classes that nothing
+    settled; the number settled. `told` gets a sentence a pair.
     """
-    known, count = read_settled(folder), 0
-    for groups in sorted(found.found.open_groups):
-        low, high = (_representative(found, group) for group in groups)
-        one, other = (ComparedChain("", found.found.chains[place]) for place in (low, high))
+    chains = found.found.chains
+    known, count = read_settled({canonical(chain).chain for chain in chains}, folder), 0
+    for low, high in _open(found, known):
+        one, other = (ComparedChain("", chains[place]) for place in (low, high))
         first, second = one.in_order(other)
-        if (str(first), str(second)) in known:
-            continue
-        finding = sharing_finding(first, second, settings)
-        told(f"{found.pair_text(low, high)}: {finding.note or 'distinguishable'}")
-        if finding.outcome is not Outcome.ABANDONED:
+        finding = patient_finding(first, second, settings)
+        decided = DECIDES.get(finding.outcome)
+        told(f"{found.pair_text(low, high)}: {decided or finding.note}")
+        if decided:
             append(folder, first, second, finding)
+            known[first, second] = finding
             count += 1
     return count
+
+
+def _open(found: DamperFamily, known: Mapping[tuple[Chain, Chain], Finding]) -> Iterator[Places]:
+    """Yield representatives of each pair of classes that is open and does not follow from what is
+    known, which may grow meanwhile.
+    """
+    classes = found.found
+    group = {canonical(c).chain: int(g) for c, g in zip(classes.chains, classes.group, strict=True)}
+    for one, other in sorted(classes.open_groups):
+        links = [(group[a], group[b], x.outcome) for (a, b), x in known.items()]
+        root = _united((a, b) for a, b, outcome in links if outcome is Outcome.HOLDS)
+        apart = [{root(a), root(b)} for a, b, outcome in links if outcome is Outcome.FAILS]
+        if root(one) != root(other) and {root(one), root(other)} not in apart:
+            yield _representative(found, one), _representative(found, other)
+
+
+def _united(pairs: Iterable[tuple[int, int]]) -> Callable[[int], int]:
+    """Which of the numbers that equalities link stands for all of them."""
+    above: dict[int, int] = {}
+
+    def root(i: int) -> int:
+        """The last one above."""
+        while i in above:
+            i = above[i]
+        return i
+
+    for a, b in pairs:
+        if root(a) != root(b):
+            above[root(b)] = root(a)
+    return root
 
 
 def _representative(found: DamperFamily, group: int) -> int:

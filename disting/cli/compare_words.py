@@ -182,5 +182,6 @@ def in_letters(
         return letter + str(side).removeprefix("G")
     if isinstance(side, MatrixModel):
         return "{}(s) with {} outputs and {} inputs{}".format(letter, *side.shape, longer)
-    root = ", in powers of sqrt(s)" * side.halves
+    powers = side.powers
+    root = ", in powers of sqrt(s)" * powers.halves + "".join(f", s^{n}" for n in powers.exponents)
     return "{}(s) of degree {} over {}{}{}".format(letter, *side.degrees, root, longer)

@@ -108,11 +108,6 @@ def add_build_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `disting catalog dampers`."""
     add_masses(parser, default="3 4 5")
     add_out(parser, "catalog")
-    text = (
-        "ask the dearest method of what is left for 5 masses and more too: an hour instead of"
-        " minutes"
-    )
-    parser.add_argument("--patient", action="store_true", help=text)
     add_work(parser)
 
 
@@ -126,15 +121,12 @@ def build(options: argparse.Namespace) -> int:
                 found = damper_family(
                     n,
                     damped=damped,
-                    patient=options.patient,
+                    folder=options.out,
                     engine=engine,
                     executor=pool,
                     progress=progress,
                 )
-                print(
-                    f"{write(found, engine.settings, options.out, patient=options.patient)}:"
-                    f" {counted(found)}"
-                )
+                print(f"{write(found, engine.settings, options.out)}: {counted(found)}")
     return 0
 
 

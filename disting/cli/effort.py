@@ -52,6 +52,27 @@ class Work(Enum):
     FITS = Rate("candidates", 1, (0.1, 0.15, 0.3), "fewer masses, such as --masses 1-3")
 
 
+FAMILIES = {
+    "machines-3": 7200.0,
+    "machines-3-damped": 7200.0,
+    "trees-4": 7200.0,
+    "trees-4-damped": 7200.0,
+    "circuits-5": 600.0,
+    "compartments-3": 3600.0,
+}
+"""Seconds of one core for all pairs of a family of networks, where they are decided anew."""
+
+
+def announced_family(name: str, jobs: int = 1) -> None:
+    """Tell of the pairs of a family of networks, where they take long."""
+    seconds = FAMILIES.get(name, 0.0) / max(jobs, 1)
+    if seconds > LONG:
+        complain(
+            f"all pairs of {name}, which may take {in_words(seconds)}; less to do: two networks"
+            " alone (disting compare); Ctrl-C stops it, and what is done stays in the cache"
+        )
+
+
 def announced(work: Work, counts: Mapping[int, int], jobs: int = 1) -> None:
     """Tell of so many things by number of masses, where they take long; nothing is asked."""
     seconds = sum(count * work.value.of(n) for n, count in counts.items()) / max(jobs, 1)

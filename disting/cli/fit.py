@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
             alike=options.weights == "none",
             thresholds=Thresholds(*options.thresholds),
             rule=Rule(options.rule),
-            case=Case(options.case),
+            case=Case(options.case) if options.case else None,
             lines=WEIGHTS.get(options.weights),
             sign=SIGNS[options.sign.split(",")[0]],
             bounds=dict(options.bound),

@@ -229,8 +229,7 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         "--case",
         type=int,
         choices=[1, 2, 3],
-        default=3,
-        help="cost function of the paper (default: 3)",
+        help="cost function of the paper (default: the likelihood of what the lines scatter by)",
     )
     text = (
         "of the frequency lines; auto: by what each scatters, as far as that is known; none: all"

@@ -22,7 +22,13 @@ from disting.network.families import FAMILIES
 from disting.network.network import Network
 from disting.network.notation import network_of
 
-UNITS = {"R": "ohm", "L": "H", "C": "F", "W": "ohm/sqrt(s)"}  # of an impedance in ohm
+UNITS = {
+    "R": "ohm",
+    "L": "H",
+    "C": "F",
+    "W": "ohm/sqrt(s)",
+    "P": "s^n/ohm",
+}  # of an impedance in ohm
 UNKNOWN = {
     "--test", "--experiment", "--sensor", "--masses", "--actuator", "--gap", "--family", "--left",
     "--damped", "--undamped", "--fix", "--bound", "--weights", "--rule", "--thresholds", "--case",

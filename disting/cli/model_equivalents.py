@@ -81,6 +81,8 @@ def _lines(given: str, count: int, other: str, found: list[ModelEquivalent]) -> 
     )
     for x in found:
         yield f"{x.model.name}  {x.verdict.told} ({x.verdict.rule or 'nothing settles it'})"
+        if x.exponents:
+            yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
             yield from (f"  {line}" for line in _values(x.values))
 

@@ -9,10 +9,10 @@ from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
 from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import SHIPPED_SIZES, name_of
-from disting.catalogs.network_files import recall
+from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import Listed, add_out, add_work, size_or_list
-from disting.cli.effort import announced, pairs_by_size, pairs_work
+from disting.cli.effort import announced, announced_family, pairs_by_size, pairs_work
 from disting.cli.parser import parser
 from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import LISTS, list_of
@@ -78,6 +78,8 @@ def _model_list(options: argparse.Namespace, found: ModelList, file: Listed, nam
     from disting.report.model_list import write_model_list
 
     title = found.title or Path(file).stem
+    if isinstance(file, str) and file not in SHIPPED:
+        announced_family(file, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)

@@ -6,7 +6,7 @@ from itertools import combinations
 from pathlib import Path
 
 from disting.catalogs.export import decisions_csv, decisions_json
-from disting.catalogs.network_files import recall
+from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes import combined_family
 from disting.cli.arguments import (
     Listed,
@@ -19,7 +19,7 @@ from disting.cli.arguments import (
     sizes_or_list,
     whole,
 )
-from disting.cli.effort import announced, pairs_by_size, pairs_work
+from disting.cli.effort import announced, announced_family, pairs_by_size, pairs_work
 from disting.cli.output import emitted, written_file
 from disting.cli.plain import keep_apart
 from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
@@ -76,6 +76,8 @@ def run(options: argparse.Namespace) -> int:
     if file:
         refuse_chain_options(options)
     models = list_of(file) if file else None
+    if isinstance(file, str) and file not in SHIPPED:
+        announced_family(file, options.jobs)
     if not file:
         announced(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
     with engine_for(options) as (engine, pool, progress):

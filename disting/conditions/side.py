@@ -26,7 +26,12 @@ from disting.model.structure import Structure
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""
 S = TypeVar("S")
-HALVES = "degrees count powers of s^(1/2)"  # a note on models with Warburg elements
+COUNTED = "degrees count powers of "  # begins a note on models with other powers than those of s
+HALVES = f"{COUNTED}s^(1/2)"  # of models with Warburg elements
+GENERIC = (
+    "the exponents of constant phase elements are generic, those of both networks the same in some"
+    " order"
+)
 
 
 @dataclass(frozen=True)
@@ -71,6 +76,11 @@ class Side(ABC, Generic[S]):
     def notes(self) -> tuple[str, ...]:
         """What is to be known of all that is told of it."""
         return ()
+
+    @property
+    def in_s(self) -> bool:
+        """Whether it is a function of s, so that it has Markov parameters."""
+        return True
 
     @property
     def chain(self) -> Chain | None:
@@ -222,3 +232,8 @@ class Side(ABC, Generic[S]):
 
 AnySide = Side[Any]
 """One of whatever family."""
+
+
+def notes_of(left: AnySide, right: AnySide) -> tuple[str, ...]:
+    """What is to be known of all that is told of both."""
+    return tuple(dict.fromkeys((*left.notes, *right.notes)))

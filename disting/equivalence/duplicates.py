@@ -174,7 +174,8 @@ def gate(
         )
     refuse_ports(made)
     asked = query or Query(inclusion=False)
-    decided = engine.decisions(engine.general_subjects(made), asked)
+    subjects = engine.general_subjects(made)
+    decided, matched = engine.decisions(subjects, asked), [s.subject for s in subjects]
     sizes = [len(m.parameters) for m in made]
     groups = [tuple(sorted(g, key=lambda i: (sizes[i], i))) for g in decided.classes()]
     dropped = {i for group in groups for i in group[1:]}
@@ -182,7 +183,7 @@ def gate(
     return Gate(
         decided,
         tuple(tuple(made[i].name for i in group) for group in groups),
-        tuple(duplicate(decided, made, g[0], i) for g in groups for i in g[1:]),
+        tuple(duplicate(decided, matched, g[0], i) for g in groups for i in g[1:]),
         {
             m.name: engine.answer(PARAMETERS, (unnamed(m),), engine.settings)
             for i, m in enumerate(made)

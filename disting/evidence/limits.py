@@ -215,8 +215,9 @@ class Minor(Kind):
 
     `places`: (node of the whole, node of the part), 0 being the ground: several nodes of the whole
     at one node of the part are one; none where one-ports are the same but for the order of branches
-    in series. `missing` and `rigid`: values of the whole whose elements are
-    not there, and of those in whose place nodes are connected directly.
+    in series. `missing` and `rigid`: values of the whole whose elements are not there, and of those
+    in whose place nodes are connected directly. `exponents`: constant phase elements of the whole,
+    by value, and the exponent that makes each one of the part.
     """
 
     kind: ClassVar[str] = "minor"
@@ -225,12 +226,14 @@ class Minor(Kind):
     places: tuple[tuple[int, int], ...]
     missing: tuple[str, ...]
     rigid: tuple[str, ...]
+    exponents: tuple[tuple[str, str], ...] = ()
 
     def sentence(self, left: str, right: str) -> str:
         """Which network is part of which."""
         part, whole = (left, right) if self.left_is_part else (right, left)
         how = [f"without {', '.join(self.missing)}"] * bool(self.missing)
         how += [f"with a direct connection in place of {', '.join(self.rigid)}"] * bool(self.rigid)
+        how += [f"with the exponent {x} of {name}" for name, x in self.exponents]
         return (
             f"{whole} {' and '.join(how)} is {part}; as the elements come near to that, every"
             f" response of {part} is approached."

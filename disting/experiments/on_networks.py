@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from disting.algebra.rational_function import RationalFunction
 from disting.experiments.menu import Gain
 from disting.general.matrix_model import MatrixModel, of_ratios
-from disting.general.model import network_ratios
+from disting.general.model import network_powers, network_ratios
 from disting.model.kinds import Kind
 from disting.network.element import Port
 from disting.network.network import Network
@@ -50,7 +50,8 @@ def measured(network: Network, kind: Kind, node: int, name: str) -> Measured:
     zero = cells[0] - cells[0]
     cells += [zero] * (-len(cells) % width)
     rows = [*now, *(tuple(cells[i : i + width]) for i in range(0, len(cells), width))]
-    model = of_ratios(rows, network.parameters, name, network.halves)
+    powers = network_powers(cells + [x for row in now for x in row], network)
+    model = of_ratios(rows, network.parameters, name, powers)
     return Measured(model, _gain(kind, whole, now, more))
 
 

@@ -228,8 +228,7 @@ def _first_of_same(decided: Decisions, count: int) -> list[int]:
 
 def searched(plant: NetworkPlant, cost: Cost, starts: Real) -> BestFit:
     """The best values found from starts, shape (n_s, n_p)."""
-    size = len(plant.parameters)
-    box = Box(np.zeros(size), np.full(size, np.inf))
+    box = Box(np.zeros(len(plant.parameters)), plant.highest)
     with np.errstate(all="ignore"):  # far from the data responses may overflow
         points, costs = rough(plant, cost, box, starts, ITERATIONS)
         kept = np.argsort(costs)[:KEPT]
@@ -241,8 +240,8 @@ def _judged(
     plant: NetworkPlant, start: Real, cost: Cost, known: Scatter, rank: int
 ) -> FittedNetwork:
     """Brought to the last digit in units of the scatter, and seen beside it."""
-    size, whitened = len(plant.parameters), Whitened(cost, known)
-    p, _ = fine(plant, whitened, Box(np.zeros(size), np.full(size, np.inf)), start)
+    whitened = Whitened(cost, known)
+    p, _ = fine(plant, whitened, Box(np.zeros(len(plant.parameters)), plant.highest), start)
     residual, columns = whitened.of(plant, p)
     ones = np.ones(len(residual))
     missed = expected(columns, ones)

@@ -24,7 +24,7 @@ from disting.fit.judge.alternatives import (
     limits_of,
     representatives,
 )
-from disting.fit.judge.candidate import FOLDS, Candidate, judged
+from disting.fit.judge.candidate import FOLDS, Candidate, judged, witnessed
 from disting.fit.judge.choice import akaike_weighted, choice
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.joint_verdicts import (
@@ -42,8 +42,8 @@ from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import Statement, statements
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.estimate import Method, Task
-from disting.fit.search.exchange import body, estimates
+from disting.fit.search.estimate import Estimate, Method, Task
+from disting.fit.search.exchange import SEARCHED, body, estimates, polished
 from disting.fit.search.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.measurement.arrays import Complex, Real
@@ -140,7 +140,7 @@ def select(
     alike: bool = False,
     thresholds: Thresholds | None = None,
     rule: Rule = Rule.NOT_EXCLUDED,
-    case: Case = Case.LOGARITHM,
+    case: Case | None = None,
     weights: tuple[float, float] | None = None,
     lines: Callable[[FrequencyResponse], Real] | None = None,
     sign: int = 1,
@@ -157,9 +157,12 @@ def select(
 ) -> Selection:
     """Fit `candidates` to `train` and select one, by a rule for what is admissible.
 
-    `weights` of amplitude and phase, see `Cost`; each line counts by what it scatters (`scatter`),
-    or by the weights that `lines` gives, such as `lines_by_deviation`, or as much as any other if
-    `alike`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
+    Parameters are those of the highest likelihood: the search is by logarithms, whose costs have
+    few valleys, the last digits are found in the complex plane in units of what each line scatters
+    (`Cost.likely`), where noise is normal however small a response is beside it. A cost of the
+    paper is kept to the end where one is named: by its `case`, by `weights` of amplitude and phase,
+    see `Cost`, by the weights that `lines` gives, such as `lines_by_deviation`, or if all lines
+    count `alike`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
     `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
     and `fixed`, are fitted once; `most_lines`: of a response with more so many are fitted, and its
     `reading` says so; `controller`: one whose margins are told (`reliance`); `method` as in
@@ -177,30 +180,44 @@ def select(
     further = [one.thinned(most_lines) for one in further]
     candidates, further, silent = learning(candidates, further, home)
     engine = engine or Engine(store=Store.none())
-    weighed = partial(joint_cost, Cost(train, case, weights), further, lines, alike, test)
+    likely = not alike and all(choice is None for choice in (case, weights, lines))
+    first_cost = Cost(train, case or Case.LOGARITHM, weights)
+    weighed = partial(joint_cost, first_cost, further, lines, alike, test)
     asked = Task(weighed(), sign or 1, bounds or {}, fixed or {}, seed)
     asked = asked if sign else signed(asked, _at_home(candidates, home))
-    task, seen_by = _tried(
+    search, seen_by = _tried(
         located(asked, candidates, home, engine.store) if home else asked,
         candidates,
         weighed,
         by_scatter=lines is None and not alike,
     )
-    within = limits_of(task.bounds, task.fixed)
-    first = _representatives(candidates, task, engine, within, prune)
+    within = limits_of(search.bounds, search.fixed)
+    first = _representatives(candidates, search, engine, within, prune)
     wanted = [c for c in candidates if first[c] == c]
-    found = estimates(
-        wanted, task, method=method, store=engine.store, executor=executor, progress=progress
+    each = estimates(
+        wanted,
+        search.thinned(SEARCHED) if likely else search,
+        method=method,
+        store=engine.store,
+        executor=executor,
+        progress=progress,
     )
-    test_cost = judging_cost(task.cost, test, further, lines, alike, seen_by) if test else None
+    searched = [each[c] for c in wanted]
+    test_cost = judging_cost(search.cost, test, further, lines, alike, seen_by) if test else None
+    known = witnessed(searched, search, test_cost)
+    task, found = search, searched
+    if likely:
+        task = replace(search, cost=search.cost.likely(known[0]))
+        test_cost = test_cost and test_cost.likely(known[1])
+        found = polished(searched, task, engine.store, executor, progress)
     limits = thresholds or Thresholds()
-    fitted, known = judged({c: found[c] for c in wanted}, task, test_cost, engine.settings)
+    fitted = judged(found, task, test_cost, known, engine.settings)
     fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
     weighted = akaike_weighted(fitted, task)
     chosen = choice(weighted, task, test_cost, known, rule, engine.settings)
     said = chosen.explanation
     kept = chosen.left if said.explains else ()
-    misread = () if said.explains or said.noisy or further else chosen.candidates
+    misread = () if said.explains or said.noisy or further else searched
     left = members(kept, task, test_cost, known, within, executor, progress)
     whole = tuple(m for m in left if m.contains is None)
     return Selection(
@@ -214,7 +231,7 @@ def select(
         explanation=said,
         members=whole,
         containing=tuple(m for m in left if m.contains),
-        readings=_readings(misread, task, engine.store, executor, progress),
+        readings=_readings(misread, search, engine.store, executor, progress),
         relied_on=statements(whole, task, controller),
         controller=controller,
         better=chosen.better,
@@ -222,7 +239,7 @@ def select(
         task=task,
         test=test or train,
         judging=test_cost or task.cost,
-        quantities=other_quantities(chosen.candidates, task, engine.store, executor, progress),
+        quantities=other_quantities(searched, search, engine.store, executor, progress),
     )
 
 
@@ -275,16 +292,16 @@ def _alternatives(
 
 
 def _readings(
-    candidates: Sequence[Candidate],
+    searched: Sequence[Estimate],
     task: Task,
     store: Store,
     executor: Executor | None,
     progress: Progress,
 ) -> tuple[Reading, ...]:
-    """What the data would be where these candidates do not explain them."""
-    if not candidates:
+    """What the data would be where these estimates do not explain them."""
+    if not searched:
         return ()
-    return readings(candidates, task, store=store, executor=executor, progress=progress)
+    return readings(searched, task, store=store, executor=executor, progress=progress)
 
 
 def _check(

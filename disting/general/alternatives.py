@@ -15,6 +15,7 @@ from disting.algebra.groebner.own_process import End, run_limited
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.conditions.finding import Outcome
 from disting.errors import of_type
+from disting.general.any_model import on_one_variable
 from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, Fibre, solved
 from disting.general.model import Model
@@ -136,7 +137,8 @@ def alternatives(
         of_type(one, Model, "alternatives are those of a Model in a Model")
     of_type(values, Mapping, "values are a mapping of names to numbers")
     exact = rational_values(model, values)
-    equations = fibre_equations(target(model, exact), other)
+    here, there = on_one_variable([model, other])
+    equations = fibre_equations(target(here, exact), there)
     try:
         found = solved(equations, other.parameters, seed, AT_ONCE)
     except TooLarge:

@@ -4,6 +4,7 @@ maps, and the exact decision where conditions 1 to 7 stay silent: one fibre as a
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from typing import TypeVar, overload
 
 from disting.conditions.finding import Finding
 from disting.fibres.ideals import (
@@ -18,6 +19,7 @@ from disting.fibres.ideals import (
 from disting.fibres.ideals import Fraction as Ratio
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model, Terms
+from disting.general.powers import Cell, Powers, in_v, out_of_v, weighted
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.network.element import Sort
@@ -25,6 +27,7 @@ from disting.network.network import Network
 from disting.questions.same.exact import SAFETY, decided
 
 LIMITS = Limits(safety=SAFETY)
+M = TypeVar("M", Model, AnyModel)
 
 
 def measured(models: Iterable[Chain | AnyModel]) -> str:
@@ -53,31 +56,77 @@ def of_network(network: Network) -> AnyModel:
     return Model.from_network(network) if single else MatrixModel.from_network(network)
 
 
-def on_one_variable(models: Sequence[AnyModel]) -> list[AnyModel]:
-    """The same models, all in powers of s^(1/2) where one of them has such."""
-    if not any(model.halves for model in models):
-        return list(models)
-    return [model if model.halves else _in_halves(model) for model in models]
+def on_one_variable(models: Sequence[M]) -> list[M]:
+    """The same models, all in powers of one variable v: s^(1/2) where one of them has such, and
+    v^w for the first exponent of each, another weight for the second one, and so on.
+
+    So the exponents of two models are matched by the powers with which they occur; `readings` has
+    the other ways.
+    """
+    halves = any(m.powers.halves for m in models)
+    wide = max(models, key=lambda m: len(m.powers.weights), default=None)
+    if wide is None or not wide.powers.weights:
+        return [m if m.powers.halves == halves else in_powers(m, Powers(halves)) for m in models]
+    cells = [_doubled(cell, m.powers.halves < halves) for m in models for cell in cells_of(m)]
+    size = len(wide.powers.weights)
+    padded = [_padded(cell, size) for cell in cells]
+    return [in_powers(m, weighted(padded, halves, wide.powers.exponents)) for m in models]
 
 
-def _in_halves(model: AnyModel) -> AnyModel:
-    """The model written in powers of s^(1/2): every other coefficient is zero."""
-    if isinstance(model, Model):
-        lifted: AnyModel = replace(
-            model,
-            numerator_terms=_spread(model.numerator_terms),
-            denominator_terms=_spread(model.denominator_terms),
-            halves=True,
+@overload
+def in_powers(model: Model, powers: Powers, places: Sequence[int] = ()) -> Model: ...
+@overload
+def in_powers(model: AnyModel, powers: Powers, places: Sequence[int] = ()) -> AnyModel: ...
+def in_powers(model: AnyModel, powers: Powers, places: Sequence[int] = ()) -> AnyModel:
+    """The model in these powers of v; its exponents have the weights at these places, else the
+    first ones.
+    """
+    places = places or range(len(model.powers.weights))
+    if isinstance(model, MatrixModel):
+        rows = (
+            tuple(None if e is None else _lifted(e, powers, places) for e in row)
+            for row in model.rows
         )
+        found: AnyModel = replace(model, rows=tuple(rows))
     else:
-        entries = (tuple(None if e is None else _in_halves(e) for e in row) for row in model.rows)
-        lifted = replace(model, rows=tuple(entries))  # type: ignore[arg-type]
-    object.__setattr__(lifted, "network", model.network)
-    return lifted
+        found = _lifted(model, powers, places)
+    object.__setattr__(found, "network", model.network)
+    return found
 
 
-def _spread(side: tuple[Terms, ...]) -> tuple[Terms, ...]:
-    return tuple(c for terms in side for c in (terms, ()))[:-1]
+def _lifted(model: Model, powers: Powers, places: Sequence[int]) -> Model:
+    own, size = model.powers, max(places, default=-1) + 1
+    (cell,) = (_doubled(c, own.halves < powers.halves) for c in cells_of(model))
+    top, bottom = ({_at(parts, places, size): c for parts, c in side.items()} for side in cell)
+    names = dict(zip(places, own.exponents, strict=True))
+    weights = tuple((names.get(i, n), w) for i, (n, w) in enumerate(powers.weights[:size]))
+    there = replace(powers, weights=weights, lost=0, unseen=own.unseen)
+    numerator, denominator, there = in_v((top, bottom), there)
+    return replace(model, numerator_terms=numerator, denominator_terms=denominator, powers=there)
+
+
+def _at(parts: tuple[int, ...], places: Sequence[int], size: int) -> tuple[int, ...]:
+    found = [0] * size
+    for at, power in zip(places, parts[1:], strict=True):
+        found[at] = power
+    return parts[0], *found
+
+
+def cells_of(model: AnyModel) -> list[Cell]:
+    """Its transfer functions by the powers of s and of every s^n."""
+    return [out_of_v((e.numerator_terms, e.denominator_terms), e.powers) for e in model.entries]
+
+
+def _doubled(cell: Cell, is_doubled: bool) -> Cell:
+    """With powers of s^(1/2) in place of those of s."""
+    by = 1 + is_doubled
+    top, bottom = ({(i * by, *more): c for (i, *more), c in side.items()} for side in cell)
+    return top, bottom
+
+
+def _padded(cell: Cell, size: int) -> Cell:
+    top, bottom = ({(*p, *[0] * (size + 1 - len(p))): c for p, c in side.items()} for side in cell)
+    return top, bottom
 
 
 def unnamed(model: AnyModel, name: str = "model") -> AnyModel:

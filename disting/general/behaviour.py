@@ -48,8 +48,14 @@ class GeneralModel:
 
     model: AnyModel
     dead_time: ClassVar[bool] = False
-    lost_bits: ClassVar[int] = 1
     most_subsets: ClassVar[int] = UNBOUNDED
+
+    @property
+    def lost_bits(self) -> int:
+        """One, and six where exponents are matched: profiles choose among up to 24 orders of the
+        exponents of both models (see `readings`).
+        """
+        return 1 + 6 * bool(self.model.powers.weights)
 
     @property
     def parameters(self) -> tuple[str, ...]:

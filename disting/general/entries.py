@@ -36,10 +36,26 @@ class StateSpace:
         return [e for matrix in (self.a, self.b, self.c, self.d) for row in matrix for e in row]
 
 
-def state_space(a: object, b: object, c: object, d: object) -> StateSpace:
+def state_space(a: object, b: object, c: object, d: object, x0: object = None) -> StateSpace:
     """Four matrices as a user gives them: SymPy or NumPy ones, nested lists; flat lists for a B of
     one column and a C of one row, one entry for a D of one entry, 0 for a D of zeros.
+
+    An initial state x0 is one more input on which a unit impulse acts, the last column of B; B may
+    be None then. Raises InputError.
     """
+    if x0 is None:
+        if b is None:
+            raise InputError("nothing moves the states: give B, or an initial state x0")
+        return _space(a, b, c, d)
+    start = _start(x0, len(_matrix(a, "A")))
+    if b is None:
+        return _space(a, [[entry] for entry in start], c, d)
+    space = _space(a, b, c, d)
+    force = [[*row, tree(entry)] for row, entry in zip(space.b, start, strict=True)]
+    return StateSpace(space.a, force, space.c, [[*row, ZERO] for row in space.d])
+
+
+def _space(a: object, b: object, c: object, d: object) -> StateSpace:
     rows = _matrix(a, "A")
     n = len(rows)
     if any(len(row) != n for row in rows):
@@ -54,6 +70,12 @@ def state_space(a: object, b: object, c: object, d: object) -> StateSpace:
         direct = [[ZERO] * inputs for _ in sensor]
     _refuse_shape(direct, outputs, inputs, "D")
     return StateSpace(rows, force, sensor, direct)
+
+
+def _start(x0: object, n: int) -> list[Any]:
+    if not _is_list(x0) or not _is_flat(x0) or len(_listed(x0)) != n:
+        raise InputError(f"x0 is a list of the {n} initial values of the states, in order")
+    return _listed(x0)
 
 
 def refuse_namesakes(*given: object) -> None:

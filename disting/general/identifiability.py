@@ -11,12 +11,15 @@ from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty, graded
 from disting.errors import of_type
-from disting.general.any_model import map_of
+from disting.general.any_model import cells_of, map_of
 from disting.general.behaviour import GeneralModel
+from disting.general.exponents import determined, may_be_others
 from disting.general.matrix_model import AnyModel
+from disting.general.model_side import OTHER_ORDER, ComparedModel
 from disting.model.presentation import summary
 from disting.model.question import Question, Settings
 from disting.questions.identifiability import (
+    Level,
     ParameterIdentifiability,
     by_parameter,
     decoded,
@@ -25,6 +28,7 @@ from disting.questions.identifiability import (
 )
 
 SETTINGS = Settings()
+OTHER_EXPONENTS = "other exponents may do the same"
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +83,44 @@ def parameter_identifiability(model: AnyModel, settings: Settings) -> ParameterI
     known = local(GeneralModel(model), settings)
     names = tuple(own[model.parameters.index(name)] for name in known.names)
     found = by_parameter(own, replace(known, names=names), map_of(model), settings)
-    return replace(found, levels=dict(zip(model.parameters, found.levels.values(), strict=True)))
+    found = replace(found, levels=dict(zip(model.parameters, found.levels.values(), strict=True)))
+    powers = model.powers
+    return _with_exponents(found, model, settings) if powers.weights or powers.unseen else found
+
+
+def _with_exponents(
+    found: ParameterIdentifiability, model: AnyModel, settings: Settings
+) -> ParameterIdentifiability:
+    """The same with exponents as parameters: those that enter are determined, but for exchanges
+    that another order of the parameters does too.
+
+    With exponents in one order it is known what is determined. All that fits is that in all orders
+    that give the same functions, which differ in the exponents.
+    """
+    powers = model.powers
+    names, size = powers.exponents, len(powers.weights)
+    rank, single = determined(cells_of(model), size)
+    levels = dict(found.levels) | dict.fromkeys(sorted((*names, *powers.unseen)), Level.NOT)
+    levels |= {names[j]: Level.GLOBAL for j in single}
+    orders = ComparedModel("", model, settings).other_orders
+    for order, renaming in orders:
+        pairs = [*zip(names, order, strict=True), *(renaming.pairs if renaming else ())]
+        moved = {a for a, b in pairs if a != b} if renaming else levels.keys()
+        weaker = Level.LOCAL if renaming else Level.UNKNOWN
+        levels |= {name: weaker for name in moved if levels[name] is Level.GLOBAL}
+    symmetries = [renaming for _, renaming in orders if renaming]
+    many, reason = 1 + len(symmetries), OTHER_ORDER * (len(symmetries) < len(orders))
+    if names and may_be_others(cells_of(model), powers):
+        levels |= {name: Level.UNKNOWN for name in levels if levels[name] is Level.GLOBAL}
+        reason = OTHER_EXPONENTS
+    return replace(
+        found,
+        levels=levels,
+        rank=found.rank + rank,
+        least=found.least * many,
+        most=None if found.most is None or reason else found.most * many,
+        reason=found.reason or reason,
+    )
 
 
 PARAMETERS = Question("parameters of general models", parameter_identifiability, encoded, decoded)

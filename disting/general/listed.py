@@ -1,10 +1,11 @@
 """Points with and without positive equivalents, from lists of all equivalents of a rational point;
 what holds at such a point is proven to hold near it.
 
-WITH. Let both have the same degrees, the searched model Y n parameters and n + 1 coefficients, and
-at a point x of the given model X an equivalent y, positive, at which the matrix of the coefficients
-of Y and their derivatives is not singular. Then all transfer functions of these degrees near that
-of y are those of parameters near y, which are positive, so all x near by have an equivalent.
+WITH. Let the same coefficients of both be zero for all parameters, let the searched model Y have n
+parameters and n + 1 others, and at a point x of the given model X an equivalent y, positive, at
+which the matrix of these and their derivatives is not singular. Then all transfer functions with
+such coefficients near that of y are those of parameters near y, which are positive, so all x near
+by have an equivalent.
 
 WITHOUT. Let Y be a one-port of positive elements, and let the function g of X at x be that of no
 positive values of Y, and of no positive values of a minor of Y (elements deleted or contracted).
@@ -19,6 +20,7 @@ A limit of functions has no larger degree (the larger one of numerator and denom
 of smaller degree has no function g, nor do its own minors.
 """
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 
@@ -27,10 +29,12 @@ from flint import Ordering, fmpq, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx
 from disting.algebra.determinants import minors as subdeterminants
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.errors import InputError
+from disting.general.any_model import in_powers
 from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, solved
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
+from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
 from disting.general.replacement import moved
 from disting.general.target import Target, fibre_equations, rational_values, target
 from disting.model.question import Domain
@@ -41,6 +45,7 @@ from disting.network.network import Network
 REMEMBERED = 512
 MOST_ELEMENTS = 6  # of a network of which all minors are looked at
 Values = dict[str, Fraction]
+PLACES = [place_name(i) for i in range(MOST_EXPONENTS)]
 
 
 def having(given: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...] | None:
@@ -49,7 +54,8 @@ def having(given: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...
     """
     if not (isinstance(given, Model) and isinstance(other, Model)):
         return None
-    if given.degrees != other.degrees or len(other.parameters) != sum(other.degrees) + 1:
+    there = _there(other)
+    if _there(given) != there or len(other.parameters) != sum(map(sum, there)) - 1:
         return None
     goal = _goal(given, values)
     found = (goal and _positive(goal, other)) or ()
@@ -61,17 +67,31 @@ def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as is
     shown.
     """
-    if not (isinstance(given, Model) and isinstance(other, Model)) or given.halves != other.halves:
+    if not (isinstance(given, Model) and isinstance(other, Model)):
         return False
     network = other.network
+    if not _is_in_one_variable(given.powers, other.powers):
+        return False
     if network is None or not network.sign_of_one_port or len(network.seen) > MOST_ELEMENTS:
         return False
     goal = _goal(given, values)
     if goal is None or _positive(goal, other) != ():
         return False
     degree = max(len(goal.numerator), len(goal.denominator)) - 1
-    minors = _of_degree(network, degree, other.halves)
+    matched = placed_network(network, other.powers)
+    minors = _of_degree(matched, degree, replace(other.powers, lost=0))
     return minors is not None and all(_positive(goal, m) == () for m in minors)
+
+
+def _is_in_one_variable(one: Powers, other: Powers) -> bool:
+    """Whether both count powers of the same v."""
+    weights = zip(one.weights, other.weights, strict=False)
+    return one.halves == other.halves and all(a == b for (_, a), (_, b) in weights)
+
+
+def _there(model: Model) -> tuple[list[bool], list[bool]]:
+    """Which coefficients are not zero for all parameters."""
+    return list(map(bool, model.numerator_terms)), list(map(bool, model.denominator_terms))
 
 
 def _goal(given: Model, values: Values) -> Target | None:
@@ -94,7 +114,7 @@ def _positive(goal: Target, other: Model) -> tuple[Equivalent, ...] | None:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _of_degree(network: Network, degree: int, halves: bool) -> tuple[Model, ...] | None:
+def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ...] | None:
     """The minors of at least this degree, one for each function; None where not all are known."""
     todo, met, kept = [network], {network}, dict[object, Model]()
     while todo:
@@ -106,24 +126,17 @@ def _of_degree(network: Network, degree: int, halves: bool) -> tuple[Model, ...]
                     if found is None or found in met:
                         continue
                     met.add(found)
-                    model = Model.from_network(found)
+                    made = Model.from_network(found)
                 except InputError:
                     return None
-                if halves and not model.halves:
-                    model = _in_halves(model)
+                known = PLACES[: len(powers.weights)]
+                if not set(made.powers.exponents) <= set(known):
+                    return None
+                model = in_powers(made, powers, [known.index(n) for n in made.powers.exponents])
                 if max(model.degrees) >= degree:
                     kept.setdefault(model.content, model)
                     todo.append(found)
     return tuple(kept.values())
-
-
-def _in_halves(model: Model) -> Model:
-    """The same in powers of s^(1/2)."""
-    spread = [
-        tuple(part for terms in side for part in (terms, ()))[:-1]
-        for side in (model.numerator_terms, model.denominator_terms)
-    ]
-    return Model(model.parameters, spread[0], spread[1], model.name, True)
 
 
 def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:
@@ -148,8 +161,9 @@ def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:
 
 
 def _is_regular(model: Model, at: Equivalent) -> bool:
-    """Whether the matrix of its n + 1 coefficients and their derivatives is not singular there:
-    the determinant is zero at a root of an irreducible polynomial only where that divides it.
+    """Whether the matrix of its n + 1 coefficients and their derivatives is not singular there,
+    those left out that are always zero: the determinant is zero at a root of an irreducible
+    polynomial only where that divides it.
     """
     modulus = fmpq_poly(list(at.polynomial))
     values = [fmpq_poly([fmpq(x.numerator, x.denominator) for x in c]) for c in at.coordinates]
@@ -165,7 +179,7 @@ def _is_regular(model: Model, at: Equivalent) -> bool:
 @lru_cache(maxsize=REMEMBERED)
 def _jacobian(model: Model) -> fmpz_mpoly:
     context = fmpz_mpoly_ctx.get(model.parameters, Ordering.lex)
-    row = [*model.numerator, *model.denominator]
+    row = [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]
     derivatives = [[c.derivative(i) for c in row] for i in range(len(model.parameters))]
     found = subdeterminants([row, *derivatives], {0: context.constant(1)})
     return found.get((1 << len(row)) - 1, context.constant(0))

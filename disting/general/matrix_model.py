@@ -6,11 +6,11 @@ part of the form. So two models behave alike exactly if all their entries are eq
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import symbols
-from disting.errors import InputError
+from disting.errors import InputError, listed, of_type, shown
 from disting.general.entries import polynomial, refuse_namesakes, rows_of
 from disting.general.expansion import Expansion
 from disting.general.model import (
@@ -18,11 +18,13 @@ from disting.general.model import (
     entry_of,
     fraction,
     frequency,
+    network_powers,
     network_ratios,
     parameters_of,
     refuse_name,
     transfer_functions,
 )
+from disting.general.powers import PLAIN, Powers
 from disting.model.presentation import Shown, plural, summary
 from disting.network.network import Network
 
@@ -67,10 +69,22 @@ class MatrixModel(Shown):
 
     @staticmethod
     def from_state_space(
-        a: object, b: object, c: object, d: object = 0, *, s: object = "s", name: str = "model"
+        a: object,
+        b: object,
+        c: object,
+        d: object = 0,
+        *,
+        x0: object = None,
+        known: Sequence[str] = (),
+        s: object = "s",
+        name: str = "model",
     ) -> "MatrixModel":
-        """Model x' = A x + B u, y = C x + D u, x(0) = 0, with A (n x n), B (n x m), C (p x n), D (p
-        x m); entries as in `Model.from_state_space`. D = 0 is a matrix of zeros. Raises InputError.
+        """Model x' = A x + B u, y = C x + D u, with A (n x n), B (n x m), C (p x n), D (p x m);
+        entries as in `Model.from_state_space`. D = 0 is a matrix of zeros.
+
+        `x0`: the initial state, n entries, 0 where it is missing. It is one more input, on which a
+        unit impulse acts: the last column is C (s I - A)^-1 x0. B may be None then. `known`:
+        parameters whose values are known, each shown by a row of its own. Raises InputError.
 
         >>> from sympy import Matrix, eye, symbols
         >>> k, m = symbols("k m")
@@ -78,9 +92,11 @@ class MatrixModel(Shown):
         >>> found = MatrixModel.from_state_space(oscillator, Matrix([0, 1 / m]), eye(2))
         >>> print(found)
         G(s) = [[1/(k + m*s**2)], [s/(k + m*s**2)]]
+        >>> print(MatrixModel.from_state_space([["-k"]], None, [1], x0=["c"], known=["c"]))
+        G(s) = [[c/(k + s)], [c]]
         """
-        ratios, parameters = transfer_functions(a, b, c, d, s)
-        return of_ratios(ratios, parameters, name)
+        ratios, parameters = transfer_functions(a, b, c, d, s, x0)
+        return of_ratios([*ratios, *_shown(known, parameters, ratios[0])], parameters, name)
 
     @staticmethod
     def from_transfer_functions(
@@ -104,14 +120,16 @@ class MatrixModel(Shown):
         """The transfer functions of a network, a row for each output, a column for each input;
         raises InputError.
         """
-        found = of_ratios(network_ratios(network), network.parameters, network.name, network.halves)
+        ratios = network_ratios(network)
+        powers = network_powers([x for row in ratios for x in row], network)
+        found = of_ratios(ratios, network.parameters, network.name, powers)
         object.__setattr__(found, "network", network)
         return found
 
     @property
-    def halves(self) -> bool:
-        """Whether powers of s are counted in halves."""
-        return any(entry.halves for entry in self.entries)
+    def powers(self) -> Powers:
+        """What the powers of v are, but for what was cancelled."""
+        return replace(self.entries[0].powers, lost=0)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -147,6 +165,21 @@ AnyModel = Model | MatrixModel
 """A general model."""
 
 
+def _shown(
+    known: Sequence[str], parameters: tuple[str, ...], like: Sequence[RationalFunction]
+) -> Iterator[tuple[RationalFunction, ...]]:
+    """Yield a row for each known parameter, which shows it; raises InputError for other names."""
+    wanted = "known parameters are a list of names such as ['x1']"
+    for name in of_type(known, list | tuple, wanted):
+        if name not in parameters:
+            raise InputError(
+                f"{shown(name)} is known, but no parameter; there are {listed(parameters)}"
+            )
+        context, zero = like[0].num.context(), like[0] - like[0]
+        value = context.gen(context.names().index(name))
+        yield (*[zero] * (len(like) - 1), RationalFunction(value, value**0))
+
+
 def _written(row: tuple[Model | None, ...]) -> Iterator[str]:
     for entry in row:
         yield "0" if entry is None else str(entry).removeprefix("G(s) = ")
@@ -156,11 +189,11 @@ def of_ratios(
     ratios: Sequence[Sequence[RationalFunction]],
     parameters: tuple[str, ...],
     name: str,
-    halves: bool = False,
+    powers: Powers = PLAIN,
 ) -> MatrixModel:
     """The model of transfer functions in the ring of s and the parameters, s first."""
     rows = tuple(
-        tuple(None if r.num.is_zero() else entry_of(r, parameters, "entry", halves) for r in row)
+        tuple(None if r.num.is_zero() else entry_of(r, parameters, "entry", powers) for r in row)
         for row in ratios
     )
     return MatrixModel(parameters, rows, name)

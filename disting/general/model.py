@@ -9,7 +9,7 @@ controllable or not observable) is cancelled. Then G has one form but for the si
 and its coefficients say exactly which of them vanish or are constant.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
@@ -22,6 +22,8 @@ from disting.errors import InputError, shown
 from disting.general.entries import polynomial, refuse_namesakes, state_space
 from disting.general.expansion import Expansion
 from disting.general.expression import LONGEST_NUMBER, Tree, names, tree
+from disting.general.powers import PLAIN, Powers, cell_in, in_v, powers_of
+from disting.general.powers import Terms as Terms
 from disting.general.response import responses
 from disting.model.chain import Chain
 from disting.model.names import name_of, names_another
@@ -31,10 +33,6 @@ from disting.network.expansion import transfer_functions as network_functions
 from disting.network.network import Network
 
 MOST_SYMBOLS = 300
-Terms = tuple[tuple[tuple[int, ...], int], ...]
-"""A polynomial in the parameters: exponents and coefficient of each term, in falling
-lexicographic order.
-"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +41,8 @@ class Model(Shown):
     `from_network` or `from_chain`.
 
     `parameters` by name; `numerator_terms` and `denominator_terms` hold the coefficients of s^0,
-    s^1, ..; with `halves` of s^0, s^(1/2), s^1, .. Immutable and hashable; two models are equal if
+    s^1, .., of networks with Warburg or constant phase elements those of v^0, v^1, .., for which
+    `powers` says what they are. Immutable and hashable; two models are equal if
     their parameters and coefficients are, whatever they are called. `network`: the network that it
     is, where it was made of one; `chain`: the chain that it is, in the chain's own parameters;
     such models are compared as chains. What is made of one by `dataclasses.replace` is a transfer
@@ -58,7 +57,7 @@ class Model(Shown):
     numerator_terms: tuple[Terms, ...]
     denominator_terms: tuple[Terms, ...]
     name: str = field(default="model", compare=False)
-    halves: bool = False
+    powers: Powers = PLAIN
     chain: Chain | None = field(default=None, init=False, compare=False)
     network: Network | None = field(default=None, init=False, compare=False)
 
@@ -148,7 +147,8 @@ class Model(Shown):
         if network.shape != (1, 1):
             raise InputError("this network has several inputs or outputs: it is a MatrixModel")
         ((ratio,),) = network_ratios(network)
-        made = _model(ratio, network.parameters, network.name, network.halves)
+        powers = network_powers([ratio], network)
+        made = _model(ratio, network.parameters, network.name, powers)
         object.__setattr__(made, "network", network)
         chain = as_chain(network)
         if chain is not None and not names_another(network.name, chain):
@@ -190,12 +190,13 @@ class Model(Shown):
     @property
     def content(self) -> tuple[object, ...]:
         """All that tells two models apart: their names do not."""
-        halves = ("halves",) * self.halves
-        return self.parameters, self.numerator_terms, self.denominator_terms, *halves
+        weights = (weight for _, weight in self.powers.weights)
+        told = (*("halves",) * self.powers.halves, *weights)
+        return self.parameters, self.numerator_terms, self.denominator_terms, *told
 
     @property
     def degrees(self) -> tuple[int, int]:
-        """Degrees in s of numerator and denominator."""
+        """Degrees of numerator and denominator in s, or in v."""
         return len(self.numerator_terms) - 1, len(self.denominator_terms) - 1
 
     def __str__(self) -> str:
@@ -203,7 +204,8 @@ class Model(Shown):
 
     def expression(self, *, evaluate: bool = True) -> object:
         """G(s) as a SymPy expression."""
-        return quotient(self.numerator, self.denominator, evaluate=evaluate, halves=self.halves)
+        sides = self.numerator, self.denominator
+        return quotient(*sides, evaluate=evaluate, power=self.powers.exponent)
 
     def _polynomials(self, coefficients: tuple[Terms, ...]) -> tuple[fmpz_mpoly, ...]:
         context = fmpz_mpoly_ctx.get(self.parameters, Ordering.lex)
@@ -211,13 +213,13 @@ class Model(Shown):
 
 
 def transfer_functions(
-    a: object, b: object, c: object, d: object, s: object
+    a: object, b: object, c: object, d: object, s: object, x0: object = None
 ) -> tuple[tuple[tuple[RationalFunction, ...], ...], tuple[str, ...]]:
     """Those of a state space, outputs x inputs, in the ring of s and the parameters, s first, and
-    the parameters; raises InputError.
+    the parameters; with an initial state the response to it is the last column. Raises InputError.
     """
-    space = state_space(a, b, c, d)
-    refuse_namesakes(a, b, c, d, s)
+    space = state_space(a, b, c, d, x0)
+    refuse_namesakes(a, b, c, d, x0, s)
     variable = frequency(s)
     parameters = parameters_of(space.entries)
     if variable in parameters:
@@ -237,17 +239,25 @@ def fraction(sides: tuple[Tree, ...], expansion: Expansion) -> RationalFunction:
 
 
 def network_ratios(network: Network) -> tuple[tuple[RationalFunction, ...], ...]:
-    """The transfer functions in lowest terms, outputs x inputs, in the ring of s, or s^(1/2), and
-    the parameters, s first; raises InputError.
+    """The transfer functions in lowest terms, outputs x inputs, in the ring of s, or s^(1/2), of a
+    variable for each power s^n, by the name of n, and of the parameters; raises InputError.
     """
-    ring = symbols(["s", *network.parameters])
+    ring = symbols(["s", *network.exponents, *network.parameters])
     expansion = Expansion(ring, ring["s"] ** 0)
     sides = network_functions(network, ring, "s", expansion.times)
     return tuple(tuple(expansion.ratio(*entry) for entry in row) for row in sides)
 
 
+def network_powers(ratios: Sequence[RationalFunction], network: Network) -> Powers:
+    """What the powers of v are of such functions of a network, those that are zero left out; raises
+    InputError.
+    """
+    seen = [ratio for ratio in ratios if not ratio.num.is_zero()]
+    return powers_of(seen, network.halves, network.exponents, len(network.parameters))
+
+
 def _model(
-    ratio: RationalFunction, parameters: tuple[str, ...], name: str, halves: bool = False
+    ratio: RationalFunction, parameters: tuple[str, ...], name: str, powers: Powers = PLAIN
 ) -> Model:
     """The model of a transfer function in the ring of s and the parameters, s first."""
     if ratio.num.is_zero():
@@ -257,31 +267,22 @@ def _model(
         )
     if not parameters:
         raise InputError("a parametric model has at least one parameter")
-    return entry_of(ratio, parameters, name, halves)
+    return entry_of(ratio, parameters, name, powers)
 
 
 def entry_of(
-    ratio: RationalFunction, parameters: tuple[str, ...], name: str, halves: bool = False
+    ratio: RationalFunction, parameters: tuple[str, ...], name: str, powers: Powers = PLAIN
 ) -> Model:
     """The same without asking for parameters: of a matrix not every entry has some."""
-    top, bottom = (_coefficients(side) for side in (ratio.num, ratio.den))
+    cell = cell_in(ratio, powers.exponents, len(parameters))
+    top, bottom, powers = in_v(cell, powers)
     if any(
         abs(number).bit_length() > LONGEST_NUMBER
         for terms in (*top, *bottom)
         for _, number in terms
     ):
         raise InputError(f"numbers of a model have {LONGEST_NUMBER} bits at most in lowest terms")
-    return Model(parameters, top, bottom, name, halves)
-
-
-def _coefficients(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:
-    """Coefficients of the powers 0, 1, .. of the first generator."""
-    parts: list[list[tuple[tuple[int, ...], int]]] = [
-        [] for _ in range(int(polynomial.degrees()[0]) + 1)
-    ]
-    for powers, number in polynomial.to_dict().items():
-        parts[powers[0]].append((tuple(map(int, powers[1:])), int(number)))
-    return tuple(tuple(sorted(part, reverse=True)) for part in parts)
+    return Model(parameters, top, bottom, name, powers)
 
 
 def parameters_of(entries: Iterable[Tree], variable: str = "") -> tuple[str, ...]:

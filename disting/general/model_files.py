@@ -20,8 +20,9 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
-from disting.errors import InputError, listed, printable, shown
+from disting.errors import InputError, listed, of_type, printable, shown
 from disting.files import as_path, read_bounded, write_whole
 from disting.general.any_model import as_chain, of_network
 from disting.general.expression import polynomial_text
@@ -32,6 +33,7 @@ from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of, name_of
 from disting.model.presentation import Shown, plural, summary
+from disting.network.notation.compartments import space_of_flows
 from disting.network.notation.entries import FORMS as NETWORKS
 from disting.network.notation.entries import entry_of, network_of_entry
 from disting.schemas import Format
@@ -42,11 +44,12 @@ LARGEST_CHAIN = 6  # masses: coefficients of some hundred terms
 LONGEST_NAME = 60  # characters, of a name that stands at the edge of a figure
 LONGEST_TITLE = 200
 KINDS = {
-    "A": ("A", "B", "C", "D"),
+    "A": ("A", "B", "C", "D", "x0", "known"),
     "num": ("num", "den"),
     "G": ("G",),
     "chain": ("chain", "damped", "sensor"),
     **NETWORKS,
+    "flows": (*NETWORKS["flows"], "x0", "known"),
 }  # by the key that a model of this kind always has: all its keys
 FORMS = (
     'a state space "A", "B", "C", "D", a transfer function "num" and "den" or "G", a "chain"'
@@ -222,9 +225,9 @@ def _of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
     given = object_of(entry, ("name", *known), f'a model with "{kinds[0]}"')
     match kinds[0]:
         case "A":
-            _refuse_missing(given, ("B", "C"))
-            a, b, c, d = given["A"], given["B"], given["C"], given.get("D", 0)
-            return _single(MatrixModel.from_state_space(a, b, c, d, s=variable, name=name))
+            _refuse_missing(given, ("C",) if "x0" in given else ("B", "C"))
+            space = (given["A"], given.get("B"), given["C"], given.get("D", 0))
+            return _single(_of_space(space, given, variable, name))
         case "num":
             return Model.from_transfer_function(
                 given["num"], given.get("den", 1), s=variable, name=name
@@ -235,7 +238,35 @@ def _of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
             return Model.from_transfer_function(given["G"], s=variable, name=name)
         case "chain":
             return _of_chain(given, name)
+    if "x0" in given or "known" in given:
+        return _single(_of_flows(given, variable, name))
     return of_network(network_of_entry(given, name))
+
+
+def _of_space(space: tuple[Any, ...], given: Plain, variable: str, name: str) -> MatrixModel:
+    known = of_type(given.get("known", []), list, '"known" is a list of names of parameters')
+    return MatrixModel.from_state_space(
+        *space, x0=given.get("x0"), known=known, s=variable, name=name
+    )
+
+
+def _of_flows(given: Plain, variable: str, name: str) -> MatrixModel:
+    """Compartments that are not empty at first; x0 has their contents, by number."""
+    start = of_type(given.get("x0", {}), dict, '"x0" has contents by compartment: {"1": "c1"}')
+    flows = of_type(given["flows"], list, '"flows" is a list of pairs such as [1, 2]')
+    nodes = {str(i) for flow in flows if isinstance(flow, list) for i in flow}
+    lost = [i for i in start if i not in nodes - {"0"}]
+    if lost:
+        raise InputError(f'"x0" has compartment {shown(lost[0])}, which none of the flows has')
+    asked = given.get("input", [])
+    inputs = asked if isinstance(asked, list) else [asked]
+    plain = {key: value for key, value in given.items() if key not in ("x0", "known")}
+    network = network_of_entry({**plain, "input": [*inputs, *start]}, name)
+    a, b, c = space_of_flows(network)
+    entering = [row[: len(inputs)] for row in b] if inputs else None
+    contents = [start.get(str(i), 0) for i in network.nodes]
+    made = {**given, "x0": contents} if start else given
+    return _of_space((a, entering, c, 0), made, variable, name)
 
 
 def _single(model: MatrixModel) -> AnyModel:

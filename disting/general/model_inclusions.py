@@ -33,12 +33,16 @@ NOT_SETTLED = "neither missing elements nor the profiles settle it"
 FRESH = Settings(seed="checked again")
 
 
-def inclusions_of(left: AnyModel, right: AnyModel, profiles: tuple[Profile, Profile]) -> Inclusions:
+def inclusions_of(
+    left: AnyModel,
+    right: AnyModel,
+    profiles: tuple[Profile, Profile],
+    left_is_smaller: bool,
+) -> Inclusions:
     """Both statements on two models of unequal rank."""
-    first = profiles[0].rank < profiles[1].rank
-    closure = _by_minors(*ordered(left, right, first), first)
-    if closure is None:
-        closure = _by_profiles(profiles, first)
+    closure = _by_minors(*ordered(left, right, left_is_smaller), left_is_smaller)
+    if closure is None and _by_degrees(left, right):
+        closure = _by_profiles(profiles, left_is_smaller)
     if closure is None:
         closure = InclusionFinding(Inclusion.UNKNOWN, reason=NOT_SETTLED)
     if closure.inclusion is Inclusion.NEITHER:
@@ -55,6 +59,8 @@ def confirms_inclusion(
     if isinstance(evidence, Minor):
         pair = (left, right) if evidence.left_is_part else (right, left)
         return evidence.left_is_part == left_is_smaller and _is_what_remains(evidence, *pair)
+    if not _by_degrees(left, right):
+        return False
     fresh = [profile(GeneralModel(m), Representation.TF, 0, FRESH) for m in (left, right)]
     found = _by_profiles((fresh[0], fresh[1]), left_is_smaller)
     return found is not None and found.evidence == evidence
@@ -65,8 +71,8 @@ def numberings(part: AnyModel, whole: AnyModel) -> Iterator[dict[int, int]]:
     other one with elements missing, nothing rigid or at rest.
     """
     a, b = part.network, whole.network
-    if a is None or b is None:
-        return
+    if a is None or b is None or a.exponents or b.exponents:
+        return  # exponents are matched, and special ones are none of the part's elements
     for places in minors(a.grounded, b.grounded):
         if len(set(places.values())) == len(places):
             yield {at: i for i, at in sorted(places.items(), key=lambda x: x[1])}
@@ -107,11 +113,17 @@ def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
     ports = [(n.sort, n.order, n.sign_of_one_port) for n in (part, whole)]
     form = branches(part)
     known = ports[0] == ports[1] and part.sign_of_one_port != 0 and form is not None
+    known = known and not evidence.exponents
     return known and form == rest_of(whole, evidence.missing, evidence.rigid)
 
 
 def _minor(part: Network, whole: Network, places: Places, left_is_part: bool) -> Minor:
     return Minor(left_is_part, tuple(sorted(places.items())), *left_out(part, whole, places))
+
+
+def _by_degrees(left: AnyModel, right: AnyModel) -> bool:
+    """Whether degrees bound those of limits: not those in v, where exponents may change."""
+    return not any(m.powers.weights for m in (left, right))
 
 
 def _by_profiles(

@@ -10,22 +10,25 @@ looked for otherwise (see `admissible`).
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.conditions.side import HALVES, Ask, Side
+from disting.conditions.side import GENERIC, Ask, Side
+from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import REPLACEMENT, Theorem
-from disting.evidence.general import Constants, Witnesses
+from disting.evidence.general import Constants, Replaced, Witnesses
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
 from disting.general.admissible import admissible_finding
-from disting.general.any_model import as_chain, is_renamed, same, unnamed
+from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
+from disting.general.exponents import determined
+from disting.general.forms import by_forms, forms_of
 from disting.general.matrix_model import AnyModel
 from disting.general.model_inclusions import (
     confirms_inclusion,
@@ -33,6 +36,7 @@ from disting.general.model_inclusions import (
     n_elements,
     numberings,
 )
+from disting.general.readings import readings, told
 from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
 from disting.model.question import Domain, Question, Settings
@@ -40,6 +44,7 @@ from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
+OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
@@ -48,6 +53,9 @@ def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
 
 
 def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    found = by_forms(left, right, settings.seed)
+    if found is not None:
+        return found
     return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
 
 
@@ -88,8 +96,40 @@ class ComparedModel(Side[AnyModel]):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Whether degrees are counted in halves."""
-        return (HALVES,) * self.subject.halves
+        """What degrees count where that is not s, and which exponents are spoken of."""
+        told = self.subject.powers.sentence(self.name)
+        return (told,) * bool(told) + (GENERIC,) * bool(self.subject.powers.weights)
+
+    @property
+    def in_s(self) -> bool:
+        """Whether powers of v are those of s, or of its root."""
+        return not self.subject.powers.weights
+
+    @cached_property
+    def other_orders(self) -> tuple[tuple[tuple[str, ...], Renaming | None], ...]:
+        """The other orders of its exponents that profiles leave open, each with a renaming of its
+        parameters that does the same, if there is one.
+        """
+        own = told(self.transfer_profile)
+        found = list[tuple[tuple[str, ...], Renaming | None]]()
+        for model in readings(self.subject):
+            other = replace(self, subject=model)
+            if told(other.transfer_profile) == own:
+                evidence = condition_6(self, other, True).evidence
+                renaming = evidence if isinstance(evidence, Renaming) else None
+                found.append((model.powers.exponents, renaming))
+        return tuple(found)
+
+    @property
+    def has_other_readings(self) -> bool:
+        """Whether its exponents can be matched in orders that are no symmetries of it."""
+        return any(renaming is None for _, renaming in self.other_orders)
+
+    @property
+    def rank(self) -> int:
+        """Number of determinable parameters, exponents too."""
+        size = len(self.subject.powers.weights)
+        return self.transfer_profile.rank + determined(cells_of(self.subject), size)[0]
 
     @property
     def n_elements(self) -> int | None:
@@ -116,12 +156,22 @@ class ComparedModel(Side[AnyModel]):
         if one.rank == 0:
             return _constants(self.subject, other.subject)
         found = self.answerer(EXACTLY, _models(self, other), self.settings)
+        if found.outcome is not Outcome.HOLDS and self.has_other_readings:
+            return Finding(EXACT, Outcome.ABANDONED, note=OTHER_ORDER)
         return resting_on_ranks(found, one, there)
 
     def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both."""
         if evidence == Theorem(REPLACEMENT):
             return _replaceable(self, other)
+        if isinstance(evidence, Replaced):
+            forms = forms_of(
+                self.subject, other.subject, evidence.left_larger or evidence.right_larger
+            )
+            return forms is not None and (
+                evidence == forms.evidence(evidence.inner)
+                and model_evidence.confirms_models(evidence.inner, *forms.models, representation)
+            )
         pair = _models(self, other)
         if isinstance(evidence, Witnesses):
             pair = _unnamed(self, other, Domain(evidence.domain))
@@ -130,7 +180,7 @@ class ComparedModel(Side[AnyModel]):
     def exact_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
         """What `exact` finds with evidence of this kind."""
         if isinstance(evidence, Constants):
-            return self.exact(other) if self.rank == 0 else None
+            return self.exact(other) if self.transfer_profile.rank == 0 else None
         if not comparable(self, other):
             return None
         found = model_evidence.exact_again(evidence, *_models(self, other), self.settings)
@@ -150,6 +200,8 @@ class ComparedModel(Side[AnyModel]):
                 ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(REPLACEMENT)
             )
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
+        if found.outcome is not Outcome.HOLDS and self.has_other_readings:
+            return Finding(ADMISSIBLE, Outcome.ABANDONED, note=OTHER_ORDER)
         names = {LEFT: self.name, RIGHT: other.name}
         note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
         return replace(found, note=note)
@@ -157,7 +209,8 @@ class ComparedModel(Side[AnyModel]):
     def inclusions(self, other: "ComparedModel") -> Inclusions:
         """Both statements on two models of unequal rank."""
         profiles = tuple(s.profile(Representation.TF, 0) for s in (self, other))
-        return inclusions_of(self.subject, other.subject, (profiles[0], profiles[1]))
+        smaller = self.rank < other.rank
+        return inclusions_of(self.subject, other.subject, (profiles[0], profiles[1]), smaller)
 
     def includes(self, other: "ComparedModel", evidence: InclusionEvidence) -> bool:
         """Whether evidence of an inclusion is true of both."""
@@ -194,18 +247,13 @@ def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyMod
 def _unnamed(
     left: ComparedModel, right: ComparedModel, domain: Domain
 ) -> tuple[AnyModel, AnyModel]:
-    """Both as they are asked about: over positive parameters as the one-ports that they are."""
+    """Both as they are asked about: over positive parameters as the networks that they are."""
     found = unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
-    if domain is Domain.POSITIVE:
-        return _as_network(found[0], left), _as_network(found[1], right)
+    for model, side in zip(found, (left, right), strict=True):
+        network = side.subject.network
+        if domain is Domain.POSITIVE and network is not None:
+            object.__setattr__(model, "network", replace(network, name="network"))
     return found
-
-
-def _as_network(model: AnyModel, of: ComparedModel) -> AnyModel:
-    network = of.subject.network
-    if network is not None and network.sign_of_one_port:
-        object.__setattr__(model, "network", replace(network, name="network"))
-    return model
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:

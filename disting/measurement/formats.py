@@ -15,6 +15,7 @@ from disting.measurement.impedance import is_impedance, read_impedance
 from disting.measurement.matlab import responses, variables
 from disting.measurement.matlab_models import chosen_response, from_stored
 from disting.measurement.response import FrequencyResponse
+from disting.measurement.sinumerik import traced
 from disting.measurement.source import Source
 from disting.measurement.table import Table, is_time, time_series
 from disting.measurement.tabular import frequency_response, response_columns
@@ -127,7 +128,7 @@ def _from_impedance(file: Source, *, sensor: str = "") -> FrequencyResponse:
 
 def _table(file: Source) -> Table:
     text = decoded(file.content, file.name)
-    return exported(text, file.name) or table(text, file.name)
+    return exported(text, file.name) or traced(text, file.name) or table(text, file.name)
 
 
 def _from_text(file: Source, options: Options) -> FrequencyResponse:

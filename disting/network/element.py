@@ -2,6 +2,7 @@
 
 An element of value p adds p s^r u v^T to the matrix P(s) of its network, where u and v say at which
 nodes it pulls and what it feels; of a resistor, an inductor and a Warburg element 1/p stands for p.
+The power r of a constant phase element is its exponent, a parameter that has a name.
 Node 0 is the ground (a reference node, the outside) and has no row.
 """
 
@@ -50,34 +51,46 @@ KINDS = {
         Kind("L", "inductor", _C, -2, divides=True),
         Kind("C", "capacitor", _C, 2),
         Kind("W", "Warburg element", _C, 1, divides=True),
+        Kind("P", "constant phase element", _C, 0),
         Kind("a", "flow", _F, 0),
         Kind("v", "compartment", _F, 2, ends=1),
     )
 }
 
 
+PHASE = "P"  # the letter of a constant phase element, whose exponent is a parameter
+
+
 @dataclass(frozen=True, slots=True)
 class Element:
     """One element: the name of its value (none of a compartment, whose contents are the state
-    itself), the letter of its kind, the nodes at its ends, and the ratio of a gear.
+    itself), the letter of its kind, the nodes at its ends, the ratio of a gear, and the exponent of
+    a constant phase element.
 
     Kinds are m mass, j inerter, d damper, k spring; R resistor, L inductor, C capacitor, W Warburg
-    element; a flow, v compartment; the name of a value begins with the letter of its kind (of a
-    damper b too). Node 0 is the ground. Of two ends i and j with a ratio g the
-    element feels x_i - g x_j: g is the name of a parameter or a number such as "3/2". A flow goes
-    from its first node to its second one. Immutable and hashable. Raises InputError.
+    element, P constant phase element; a flow, v compartment; the name of a value begins with the
+    letter of its kind (of a damper b too). Node 0 is the ground. Of two ends i and j with a ratio
+    g the element feels x_i - g x_j: g is the name of a parameter or a number such as "3/2". A flow
+    goes from its first node to its second one. The admittance of a constant phase element is p s^n:
+    n is the name of its exponent, n1 of P1 where none is given. Immutable and hashable. Raises
+    InputError.
 
     >>> spring = Element("k12", "k", (1, 2), "3/2")
     >>> spring.kind.word, spring.parameters, str(spring)
     ('spring', ('k12',), 'k12 1 2 *3/2')
+    >>> Element("P1", "P", (1, 2)).exponent
+    'n1'
     """
 
     value: str
     letter: str
     nodes: tuple[int, ...]
     ratio: str = ""
+    exponent: str = ""
 
     def __post_init__(self) -> None:
+        if self.letter == PHASE and not self.exponent and isinstance(self.value, str):
+            object.__setattr__(self, "exponent", f"n{self.value[1:]}")
         for problem in _problems(self):
             raise InputError(problem)
 
@@ -85,6 +98,11 @@ class Element:
     def kind(self) -> Kind:
         """What it is."""
         return KINDS[self.letter]
+
+    @property
+    def power(self) -> tuple[int, str]:
+        """Its power of s: 2 r, and the exponent that is added to r."""
+        return self.kind.halves, self.exponent
 
     @property
     def known_ratio(self) -> Fraction | None:
@@ -116,7 +134,8 @@ class Element:
 
     def __str__(self) -> str:
         where = " ".join(map(str, self.nodes))
-        return f"{self.value or self.letter} {where}" + f" *{self.ratio}" * bool(self.ratio)
+        more = f" *{self.ratio}" * bool(self.ratio) + f" ^{self.exponent}" * bool(self.exponent)
+        return f"{self.value or self.letter} {where}{more}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,9 +164,9 @@ class Port:
 
 def _problems(e: Element) -> Iterator[str]:
     """Yield what is wrong with one element, each with its remedy."""
-    for text in (e.value, e.letter, e.ratio):
+    for text in (e.value, e.letter, e.ratio, e.exponent):
         if not isinstance(text, str):
-            yield f"name, kind and ratio of an element are texts, not {shown(text)}"
+            yield f"name, kind, ratio and exponent of an element are texts, not {shown(text)}"
     if e.letter not in KINDS:
         yield f"kinds of elements are {_words(KINDS)}, not {shown(e.letter)}"
     if not isinstance(e.nodes, tuple) or not all(type(i) is int for i in e.nodes):
@@ -174,6 +193,10 @@ def _problems(e: Element) -> Iterator[str]:
         )
     if e.ratio and (e.kind.ends == 1 or e.letter == "a" or 0 in e.nodes):
         yield f"{called} has a ratio, as of a gear: that needs two nodes other than the ground"
+    if e.exponent and e.letter != "P":
+        yield f"{called} is a {e.kind.word}, which has no exponent: leave that away"
+    if e.exponent and not _is_name(e.exponent):
+        yield f"{shown(e.exponent)} is no exponent: use a name such as n1"
     if e.known_ratio == 0:
         yield f"the ratio of {called} is zero: leave the gear away"
     if e.known_ratio is None and not _is_name(e.ratio):
@@ -204,6 +227,8 @@ def kind_of(name: str) -> Kind:
     ('spring', 'damper')
     """
     letter = "d" if name[:1] == "b" else name[:1]
+    if name[:3] == "CPE":
+        raise InputError(f"{shown(name)} is a constant phase element: call it P{name[3:]}")
     if letter not in KINDS or letter == "v":
         known = _words(letter for letter in KINDS if letter != "v")
         raise InputError(f"{shown(name)} begins with no letter of an element; there are {known}")

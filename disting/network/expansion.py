@@ -3,7 +3,8 @@
     G = s^q c^T P^-1 b = s^q det [[P, b], [-c^T, 0]] / det P
 
 Every value enters P to the first power, so it does both determinants, and a value p that divides
-enters them as 1/p: both are multiplied by p. Powers of s are counted in steps of s^(1/2) where
+enters them as 1/p: both are multiplied by p. For s^n of a constant phase element stands a variable
+of its own, called n. Powers of s are counted in steps of s^(1/2) where
 Warburg elements have half ones; where inductors have s^-1, P is multiplied by s, or s^2 in halves.
 """
 
@@ -27,9 +28,9 @@ Sides = tuple[fmpz_mpoly, fmpz_mpoly]
 def transfer_functions(
     network: Network, ring: Ring, s: str, times: Times
 ) -> tuple[tuple[Sides, ...], ...]:
-    """Those of a network, outputs x inputs, in a ring with all its parameters and the variable s,
-    which is s^(1/2) where the network has half powers; `times` multiplies, or refuses to. Raises
-    InputError where P cannot be inverted.
+    """Those of a network, outputs x inputs, in a ring with all its parameters, a variable for each
+    of its exponents and the variable s, which is s^(1/2) where the network has half powers; `times`
+    multiplies, or refuses to. Raises InputError where P cannot be inverted.
     """
     plain = network.grounded
     size = max((i for e in plain.elements for i in e.nodes), default=0)
@@ -39,7 +40,8 @@ def transfer_functions(
     scale = lcm(*(e.known_ratio.denominator for e in plain.elements if e.known_ratio is not None))
     rows = [[one - one] * size for _ in range(size)]
     for e in plain.elements:
-        _add(rows, e, ring, ring[s] ** (e.kind.halves // step + lift), scale)
+        power = ring[s] ** (e.kind.halves // step + lift)
+        _add(rows, e, ring, power * ring[e.exponent] if e.exponent else power, scale)
     whole = (1 << size) - 1
     determinant = minors(rows, {0: one}, times).get(whole, one - one)
     if determinant.is_zero():

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from disting.network.element import Element, Port
@@ -95,7 +96,7 @@ def renumbered(places: Mapping[int, int], element: Element) -> Element:
     """The element at other nodes, of which one can be the ground unless it is a gear."""
     nodes = tuple(places[i] for i in element.nodes)
     ratio = "" if element.known_ratio == 1 else element.ratio
-    return Element(element.value, element.letter, nodes, ratio)
+    return replace(element, nodes=nodes, ratio=ratio)
 
 
 def joined(

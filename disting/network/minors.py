@@ -31,6 +31,9 @@ the order in which both are drawn.
 
 Gears of which a ratio is known are elements like others if both have the same ratio; an unknown
 ratio of the whole stands for one ratio of the part. Neither is contracted.
+
+An exponent of the whole stands for one exponent of the part, or for 0, 1/2 or 1: a constant phase
+element then is a resistor, a Warburg element or a capacitor, P(s) being continuous in it.
 """
 
 from collections import Counter
@@ -40,11 +43,12 @@ from functools import lru_cache
 from itertools import combinations, islice
 from math import comb
 
-from disting.network.element import Element
+from disting.network.element import PHASE, Element
 from disting.network.graph import edges, joined, parts
 from disting.network.network import Network
 
 Places = Mapping[int, int]
+SPECIAL = {"R": "0", "W": "1/2", "C": "1"}  # exponents with which a P is another element
 TRIED = 20_000  # places of a node, in all; ways to take elements away
 REMEMBERED = 512
 Names = tuple[str, ...]
@@ -80,14 +84,16 @@ def is_minor(part: Network, whole: Network, places: Places) -> bool:
 
 def left_out(
     part: Network, whole: Network, places: Places
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The values of the whole whose elements are missing, and of those in whose place nodes are
-    connected directly.
+) -> tuple[tuple[str, ...], tuple[str, ...], tuple[tuple[str, str], ...]]:
+    """The values of the whole whose elements are missing, those in whose place nodes are connected
+    directly, and those of constant phase elements with the exponents that make them others.
 
     >>> from disting.network import network_of
     >>> one, other = network_of("R0-C1"), network_of("R0-p(C1,R1)-L1")
     >>> left_out(one, other, {0: 0, 1: 1, 2: 2, 3: 0})
-    (('R1',), ('L1',))
+    (('R1',), ('L1',), ())
+    >>> left_out(network_of("R0-C1"), network_of("R0-P1"), {0: 0, 1: 1, 2: 2})
+    ((), (), (('P1', '1'),))
     """
     met = _meets(part, whole, places) or {}
     kept = {e.value for e in met.values()}
@@ -95,12 +101,20 @@ def left_out(
     rigid = [e for e in others if len({places[i] for i in (*e.nodes, 0)[:2]}) == 1]
     rigid = [] if whole.is_directed else rigid
     missing = tuple(sorted(e.value for e in others if e not in rigid))
-    return missing, tuple(sorted(e.value for e in rigid))
+    letters = {e.value or str(e.nodes): e.letter for e in part.elements}
+    special = {e.value: SPECIAL[letters[n]] for n, e in met.items() if _is_special(letters[n], e)}
+    return missing, tuple(sorted(e.value for e in rigid)), tuple(sorted(special.items()))
+
+
+def _is_special(letter: str, met: Element) -> bool:
+    return met.letter == PHASE != letter
 
 
 def minors(part: Network, whole: Network) -> Iterator[dict[int, int]]:
     """Yield places that make the part of the whole, as far as they are found with bounded work."""
-    if len(part.elements) >= len(whole.elements) or part.shape != whole.shape:
+    fewer = len(whole.elements) - len(part.elements)
+    less = fewer > 0 or (fewer == 0 and len(part.exponents) < len(whole.exponents))
+    if not less or part.shape != whole.shape:
         return
     for start in _port_places(part, whole):
         order = sorted(set(whole.nodes) - start.keys())
@@ -170,8 +184,12 @@ def _branches(
     elements: Iterable[Element], network: Network, rigid: Iterable[Element]
 ) -> Branch | None:
     """The branches of these elements between the ends of the force, others being rigid; None where
-    it is open or shorted, or an element is not seen.
+    it is open or shorted, an element is not seen, or two constant phase elements share an exponent.
     """
+    elements = tuple(elements)
+    shared = Counter(e.exponent for e in elements if e.exponent)
+    if any(count > 1 for count in shared.values()):
+        return None
     roots = parts({0, *network.nodes}, [edge for e in rigid for edge in edges(e)])
     force = network.inputs[0]
     port = frozenset(roots[i] for i in (force.plus, force.minus))
@@ -251,20 +269,31 @@ def _grown(
 
 def _meets(part: Network, whole: Network, places: Places) -> dict[str, Element] | None:
     """For each element of the part one of the whole, by name; None if there are too few."""
-    wanted = Counter(_mark(e, {i: i for i in (0, *part.nodes)}) for e in part.elements)
-    met: dict[tuple[object, ...], list[Element]] = {}
+    free: dict[tuple[object, ...], list[Element]] = {}
     for e in whole.elements:
-        met.setdefault(_mark(e, places), []).append(e)
-    if any(len(met.get(mark, ())) < count for mark, count in wanted.items()):
-        return None
-    free = {mark: iter(found) for mark, found in met.items()}
-    chosen, ratios = dict[str, Element](), dict[str, str]()
+        free.setdefault(_mark(e, places), []).append(e)
+    chosen, named, own = dict[str, Element](), dict[str, str](), {i: i for i in (0, *part.nodes)}
     for e in part.elements:
-        mine = next(free[_mark(e, {i: i for i in (0, *part.nodes)})])
-        chosen[e.value or str(e.nodes)] = mine
-        if e.known_ratio is None and ratios.setdefault(mine.ratio, e.ratio) != e.ratio:
+        letter, *ends = _mark(e, own)
+        phase = free.get((PHASE, *ends), []) if letter in SPECIAL else []
+        for mine in (*free.get((letter, *ends), []), *phase):
+            if _agree(e, mine, named):
+                free[_mark(mine, places)].remove(mine)
+                chosen[e.value or str(e.nodes)] = mine
+                break
+        else:
             return None
     return chosen
+
+
+def _agree(e: Element, mine: Element, named: dict[str, str]) -> bool:
+    """Whether a ratio or an exponent of the whole, which is one number, can be that of the part;
+    `named` keeps what they are.
+    """
+    wanted = {mine.ratio: e.ratio} if e.known_ratio is None else {}
+    if mine.exponent:
+        wanted |= {mine.exponent: e.exponent or SPECIAL[e.letter]}
+    return all(named.setdefault(name, value) == value for name, value in wanted.items())
 
 
 def _mark(e: Element, places: Places) -> tuple[object, ...]:

@@ -70,6 +70,13 @@ class Network(Drawn):
         return tuple(sorted({p for e in self.elements for p in e.parameters}))
 
     @property
+    def exponents(self) -> tuple[str, ...]:
+        """Names of the exponents of constant phase elements, sorted: parameters too, which enter
+        as s^n.
+        """
+        return tuple(sorted({e.exponent for e in self.elements if e.exponent}))
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Numbers of outputs and inputs."""
         return len(self.outputs), len(self.inputs)
@@ -121,8 +128,9 @@ class Network(Drawn):
         >>> network_of("1~2, 2~#, 3~#; F1; S1").unseen
         ('k03', 'm3')
         """
-        entering = {p for e in self.seen for p in e.parameters}
-        return tuple(p for p in self.parameters if p not in entering)
+        entering = {p for e in self.seen for p in (*e.parameters, e.exponent)}
+        every = sorted((*self.parameters, *self.exponents))
+        return tuple(p for p in every if p not in entering)
 
     @property
     def grounded(self) -> "Network":
@@ -193,6 +201,9 @@ def _problems_of_names(elements: Sequence[Element]) -> Iterator[str]:
     both = sorted({e.ratio for e in elements if e.known_ratio is None} & count.keys())
     if both:
         yield f"{both[0]} is a ratio and something else: give it its own name"
+    used = {p for e in elements for p in e.parameters}
+    for name in sorted({e.exponent for e in elements} & used):
+        yield f"{name} is an exponent and something else: give it its own name"
 
 
 def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]:

@@ -3,8 +3,10 @@ they are made of parts that can replace each other.
 
 Parts. A part is a one-port: elements between two nodes that nothing else touches inside. An element
 has the compliance (a circuit's: the impedance) 1/(p s^r). Let a part be of two kinds, A with the
-smaller r, B with the larger one, in series and parallel in any order. With x = s^(r_B - r_A) its
-compliance is s^(-r_A) F(x), F made of constants k (A) and of k/x (B) by sums and H -> 1/(x H).
+smaller r, B with the larger one (of constant phase elements in any order: with A and B exchanged
+x becomes 1/x, and K(n, c, z) K(n, z, c)), in series and parallel in any order. With x = s^(r_B -
+r_A) its compliance is s^(-r_A) F(x), F made of constants k (A) and of k/x (B) by sums and H -> 1/(x
+H).
 
 THEOREM (Foster, Cauer). K(n, c, z) is the set of F = [k] + [k_0/x] + sum of n terms k_i/(x + a_i),
 positive, a_i distinct, the first term there if c, the second one if z. All parts with the same n,
@@ -42,32 +44,33 @@ of a goes to those with an outflow, or to the outflow of i.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 from disting.network.graph import joined
 from disting.network.network import Network
 
 REMEMBERED = 4096  # networks
-Count = tuple[tuple[tuple[int, int], int], ...]
-"""How many terms of which two kinds, the smaller power first."""
+Power = tuple[int, str]
+"""Of s: 2 r, and the exponent of a constant phase element, which is added to r."""
+Count = tuple[tuple[tuple[Power, Power], int], ...]
+"""How many terms of which two kinds, in order."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Part:
-    """A part in series ("S") or parallel ("P"): the powers r (in halves) of its single elements,
-    its terms of two kinds, and parts of three kinds or more, written out.
+    """A part in series ("S") or parallel ("P"): the powers r of its single elements, its terms of
+    two kinds, and parts of three kinds or more, written out.
     """
 
     form: str
-    single: tuple[int, ...]
+    single: tuple[Power, ...]
     terms: Count = ()
     others: tuple["Part", ...] = ()
 
     @property
-    def kinds(self) -> set[int]:
+    def kinds(self) -> set[Power]:
         """Powers of all that is in it."""
         inside = {r for pair, _ in self.terms for r in pair}
         return {*self.single, *inside, *(r for part in self.others for r in part.kinds)}
@@ -79,24 +82,6 @@ class NormalForm:
 
     edges: tuple[tuple[int, int, object], ...]
     nodes: tuple[tuple[int, object], ...]
-
-
-def same_parts(left: Network, right: Network) -> bool:
-    """Whether two networks give the same transfer functions for all positive values, special ones
-    aside, by the theorems above. False says nothing.
-
-    >>> from disting.network.notation import network_of
-    >>> same_parts(network_of("R0-p(R1,C1)-p(R2,C2)"), network_of("p(R1,R2-C1,R3-C2)"))
-    True
-    >>> same_parts(network_of("1~2~3~4; F1; S1"), network_of("1~2, 1~3, 3~4; F1; S1"))
-    True
-    """
-    if (left.sort, left.order, left.shape) != (right.sort, right.order, right.shape):
-        return False
-    one, other = normal_form(left), normal_form(right)
-    if one is None or other is None or _sketch(one) != _sketch(other):
-        return False
-    return any(_is_isomorphic(one, left, other, ports) for ports in _readings(right))
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -120,11 +105,11 @@ def in_parallel(parts: Iterable[Part]) -> Part:
 
 
 def _joined(form: str, parts: Iterable[Part]) -> Part:
-    single, terms, others = set[int](), Counter[tuple[int, int]](), list[Part]()
+    single, terms, others = set[Power](), Counter[tuple[Power, Power]](), list[Part]()
     for part in parts:
         inside = part if part.form == form or len(part.single) == 1 == len(part.kinds) else None
         if inside is None and len(part.kinds) == 2:
-            inside = _turned(part)
+            inside = turned(part)
         if inside is None:
             others.append(part)
         else:
@@ -132,7 +117,7 @@ def _joined(form: str, parts: Iterable[Part]) -> Part:
             terms.update(dict(inside.terms))
             others += inside.others
     made = Part(form, tuple(sorted(single)), tuple(sorted(terms.items())), tuple(sorted(others)))
-    return _turned(made) if form == "P" and len(made.kinds) == 2 else _single(made)
+    return turned(made) if form == "P" and len(made.kinds) == 2 else _single(made)
 
 
 def _single(part: Part) -> Part:
@@ -140,7 +125,7 @@ def _single(part: Part) -> Part:
     return Part("S", part.single) if len(part.kinds) == 1 else part
 
 
-def _turned(part: Part) -> Part:
+def turned(part: Part) -> Part:
     """A part of two kinds from series to parallel, or back: K(n, c, z) is, of 1/(x F), the set
     K(n + c + z - 1, not c, not z). Of F the constant is the kind of the smaller power, of 1/(x F),
     whose terms are side by side, that of the larger one.
@@ -154,7 +139,7 @@ def _turned(part: Part) -> Part:
 
 def _of_graph(network: Network) -> NormalForm:
     """Parts between nodes that are no ends of ports and have two neighbours become one."""
-    labelled = [(e.nodes, Part("S", (e.kind.halves,))) for e in network.seen]
+    labelled = [(e.nodes, Part("S", (e.power,))) for e in network.seen]
     kept = {i for p in network.ports for i in (p.plus, p.minus)}
     edges = joined(labelled, kept, in_series, in_parallel)
     listed = (tuple(sorted(ends)) for ends in edges)
@@ -191,63 +176,3 @@ def _hangs(at: int, flows: set[tuple[int, int]]) -> bool:
     """Whether it has flows to and from one compartment only."""
     out, back = {j for i, j in flows if i == at}, {i for i, j in flows if j == at}
     return len(out) == 1 and out == back
-
-
-Ports = tuple[tuple[int, int], ...]
-"""Both ends of each."""
-
-
-def _readings(network: Network) -> Iterator[Ports]:
-    """Yield the ports as they are, with all signs changed, and of one force and one sensor of a
-    reciprocal network exchanged: the transfer functions are the same.
-    """
-    plain = tuple((p.plus, p.minus) for p in network.ports)
-    orders = [plain]
-    if network.shape == (1, 1) and not network.is_directed:
-        orders.append(plain[::-1])
-    for ports in orders:
-        yield ports
-        if not network.is_directed:
-            yield tuple((minus, plus) for plus, minus in ports)
-
-
-def _sketch(form: NormalForm) -> object:
-    """What isomorphic forms share."""
-    labels = Counter(label for *_, label in form.edges), Counter(label for _, label in form.nodes)
-    return labels
-
-
-def _is_isomorphic(one: NormalForm, left: Network, other: NormalForm, ports: Ports) -> bool:
-    """Whether one graph is the other, edges, nodes and ports included."""
-    import networkx  # late: it takes longer than most of what is asked
-
-    mine = tuple((p.plus, p.minus) for p in left.ports)
-    graphs = [_graph(form, ends, left.is_directed) for form, ends in ((one, mine), (other, ports))]
-
-    def alike(a: dict[str, object], b: dict[str, object]) -> bool:
-        """Labels of two nodes, or of two edges."""
-        return a["label"] == b["label"]
-
-    first, second = graphs
-    return bool(networkx.is_isomorphic(first, second, node_match=alike, edge_match=alike))
-
-
-def _graph(form: NormalForm, ports: Ports, is_directed: bool) -> Any:
-    """The graph with the ends of ports in the labels of its nodes; an outside, where flows enter
-    from, is no node.
-    """
-    import networkx
-
-    graph: networkx.DiGraph[int] = networkx.DiGraph()
-    for a, b, label in form.edges:
-        graph.add_edge(a, b, label=label)
-        if not is_directed:
-            graph.add_edge(b, a, label=label)
-    graph.add_nodes_from(i for port in ports for i in port[: 1 if is_directed else 2])
-    hanging = dict(form.nodes)
-    for i in graph.nodes:
-        ends = tuple(
-            (k, side) for k, port in enumerate(ports) for side, j in enumerate(port) if i == j
-        )
-        graph.nodes[i]["label"] = (hanging.get(i), ends)
-    return graph

@@ -18,7 +18,9 @@ from disting.model.constraints import Indices, violated
 from disting.report.domains import one_sided
 from disting.report.drawing import draw
 from disting.report.model import folder_of
-from disting.report.page_drawing import Part
+from disting.report.network_drawing import hatched
+from disting.report.network_symbols import Track, drawn, gear
+from disting.report.page_drawing import Part, ground_dampers, height_with_dampers
 from disting.report.scene import Layer
 from disting.report.words import not_known, short_title
 from disting.verdict.result import Relation
@@ -39,6 +41,29 @@ def descriptions(n_masses: int, *, damped: bool) -> Iterator[Chain]:
 
 
 def parts(catalogs: Iterable[Catalog]) -> tuple[Part, ...]:
+    """The layers of all descriptions' drawings, each once; dampers to the ground; and signs of
+    which the page's script draws machines that are no chains.
+    """
+    catalogs = tuple(catalogs)
+    largest = max((c.n_masses for c in catalogs), default=0)
+    bearings = (
+        Part(f"part-friction-{p.name.split('-')[1]}", p.layer) for p in ground_dampers(largest)
+    )
+    return (*chain_parts(catalogs), *(bearings if largest else ()), *_signs())
+
+
+def _signs() -> Iterator[Part]:
+    """A spring, a damper, wheels of a gear and a piece of ground, each at (0, 0), along x."""
+    track = Track((-18.0, 0.0), (18.0, 0.0))
+    for letter in "kd":
+        yield Part(f"part-sign-{letter}", Layer(letter, drawn(letter, track)))
+    yield Part("part-sign-gear", Layer("gear", gear(Track((-18.0, 0.0), (9.0, 0.0)))))
+    yield Part(
+        "part-sign-ground", Layer("ground", tuple(hatched(Track((-9.0, 0.0), (0.0, 0.0)), 13.0)))
+    )
+
+
+def chain_parts(catalogs: Iterable[Catalog]) -> tuple[Part, ...]:
     """The layers of all descriptions' drawings, each once."""
     return parts_of(chain for c in catalogs for chain in descriptions(c.n_masses, damped=c.damped))
 
@@ -83,6 +108,7 @@ def _machine(c: Catalog) -> dict[str, object]:
         "masses": c.n_masses,
         "damped": c.damped,
         "size": [scene.width, scene.height],
+        "below": height_with_dampers(c.n_masses) - scene.height,
         "models": [chain.indices[1:] for chain in c.family],
         "groups": c.classes(),
         "depends": _depending(c),

@@ -21,6 +21,7 @@ from disting.report.domains import VIEWS
 from disting.report.environment import render, source
 from disting.report.listed_model import listed_model_page
 from disting.report.listing import Listing, judged
+from disting.report.network_motion import motion_page_of, page_of_motion
 from disting.report.payload import payload
 from disting.report.words import SAID, VIEW_TITLES
 from disting.verdict.comparison import Given, refuse_ports
@@ -39,13 +40,15 @@ COLUMNS = (
 def write_model_list(shown: Listing, out: Path, *, site: bool = False) -> list[Path]:
     """Write the page of the list, a page for each model, the verdicts over positive parameters as
     CSV and JSON, and the models as CSV, into a folder; `site`: the pages around it, which are
-    written too, stand beside it. Returns the paths.
+    written too, stand beside it. Where all are machines of masses, springs and dampers, also the
+    page on which two of them move. Returns the paths.
     """
     out.mkdir(parents=True, exist_ok=True)
     site, guide = (site or (out / page).is_file() for page in ("index.html", "guide/index.html"))
+    motion = page_of_motion(shown.found, shown.name)
     decided = shown.found.decisions[View.POSITIVE]
     texts = {
-        f"{shown.name}.html": model_list_page(shown, site=site, guide=guide),
+        f"{shown.name}.html": model_list_page(shown, site=site, guide=guide, motion=motion),
         f"{shown.name}.csv": decisions_csv(decided),
         f"{shown.name}.json": decisions_json(decided),
         f"{shown.name}-models.csv": models_csv(shown),
@@ -54,6 +57,8 @@ def write_model_list(shown: Listing, out: Path, *, site: bool = False) -> list[P
     for card in shown.cards:
         page = listed_model_page(shown, card.number, site=site and guide)
         texts[f"{shown.folder}/{card.number}.html"] = page
+    if motion:
+        texts[motion] = motion_page_of(shown.found, shown.title, shown.name, site=site and guide)
     (out / shown.folder).mkdir(parents=True, exist_ok=True)
     return [write_whole(out / name, [text]) for name, text in texts.items()]
 
@@ -94,8 +99,12 @@ def page_name(path: Path) -> str:
     return f"list-{name}"
 
 
-def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) -> str:
-    """HTML of the page; `site`, `guide`: whether these pages stand beside it."""
+def model_list_page(
+    shown: Listing, *, site: bool = False, guide: bool = False, motion: str = ""
+) -> str:
+    """HTML of the page; `site`, `guide`: whether these pages stand beside it; `motion`: the page on
+    which two of the models move.
+    """
     found, count = shown.found, len(shown.cards)
     n_pairs = count * (count - 1) // 2
     data = payload(
@@ -118,6 +127,7 @@ def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) 
         payload=data,
         site=site,
         guide=guide,
+        motion=motion,
         plural=plural,
     )
 

@@ -16,10 +16,10 @@ from disting.report.describe_machine import parts_of
 from disting.report.domains import one_sided
 from disting.report.drawing import JOINT, MASS, PITCH, WALL, draw
 from disting.report.environment import render
-from disting.report.model import folder_of, motion_of, ways
+from disting.report.model import folder_of, ways
 from disting.report.page_drawing import definitions
 from disting.report.payload import script_json
-from disting.report.words import plural, short_title
+from disting.report.words import short_title
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -27,8 +27,8 @@ from disting.verdict.result import Relation
 # damped by some percent; no two springs have one ratio k/d, which would make more models equivalent
 START = {
     "m": (1.0, 2.0, 1.5, 0.8, 1.2),
-    "k": (90.0, 150.0, 60.0, 120.0, 75.0),
-    "d": (0.6, 0.25, 0.9, 0.4, 0.7),
+    "k": (90.0, 150.0, 60.0, 120.0, 75.0, 105.0),
+    "d": (0.6, 0.25, 0.9, 0.4, 0.7, 0.5),
 }
 
 
@@ -37,14 +37,12 @@ def motion_page(catalog: Catalog) -> str:
     first = first_pair(catalog)
     return render(
         "motion.html",
-        catalog=catalog,
         family=short_title(catalog),
-        folder=folder_of(catalog),
+        back=f"{catalog.name}.html",
+        site=True,
+        members=[tuple(f"A{i}" for i in group) for group in catalog.classes()],
         parts=definitions(parts_of(catalog.family)),
         payload=_payload(catalog, first),
-        first=first,
-        groups=catalog.classes(),
-        plural=plural,
     )
 
 
@@ -75,9 +73,7 @@ def _payload(catalog: Catalog, first: tuple[int, int]) -> Markup:
     scene = draw(catalog.family[1])
     return script_json(
         {
-            "name": catalog.name,
             "folder": folder_of(catalog),
-            "page": motion_of(catalog),
             "masses": catalog.n_masses,
             "damped": catalog.damped,
             "order": catalog.family[1].sensor.order,

@@ -395,7 +395,7 @@ def _arm_to_ground(
         track = arm.shifted(aside, 0)
         sheet.add(e.value, (*_fan_at(arm, aside, radius), *_element(e, track)))
     if sort is Sort.MACHINE:
-        sheet.add("ground", _hatched(arm, half))
+        sheet.add("ground", hatched(arm, half))
     for e, aside in zip(found, _asides(len(found)), strict=True):
         names = list(_names(e, arm.shifted(aside, 0), aside))
         sheet.add(f"name-{e.value}", (sheet.clearest(names),))
@@ -406,7 +406,7 @@ def _fan_at(arm: Track, aside: float, radius: float) -> Iterator[Path]:
         yield Path((arm.start, arm.at(0, aside)))
 
 
-def _hatched(arm: Track, half: float) -> Iterator[Path]:
+def hatched(arm: Track, half: float) -> Iterator[Path]:
     """A piece of ground at the end of an arm."""
     n = arm.length
     yield Path((arm.at(n, -half), arm.at(n, half)), line=2)

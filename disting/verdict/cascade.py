@@ -16,7 +16,7 @@ from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Role, Stage
-from disting.conditions.side import AnySide
+from disting.conditions.side import AnySide, notes_of
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
 from disting.evidence.kind import Carrier
@@ -76,6 +76,8 @@ def steps(left: AnySide, right: AnySide, query: Query) -> Iterator[Step]:
     """
     count = query.count(left, right)
     for representation in query.view.representations:
+        if representation is Stage.MARKOV and not (left.in_s and right.in_s):
+            continue
         for condition in CONDITIONS:
             if query.asks(condition.rule):
                 yield from _step(condition, left, right, representation, count)
@@ -243,7 +245,7 @@ def verdict_of(
         safety=f.safety,
         evidence=f.evidence,
         domain=domain,
-        notes=left.notes,
+        notes=notes_of(left, right),
         premises=(left.premise, right.premise),
     )
 

@@ -54,16 +54,25 @@ def decisions(
             _each(result, open_pairs, Stage.FIBRE, lambda a, b: a.exact(b))
             continue
         r = Representation(stage)
-        active = np.flatnonzero(open_pairs.any(axis=0) | open_pairs.any(axis=1))
+        asked = open_pairs & _are_asked(stage, subjects)
+        active = np.flatnonzero(asked.any(axis=0) | asked.any(axis=1))
         prefetch([subjects[int(i)] for i in active], r, markov_count(r, query, subjects))
-        _necessary(result, open_pairs, r, active)
-        _sufficient(result, open_pairs, r)
+        before = asked.copy()
+        _necessary(result, asked, r, active)
+        _sufficient(result, asked, r)
+        open_pairs &= asked | ~before
     if query.tells_inclusion:
         _inclusions(result, ask)
         _positive(result, ask)
     if query.view.domain is not Domain.COMPLEX:
         _admissible(result, ask)
     return result
+
+
+def _are_asked(stage: Stage, subjects: Sequence[AnySide]) -> NDArray[np.bool_]:
+    """The pairs that have such a summary: Markov parameters are those of functions of s."""
+    told = np.array([stage is Stage.TF or s.in_s for s in subjects], bool)
+    return np.asarray(told[:, None] & told[None, :])
 
 
 def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[AnySide, AnySide]]:

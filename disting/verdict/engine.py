@@ -22,9 +22,11 @@ from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
 from disting.experiments import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
-from disting.general.any_model import on_one_variable
+from disting.general.any_model import on_one_variable, unnamed
+from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
+from disting.general.readings import settled
 from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.protocol import Model
@@ -79,7 +81,14 @@ class Engine:
         self, models: Sequence[AnyModel], names: Sequence[str] = ()
     ) -> list[ComparedModel]:
         """The same for general models that are compared with each other, all in one variable."""
-        named = zip(names or [m.name for m in models], on_one_variable(models), strict=True)
+
+        def profile_of(model: AnyModel) -> Profile:
+            """That of its transfer functions."""
+            of = GeneralModel(unnamed(model))
+            return self.profile(of, Representation.TF, 0, self.settings)
+
+        matched = [settled(model, profile_of) for model in on_one_variable(models)]
+        named = zip(names or [m.name for m in models], matched, strict=True)
         return [
             ComparedModel(name, model, self.settings, self.profile, self.answer)
             for name, model in named

@@ -10,7 +10,8 @@ work is that of its price:
    dampers contained in another of equal rank on the same chain gives the same closure (8), two
    such sets with a union of equal rank as well (9); equal fingerprints of colours are looked at
    for a renaming (6).
-3. One representative a class: ranks of the Markov parameters of 1/G, then every pair of a bucket
+3. What was settled of two forms before is taken over.
+4. One representative a class: ranks of the Markov parameters of 1/G, then every pair of a bucket
    that is still together is asked: `quick` first, then whatever questions are added.
 
 Certainty: every step is a theorem, proven, or bounded by 2^-LEAST_SAFETY at most; the relation of
@@ -18,7 +19,7 @@ a pair rests on as many steps as link its two models to their representatives, a
 error is bounded by that many times 2^-LEAST_SAFETY.
 """
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from itertools import combinations
@@ -42,6 +43,8 @@ from disting.verdict.classes import Classes, without_dampers
 from disting.verdict.engine import Engine, Progress, silent
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
+Settled = Mapping[tuple[Chain, Chain], Finding]
+"""What is known of pairs of canonical chains."""
 OF_MARKOV = tuple(c for c in NECESSARY if not c.of_degrees)
 # transfer function, Markov parameters, 1/G
 TESTS = (*(c.rule.name for c in (*NECESSARY, *OF_MARKOV)), EXACT.name)
@@ -51,12 +54,13 @@ def classes(
     chains: Sequence[Chain],
     engine: Engine,
     *,
+    settled: Settled | None = None,
     more: Sequence[Question[Finding]] = (),
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Classes:
     """The classes of chains of one size and sensor without dead time; `more`: questions about what
-    `quick` leaves open.
+    `quick` leaves open. Of what is `settled`, pairs with a chain that is not here are passed over.
 
     Raises InputError for chains that differ in size, sensor or dampers beside the springs, or that
     have a dead time.
@@ -85,6 +89,7 @@ def classes(
         len(NECESSARY),
     )
     work.rename()
+    work.take_over(settled or {})
     _invert(work, executor, progress)
     for question in (QUICKLY, *more):
         _decide(work, question, executor, progress)
@@ -156,6 +161,22 @@ class _Work:
                 self.renamed[i] = first
                 self.known.unite(first, i)
 
+    def take_over(self, settled: Settled) -> None:
+        """What is settled of canonical forms that are here."""
+        at = {s.canonical.chain: i for i, s in enumerate(self.subjects)}
+        for (first, second), found in settled.items():
+            if first in at and second in at:
+                self.take(at[first], at[second], found)
+
+    def take(self, i: int, j: int, found: Finding) -> None:
+        """What a finding says of two forms, where it is sure."""
+        if found.certainty is Certainty.NUMERICAL:
+            return
+        if found.outcome is Outcome.HOLDS:
+            self.known.unite(i, j)
+        elif found.outcome is Outcome.FAILS:
+            self.refuted.add((i, j))
+
     def open_pairs(self) -> list[tuple[int, int]]:
         """Pairs of representatives that share all columns and are not refuted."""
         roots = [i for i in range(len(self.subjects)) if self.known.root(i) == i]
@@ -213,12 +234,7 @@ def _decide(
     asked = [work.subjects[i].in_order(work.subjects[j]) for i, j in pairs]
     work.engine.answer_all(question, asked, executor=executor, progress=progress)
     for (i, j), chains in zip(pairs, asked, strict=True):
-        found = work.engine.answer(question, chains, work.engine.settings)
-        sure = found.certainty is not Certainty.NUMERICAL
-        if sure and found.outcome is Outcome.HOLDS:
-            work.known.unite(i, j)
-        elif sure and found.outcome is Outcome.FAILS:
-            work.refuted.add((i, j))
+        work.take(i, j, work.engine.answer(question, chains, work.engine.settings))
 
 
 def _sorted(i: int, j: int) -> tuple[int, int]:

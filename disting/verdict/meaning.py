@@ -5,7 +5,7 @@ here is all that is measured, from the force to the sensor or from the inputs to
 parameters are generic, finite and not zero.
 """
 
-from disting.conditions.side import HALVES
+from disting.conditions.side import COUNTED, HALVES
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.decision import DeadTime
 from disting.model.question import Domain
@@ -42,6 +42,8 @@ def shown(verdict: Verdict, what: str = RESPONSE) -> str:
         )
     match verdict.evidence:
         case Counts():
+            if any(note.startswith(f"{COUNTED}v") for note in verdict.notes):
+                return f"The responses of {left} and {right} are made of other powers of s."
             halves = HALVES in verdict.notes
             return _steeper(verdict.evidence, left, right, machines, halves, what)
         case Ranks():

@@ -21,12 +21,14 @@ from disting.verdict.result import Relation, Verdict
 @dataclass(frozen=True, slots=True)
 class ModelEquivalent(Shown):
     """Another model, what is known of the pair, and its values where those of the given one are
-    said.
+    said; `exponents`: those of its constant phase elements, each with the one of the given network
+    that it equals, or with the value of that.
     """
 
     model: AnyModel
     verdict: Verdict
     values: Alternatives | None = None
+    exponents: tuple[tuple[str, str], ...] = ()
 
     def __repr__(self) -> str:
         return summary(self, f"{self.model.name}, {self.verdict.told}")
@@ -38,6 +40,7 @@ class ModelEquivalent(Shown):
             "name": self.model.name,
             "relation": self.verdict.relation.value,
             "sentence": self.verdict.sentence,
+            **({"exponents": dict(self.exponents)} if self.exponents else {}),
             "extent": "" if self.values is None else self.values.extent.value,
             "values": [
                 {
@@ -59,8 +62,8 @@ def model_equivalents(
 ) -> list[ModelEquivalent]:
     """Those of the other models that are not told apart from the given one over positive values
     (or in the domain of the query), with all their values that give its transfer function at
-    `values`, exactly. Models of other numbers of inputs and outputs are passed over. Raises
-    InputError.
+    `values`, exactly. Values of exponents may be said, and change nothing. Models of other numbers
+    of inputs and outputs are passed over. Raises InputError.
 
     >>> from disting.network import network_of
     >>> given, other = network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")
@@ -71,15 +74,23 @@ def model_equivalents(
     model = _as_model(given)
     if values is not None and not isinstance(model, Model):
         raise InputError("values are found of models with one input and one output")
+    engine = Engine() if engine is None else engine
+    exponents = model.network.exponents if model.network is not None else ()
+    phases = {n: str((values or {}).get(n, n)) for n in exponents}
+    known = None if values is None else {n: x for n, x in values.items() if n not in phases}
     found = []
     for there in map(_as_model, others):
         if (there.name, there) == (model.name, model) or there.shape != model.shape:
             continue
         verdict = compare(model, there, query=query, engine=engine)
         if verdict.relation is not Relation.DISTINGUISHABLE:
-            asked = values is not None and isinstance(model, Model) and isinstance(there, Model)
-            at = alternatives(model, values, there) if asked else None  # type: ignore[arg-type]
-            found.append(ModelEquivalent(there, verdict, at))
+            mine, others_form = (s.subject for s in engine.general_subjects([model, there]))
+            at = None
+            if known is not None and isinstance(mine, Model) and isinstance(others_form, Model):
+                at = alternatives(mine, known, others_form)
+            named = zip(others_form.powers.exponents, mine.powers.exponents, strict=False)
+            equal = tuple((name, phases[given_name]) for name, given_name in named)
+            found.append(ModelEquivalent(there, verdict, at, equal))
     return found
 
 

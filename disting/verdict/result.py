@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, bits_in_words
 from disting.conditions.rule import EXACT, RULES, Role, Stage
-from disting.conditions.side import HALVES
+from disting.conditions.side import COUNTED, GENERIC
 from disting.evidence.conditions import capital
 from disting.evidence.kinds import Evidence
 from disting.evidence.kinds import evidence_from as evidence_from
@@ -29,6 +29,7 @@ def error_bound(certainty: str, safety: int) -> str:
     return bits_in_words(safety) if certainty == Certainty.BOUNDED else "0"
 
 
+TOLD = (COUNTED, GENERIC)  # how notes begin that belong to what is said
 WHERE = {Stage.TF: "transfer function", Stage.MARKOV: "Markov parameters"}
 
 
@@ -133,8 +134,7 @@ class Verdict(Shown):
         return (
             f"{self.models} are {self.told}{over}{depending}{aside} ({self.rule}):"
             f" {self.evidence.sentence(self.left, self.right)} {capital(self.sure)}."
-            + f" {capital(HALVES)}."
-            * (HALVES in self.notes)
+            + "".join(f" {capital(note)}." for note in self.notes if note.startswith(TOLD))
         )
 
     @property

@@ -17,6 +17,7 @@ from typing import Any
 from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.conditions.side import notes_of
 from disting.errors import DistingError, InputError, NotSeenError, shown
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
@@ -255,7 +256,7 @@ def _unfounded(claim: _Claim) -> Iterator[str]:
         return
     if not follows(v, v.evidence, claim.query):
         yield f"{claim.where}{v.relation}, by {v.rule}, does not follow from evidence of that kind"
-    if v.notes != (*claim.sides.left.notes, *claim.sides.notes):
+    if v.notes != (*notes_of(claim.sides.left, claim.sides.right), *claim.sides.notes):
         yield f"{claim.where}what is decided has notes of what is open"
     equal = claim.equal
     known = equal is None or equal.relation is Relation.INDISTINGUISHABLE

@@ -76,3 +76,29 @@ def test_pairs_are_counted_as_they_are_decided() -> None:
 def test_more_masses_take_longer(work: Work) -> None:
     seconds = [work.value.of(n) for n in range(1, 12)]
     assert seconds == sorted(seconds) and seconds[-1] > seconds[0] > 0
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a signal has another number there")
+@pytest.mark.parametrize(
+    "command", ["report compartments-3 --out pages", "verdicts compartments-3"]
+)
+def test_a_family_that_is_not_shipped_says_how_long_it_takes(tmp_path: Path, command: str) -> None:
+    process = subprocess.Popen(
+        [*COMMAND, *command.split()], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
+        cwd=tmp_path, env=os.environ | {"DISTING_CACHE": "off"},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )  # fmt: skip
+    assert process.stderr is not None
+    first = process.stderr.readline()
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    assert re.fullmatch(
+        r"disting: all pairs of compartments-3, which may take about an? .*; less to do: two networks"
+        r" alone \(disting compare\); Ctrl-C stops it, and what is done stays in the cache\n",
+        first,
+    )
+
+
+def test_a_shipped_family_is_told_without_a_word(tmp_path: Path) -> None:
+    done = called("verdicts", "circuits-4", cache=tmp_path / "cache.sqlite3")
+    assert done.returncode == 0 and "may take" not in done.stderr

@@ -99,7 +99,7 @@ def test_what_is_measured_against_a_matrix_that_is_written_out(text, data):
 
 
 def value(model, at, root):
-    variable = root if model.halves else root**2
+    variable = root if model.powers.halves else root**2
     top, bottom = (
         sum(
             sympy.Integer(number)

@@ -188,10 +188,9 @@ def test_right_models_explain(seed):
 def test_the_bench_and_its_demonstration_are_explained():
     train, test = bench("A"), bench("B")
     found = select(train, [replace(DRIVE, dead_time=True)], test=test)
-    assert found.explanation.chi2 == pytest.approx(0.891, abs=0.01) and found.explanation.explains
+    assert found.explanation.chi2 == pytest.approx(0.860, abs=0.01) and found.explanation.explains
     assert found.explanation.scatter.source == "the difference of training and test data"
-    assert [d.name for d in found.members[0].disagreements] == ["d12", "b2"]
-    assert any("friction that changes with the amplitude" in s for s in suspicions(found))
+    assert any("the machine changes between them, as friction does" in s for s in suspicions(found))
 
 
 @pytest.mark.parametrize("noise", [0.003, 0.01, 0.03])

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
+from scipy.stats import f as f_distribution
 
 from disting.fit.judge.members import QUANTILE, disagreements
 from disting.fit.judge.practical import covariance, practical
@@ -18,6 +20,10 @@ from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from tests.fit.drives import OMEGA, response
+from tests.fit.monte_carlo import drive as bench_drive
+from tests.fit.monte_carlo import measured as bench_data
+from tests.fit.monte_carlo import response_at
+from tests.fit.monte_carlo import truth as bench_truth
 
 TWO = Chain(2, damped=True, ground_dampers=(1,))
 THREE = Chain(3, damped=True, ground_dampers=(1,))
@@ -50,7 +56,7 @@ def errors(chain, values, data):
     plant = task.plant(chain)
     p, _ = fine(plant, task.cost, task.box(names), start)
     residual, columns = task.cost.of(plant, p)
-    sigma = task.cost.scatter(scatter(data, [plant.response(p)]).rho)
+    sigma = task.cost.scatter(scatter(data, [plant.response(p)]))
     there = noise(residual, sigma, expected(columns, sigma))
     return (p / start - 1) * start / (p * np.sqrt(np.diag(covariance(columns, there))))
 
@@ -132,9 +138,48 @@ def test_errors_without_scatter_in_the_file_follow_the_noise():
         task = Task(Cost(data))
         p = np.array([values[n] for n in TWO.parameters])
         residual, columns = task.cost.of(task.plant(TWO), p)
-        there = noise(residual, task.cost.scatter(scatter(data, [task.plant(TWO).response(p)]).rho))
+        there = noise(residual, task.cost.scatter(scatter(data, [task.plant(TWO).response(p)])))
         sizes.append(practical(columns, TWO.parameters, there).relative_errors["k12"])
     assert sizes[1] / sizes[0] == pytest.approx(10, rel=0.3)
+
+
+def test_where_an_interval_ends_the_likelihood_has_fallen_as_far_as_it_says():
+    """The other parameters by a search of scipy's own, from what the fit found."""
+    machine = bench_drive(2, 5)
+    data, chain = bench_data(machine, 1), bench_truth(machine)
+    found = select(data, [chain])
+    (member,) = found.members
+    known, values = found.explanation.scatter, member.candidate.estimate.parameters
+    most = f_distribution.isf(0.05, 1, known.freedom)
+    size = max(1.0, found.selected.j_train / (2 * len(data) - len(values)))
+
+    def lowest(name, end):
+        others = [n for n in values if n != name]
+
+        def cost(x):
+            now = dict(zip(others, np.exp(x), strict=True)) | {name: end}
+            missed = response_at(chain, now, data.omega) - data.G
+            return 2 * np.sum(np.abs(missed / known.sigma) ** 2)
+
+        start = np.log([values[n] for n in others])
+        return minimize(cost, start, method="BFGS").fun
+
+    wide = [n for n, e in member.candidate.practical.relative_errors.items() if 0.05 < e < 0.3]
+    assert wide
+    for name in wide[:2]:
+        for end in member.intervals[name]:
+            risen = (lowest(name, end) - found.selected.j_train) / size
+            assert risen == pytest.approx(most, rel=0.1), name
+
+
+def test_what_has_gone_to_zero_may_come_back_where_others_are_held():
+    """A damper is zero at the optimum: m2 is known as badly as if it were there."""
+    machine = bench_drive(3, 0)
+    found = select(bench_data(machine, 1), [bench_truth(machine)])
+    (member,) = found.members
+    assert member.candidate.estimate.parameters["d23"] < 1e-6 * machine.values["d23"]
+    for name, (low, high) in member.intervals.items():
+        assert low <= machine.values[name] <= high, name
 
 
 def test_an_interval_holds_the_value_where_parameters_run_away_together():

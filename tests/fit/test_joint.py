@@ -167,7 +167,7 @@ def test_a_stack_of_one_response_is_that_response():
         one.cost.of(one.plant(TWO), p), stacked.cost.of(stacked.plant(TWO), p), strict=True
     ):
         np.testing.assert_array_equal(a, b)
-    sigma = one.cost.scatter(together(scatters(one.cost, [])).rho)
+    sigma = one.cost.scatter(together(scatters(one.cost, [])))
     residual = one.cost.residual(data.G * 1.01)
     alone, both = noises(one.cost, residual, sigma), noises(stacked.cost, residual, sigma)
     np.testing.assert_array_equal(alone.sigma, both.sigma)
@@ -262,7 +262,7 @@ def errors(chain, values, data, further):
     plant = task.plant(chain)
     p, j = fine(plant, task.cost, task.box(chain.parameters), start)
     residual, columns = task.cost.of(plant, p)
-    sigma = task.cost.scatter(together(scatters(task.cost, [plant.response(p)])).rho)
+    sigma = task.cost.scatter(together(scatters(task.cost, [plant.response(p)])))
     there = noises(task.cost, residual, sigma, expected(columns, sigma))
     return (p - start) / (p * np.sqrt(np.diag(covariance(columns, there)))), j
 
@@ -305,7 +305,7 @@ def test_two_equal_responses_are_one_of_half_the_variance():
     for further in ([], [Further(data[1], Setup(sensor="1"))]):
         task = Task(joint_cost(Cost(data[0]), further, None, alike=True))
         residual, columns = task.cost.of(task.plant(TWO), p)
-        sigma = task.cost.scatter(together(scatters(task.cost, [task.plant(TWO).response(p)])).rho)
+        sigma = task.cost.scatter(together(scatters(task.cost, [task.plant(TWO).response(p)])))
         there = noises(task.cost, residual, sigma, expected(columns, sigma))
         sizes.append(np.sqrt(np.diag(covariance(columns, there))))
     np.testing.assert_allclose(sizes[0] / sizes[1], np.sqrt(2), rtol=0.1)

@@ -21,6 +21,7 @@ DATA = Path(__file__).parents[2].parent / "shared" / "data" / "eis"
 needs_data = pytest.mark.skipif(not DATA.is_dir(), reason="no folder with measured impedances")
 TEXTS = [
     "R0-p(R1,C1)-W1",
+    "R0-p(R1-W1,P1)-p(P2,L1)",
     "L1-p(R1,C1)",
     "1=2*i, 2=3, 2~4; F1; S4",
     "1=2*3/2, 2-#; F1; S2:1; position",
@@ -36,13 +37,18 @@ def test_response_and_gradient_are_those_of_the_transfer_function(text):
     network, draw = network_of(text), np.random.default_rng(1)
     model, plant = of_network(network), NetworkPlant(network, np.logspace(0, 2, 7))
     p = np.exp(draw.normal(size=(3, len(plant.parameters))))
+    p[:, plant.highest < np.inf] = draw.uniform(0.5, 1, (3, len(network.exponents)))
     response, gradient = plant.logarithmic_gradient(p)
     s = 1j * plant.omega
-    v = np.sqrt(s) if model.halves else s
     for k, values in enumerate(p):
+        known = dict(zip(plant.parameters, values, strict=True))
+        point = [known[name] for name in model.parameters]
+        root = np.sqrt(s) if model.powers.halves else s
+        bases = [root, *(s ** known[name] for name in model.powers.exponents)]
         top, bottom = (
             sum(
-                sum(c * np.prod(values ** np.array(e)) for e, c in terms) * v**i
+                sum(c * np.prod(point ** np.array(e)) for e, c in terms)
+                * np.prod([b**k for b, k in zip(bases, model.powers.parts(i), strict=True)], axis=0)
                 for i, terms in enumerate(side)
             )
             for side in (model.numerator_terms, model.denominator_terms)

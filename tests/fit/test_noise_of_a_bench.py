@@ -22,7 +22,7 @@ from disting.fit.judge.exclusion import (
 from disting.fit.noise.covariance import Noise
 from disting.fit.noise.line_variance import coefficients
 from disting.fit.noise.scatter import changed, scatter
-from disting.fit.search.cost import Cost
+from disting.fit.search.cost import Case, Cost
 from disting.fit.search.whitened import Whitened
 from disting.fit.sentences import commands, suspicions
 from disting.measurement import FrequencyResponse, TimeSeries, mean_of
@@ -244,6 +244,29 @@ def test_a_damper_may_be_fixed_to_zero_or_left_away():
     assert done.returncode == 0 and "2:1+b1" in done.stdout
     with pytest.raises(InputError, match="m1 is fixed to a positive number, not 0"):
         select(data, [with_damper], fixed={"m1": 0.0})
+
+
+def test_parameters_are_those_of_the_highest_likelihood():
+    """A loud drive: beside it no step of a parameter leads to less, by formula; a cost of the paper
+    that is asked for is kept.
+    """
+    machine = DRIVES[2]
+    data, chain = measured(machine, 1), truth(machine)
+    found = select(data, [chain])
+    values, known = found.selected.estimate.parameters, found.explanation.scatter
+
+    def distance(**changed: float) -> float:
+        missed = response_at(chain, values | changed, data.omega) - data.G
+        return float(2 * np.sum(np.abs(missed / known.sigma) ** 2))
+
+    lowest = distance()
+    assert found.selected.j_train == pytest.approx(lowest)
+    for name, value in values.items():
+        assert all(distance(**{name: value * step}) > lowest for step in (0.999, 1.001)), name
+    paper = select(data, [chain], case=Case.LOGARITHM)
+    assert paper.task.cost.case is Case.LOGARITHM and paper.selected.j_train != pytest.approx(
+        lowest
+    )
 
 
 @pytest.mark.slow

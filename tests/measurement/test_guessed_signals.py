@@ -123,6 +123,49 @@ def test_an_export_of_twincat_scope(tmp_path, mark, decimal, own):
         read(path)
 
 
+def trace(first="", lost="0", frames=1):
+    """What a Sinumerik control writes: a record leaves out what has not changed."""
+    rows, known = list[str](), {}
+    for n, (u, y) in enumerate(zip(U, Y, strict=True)):
+        now = {"f1": repr(float(u)), "f2": repr(float(y)), "f3": "7"}
+        said = " ".join(f'{k}="{v}"' for k, v in now.items() if known.get(k) != v)
+        rows.append(f'<rec time="{first if first and n == 5 else n / 1000}" {said} />')
+        known = now
+    signals = "".join(
+        f'<dataSignal id="{k}" key="{k}" name="{name}" unitsType="x" interval="{step}" />'
+        for k, name, step in (
+            ("f1", "iq", 0.001),
+            ("f2", "motorSpeed", 0.001),
+            ("f3", "load", 0.004),
+        )
+    )
+    frame = f'<dataFrame><frameHeader dropOuts="{lost}" />{signals}{"".join(rows)}</dataFrame>'
+    head = '<?xml version="1.0" encoding="utf-8"?>\n<traceSession version="2">'
+    return f"{head}<traceData dataFrames='{frames}'>{frames * frame}</traceData></traceSession>"
+
+
+def test_a_trace_of_sinumerik(tmp_path):
+    path = tmp_path / "a.xml"
+    path.write_text(trace())
+    series = read_time_series(path, "iq", "motorSpeed")
+    assert series.sampling_rate == pytest.approx(1000.0)
+    assert np.array_equal(series.u, U) and np.array_equal(series.y, Y)
+    found = read(path, input="iq", output="motorSpeed")
+    assert np.allclose(found.frequency, np.arange(2, 22))
+    assert found.reading.endswith("; left out: load (each 0.004 s), not each 0.001 s")
+    for text, said in (
+        (trace()[:-40], "no whole XML"),
+        (trace(frames=2), "a trace of 2 frames; export one"),
+        (trace(lost="3"), r"samples of this trace are lost \(3\)"),
+        (trace(first="x"), "record 6, time: 'x' is no number"),
+        (trace().replace('f1="', 'f9="'), "record 1 of this trace has no value of f1"),
+        (trace().replace("<dataSignal", "<signal"), "no signals or no records"),
+    ):
+        path.write_text(text)
+        with pytest.raises(InputError, match=said):
+            read(path)
+
+
 def lvm(columns, decimal, steps=("1.0E-3", "1.0E-3")):
     """What LabVIEW writes of two channels, with a column of times for each or with none."""
     times = columns == "Multi"

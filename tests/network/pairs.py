@@ -26,7 +26,7 @@ def alike(models):
 def pattern(model):
     """Which coefficients are there."""
     sides = model.numerator_terms, model.denominator_terms
-    return model.halves, *(tuple(map(bool, side)) for side in sides)
+    return model.powers.halves, *(tuple(map(bool, side)) for side in sides)
 
 
 def of_family(name, most=10**6):

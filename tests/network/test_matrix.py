@@ -43,7 +43,7 @@ def is_as_the_laws_say(description, seed):
 
 def value(model, values, root):
     """G at these values and this root of s."""
-    s = root if model.halves else root**2
+    s = root if model.powers.halves else root**2
     point = [values[p] for p in model.parameters]
     top, bottom = (
         sum(polynomial(terms, point) * s**i for i, terms in enumerate(side))

@@ -53,7 +53,7 @@ def test_verdicts_on_damaged_networks_over_complex_values(name, record_property)
 def agree_with_singular(pairs, record_property):
     seen, wrong = [], []
     for left, right in pairs:
-        halves = left.halves
+        halves = left.powers.halves
         true = truth(*(plain(m.network, halves) for m in (left, right)), random.Random(1), SECONDS)
         if true is None:
             continue

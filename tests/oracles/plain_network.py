@@ -29,16 +29,18 @@ LAWS = {
 }
 
 
-def equations(network, value, s, root):
-    """A, B^T, C of A x = B u, y = s^q C x, as lists of rows, made of `value` (by name), s and its
-    root.
+def equations(network, value, s, root, phase=None):
+    """A, B^T, C of A x = B u, y = s^q C x, as lists of rows, made of `value` (by name), s, its root,
+    and s^n by the name of the exponent n.
     """
     nodes = sorted({i for e in network.elements for i in e.nodes} - {0})
     row = {node: at for at, node in enumerate(nodes)}
     size = len(nodes) + len(network.elements)
     a = [[0] * size for _ in range(size)]
     for at, e in enumerate(network.elements, len(nodes)):
-        flow, across = LAWS[e.letter](value(e.value) if e.value else 1, s, root)
+        own = value(e.value) if e.value else 1
+        law = (1, own * phase[e.exponent]) if e.exponent else LAWS[e.letter](own, s, root)
+        flow, across = law
         ratio = _ratio(e.ratio, value)
         ends = [(e.nodes[0], 1), *((node, -ratio) for node in e.nodes[1:])]
         a[at][at] += flow
@@ -90,13 +92,14 @@ def _solved(a, entering, sensor, derived):
     return Fraction(int(y.numerator), int(y.denominator)) * derived
 
 
-def plain(network, in_halves=False):
-    """One transfer function as Singular reads it, in s, or with s for the root of s; the equations
-    must have one solution.
+def plain(network, in_halves=False, phase=None):
+    """One transfer function as Singular reads it, in s, or with s for the root of s, and with a power
+    of that for each s^n, by the name of n; the equations must have one solution.
     """
     step = Symbol("s")
     s = step**2 if in_halves else step
-    a, (b,), (c,) = equations(network, Symbol, s, step)
+    powers = {name: step**power for name, power in (phase or {}).items()}
+    a, (b,), (c,) = equations(network, Symbol, s, step, powers)
     return Plain(
         network.parameters,
         tuple(tuple(map(_written, row)) for row in a),

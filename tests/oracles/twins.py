@@ -67,7 +67,7 @@ def _values(logs):
 def _shape(model):
     """Which coefficients are there."""
     sides = model.numerator_terms, model.denominator_terms
-    return model.halves, *(tuple(map(bool, side)) for side in sides)
+    return model.powers.halves, *(tuple(map(bool, side)) for side in sides)
 
 
 def _every(model):

@@ -27,6 +27,7 @@ CHEAP = tuple(
         "verdicts",
         "models 3",
         "models vessels",
+        "models decay",
         "next",
         'plan "',
         "schema",

@@ -3,22 +3,29 @@ model, with its drawing.
 """
 
 import json
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from disting import Family, compare, network_of
 from disting.catalogs import Catalog, catalog
+from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.model.chain import Chain
 from disting.model.constraints import violated
+from disting.model.names import chain_of
 from disting.model.symmetry import Symmetry, forms
 from disting.report import write_report
 from disting.report.describe_machine import descriptions, machines, part_name, parts
 from disting.report.drawing import draw
 from disting.report.index import index
+from disting.verdict.result import Relation
+from tests.report.barriers import barriers
 from tests.report.links import follow_link
+from tests.report.sight import out_of_sight
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 KINDS = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
@@ -227,3 +234,129 @@ def test_the_data_of_a_catalogue() -> None:
     (found,) = machines([shipped])
     assert found["models"] == [(0, 0, 1, 0, 1), (0, 0, 1, 0, 2), (1, 1, 2, 1, 2)]
     assert (found["groups"], found["open"]) == (shipped.classes(), {})
+
+
+def _more(tab, **chosen: str | bool) -> str:  # type: ignore[no-untyped-def]
+    """Choose by the names of fields, _ for -, in order; what the machine is called then."""
+    for name, value in chosen.items():
+        field = f'[name="{name.replace("_", "-")}"]'
+        if isinstance(value, bool):
+            tab.set_checked(field, value)
+        else:
+            tab.select_option(field, value)
+    return str(tab.get_attribute("#machine", "data-model"))
+
+
+def _opened(tab):  # type: ignore[no-untyped-def]
+    tab.click(".further summary")
+    return tab
+
+
+def _commands(tab) -> list[str]:  # type: ignore[no-untyped-def]
+    return list(tab.locator('[data-slot="commands"] code').all_inner_texts())
+
+
+def test_friction_and_lag_are_in_the_name_at_the_masses_of_the_list(visit) -> None:  # type: ignore[no-untyped-def]
+    """A free row counted from its other end: friction at mass 2 is at mass 3 of the listed chain."""
+    tab = visit("index.html")
+    name = _more(tab, masses="3", gap="1", force="1,3", sensor="1,3", friction_2=True, lag=True)
+    listed, own = chain_of(name, Family(3)), Chain(3, 1, 1, 3, 1, 3, ground_dampers=(2,), lag=True)
+    assert "counted from the other end" in tab.inner_text('[data-slot="remark"]')
+    assert listed.ground_dampers == (3,) and listed.lag
+    assert compare(own, listed).relation is Relation.INDISTINGUISHABLE
+    assert [u.get_attribute("href") for u in tab.locator("#machine use").all()][-1] == (
+        "#part-friction-2"
+    )
+    assert tab.inner_text('[data-slot="behind"]') == "The force acts behind a lag T1."
+    (command,) = _commands(tab)
+    assert command == (
+        f'disting equivalents {name} --to "3+b*" --set m1=..,m2=..,m3=..,k01=..,d01=..,k23=..,'
+        "d23=..,b2=..,T1=.."
+    )
+    assert _more(tab, lag=False, quantity="position", dampers="undamped").endswith("+b3")
+    assert "--undamped --quantity position --set" in _commands(tab)[0]
+
+
+def test_friction_alone_leads_to_the_catalogue_that_has_it(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
+    dampers = [damper_catalog(3, damped=True)]
+    page = index([catalog(3, damped=True)], dampers=dampers)
+    (site / "rubbed.html").write_text(page, encoding="utf-8")
+    tab = visit("rubbed.html")
+    assert _more(tab, masses="3", friction_1=True, friction_3=True) == "3:1+b1+b3"
+    link = tab.get_attribute('[data-slot="twins"] a', "href")
+    assert link == "dampers-3-damped.html#1+b1+b3" and _commands(tab) == []
+
+
+@pytest.mark.parametrize(
+    ("chosen", "text", "family"),
+    [
+        ({"masses": "4", "joined_4": "2"}, "1=2, 2=3, 2=4; F1; S1", "trees-4-damped"),
+        (
+            {"masses": "3", "dampers": "undamped", "loop": "1,3"},
+            "1~2, 2~3, 1~3; F1; S1", "machines-3",
+        ),
+        (
+            {"masses": "3", "gear": "2", "friction_3": True, "second": "0,3", "quantity": "velocity"},
+            "1=2*i, 2=3, 3-#; F1; S1 S3; velocity", "",
+        ),
+        (
+            {"masses": "4", "gap": "1", "joined_4": "2", "loop": "0,3", "friction_3": True},
+            "#=1, 2=3, 2=4, #=3; F2:1; S2:1", "trees-4-damped",
+        ),
+    ],
+)  # fmt: skip
+def test_a_machine_that_is_no_chain_is_written_drawn_and_asked(
+    visit, chosen: dict, text: str, family: str
+) -> None:  # type: ignore[no-untyped-def]
+    tab = _opened(visit("index.html"))
+    assert _more(tab, **chosen) == text
+    made = network_of(text)
+    drawn = [u.get_attribute("data-element") for u in tab.locator("#machine [data-element]").all()]
+    values = {p for e in made.elements for p in e.parameters}
+    assert sorted(drawn) == sorted(values)
+    assert not [u for u in tab.locator("#machine use").all() if not u.evaluate("(u) => document.querySelector(u.getAttribute('href')) && u.getBoundingClientRect().width")]  # fmt: skip
+    ports = tab.locator("#machine [data-port]").count()
+    assert ports == sum(1 + bool(p.minus) for p in (*made.inputs, *made.outputs))
+    found = _commands(tab)
+    assert found[0] == f'disting models "{text}"'
+    tree = "loop" not in chosen or family.startswith("machines")
+    assert (f'disting equivalents "{text}" --family {family}' in found) == (bool(family) and tree)
+    assert found[-1] == f'disting draw "{text}" --svg machine.svg'
+
+
+def test_no_all_clear_is_given_of_a_machine_that_is_not_shipped(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = _opened(visit("index.html"))
+    _more(tab, masses="4")
+    said = tab.inner_text("#machine [role=status]")
+    assert "distinguishable" in said or "cannot be told apart" in said
+    for chosen in ({"joined_4": "1"}, {"joined_4": "3", "delay": True}, {"delay": False}):
+        _more(tab, **chosen)  # type: ignore[arg-type]
+        said = tab.inner_text("#machine [role=status]")
+        clear = chosen == {"delay": False}
+        assert ("distinguishable" in said or "told apart" in said) == clear
+        assert ("Nothing is said here about what else looks like this machine" in said) != clear
+
+
+def test_what_cannot_be_determined_is_said_first(visit) -> None:  # type: ignore[no-untyped-def]
+    slots = visit("index.html").locator("#machine [role=status] p")
+    texts = slots.evaluate_all("all => all.map((p) => p.dataset.slot)")
+    assert texts.index("known") < texts.index("twins")
+
+
+def test_the_address_holds_all_of_it(visit) -> None:  # type: ignore[no-untyped-def]
+    tab = _opened(visit("index.html"))
+    text = _more(tab, masses="4", joined_4="2", second="0,4", friction_3=True, delay=True)
+    tab.wait_for_url(re.compile(r"machine=4,damped,0,0,1,0,1/.*second=0,4$"))
+    address = tab.url[tab.url.index("index.html") :]
+    again = visit("guide/index.html")
+    again = visit(address)
+    assert again.get_attribute("#machine", "data-model") == text
+    assert again.is_checked('[name="delay"]') and again.is_checked('[name="friction-3"]')
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_larger_form_fits_a_phone_and_has_no_barrier(visit, scheme: str) -> None:  # type: ignore[no-untyped-def]
+    tab = _opened(visit("index.html", 320, scheme))
+    _more(tab, masses="5", gap="2", joined_5="3", loop="0,5", friction_4=True)
+    assert barriers(tab) == []
+    assert out_of_sight(tab) == []

@@ -61,11 +61,30 @@ def test_the_panel_says_what_to_measure_next(visit):
     assert page.locator('[data-slot="next"]').inner_text() == ""
 
 
-def test_a_link_to_a_structure_lands_there(visit):
-    page = visit("next-3-damped.html#A10")  # the last; those before it are laid out later
-    page.wait_for_function("() => scrollY > 0")
+def test_a_link_to_a_structure_opens_its_group_and_lands_there(visit):
+    page = visit("next-3-damped.html#A10")
+    assert page.evaluate("document.getElementById('A10').closest('details').open")
+    assert page.locator("details[open]").count() == 1
     box = page.locator("#A10").bounding_box()
     assert 0 <= box["y"] < 800 - min(box["height"], 700)
+    page.click(".numbers >> text=A2")
+    assert page.locator("#A2").is_visible() and not page.locator("#A11").is_visible()
+
+
+def test_the_page_of_the_largest_catalogue_is_short_and_its_tables_fit(window, tmp_path: Path):
+    large = catalog(5, damped=False)
+    (tmp_path / "next.html").write_text(next_page(large, next_catalog(5, damped=False)), "utf-8")
+    page = window.new_page()
+    for width in (1280, 390):
+        page.set_viewport_size({"width": width, "height": 800})
+        page.goto((tmp_path / "next.html").as_uri())
+        assert page.evaluate("document.documentElement.scrollHeight") < 12_000
+    page.set_viewport_size({"width": 1280, "height": 800})
+    page.goto((tmp_path / "next.html").as_uri() + "#A7")
+    page.reload()
+    table = page.locator("#A7 .scroll")
+    assert table.evaluate("(box) => box.scrollWidth <= box.clientWidth")
+    page.close()
 
 
 @pytest.mark.parametrize("width", [1280, 390])

@@ -2,6 +2,7 @@
 searches, the panel, and no barrier.
 """
 
+import io
 import json
 import re
 import shlex
@@ -9,6 +10,7 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 import disting
 from disting.catalogs import catalog
@@ -16,7 +18,15 @@ from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
 from disting.questions.inclusion import Inclusion
 from disting.report import write_report
 from disting.report.families import families
-from disting.report.sizes import LEFT_INSIDE, NO_LIMIT, NOT_KNOWN, between, limits, sizes_page
+from disting.report.sizes import (
+    LEFT_INSIDE,
+    NO_LIMIT,
+    NOT_KNOWN,
+    between,
+    limit,
+    limits,
+    sizes_page,
+)
 from disting.verdict.meaning import shown
 from disting.verdict.query import View
 from tests.cli.process import called
@@ -266,3 +276,32 @@ def test_the_page_has_no_serious_barrier_and_fits(visit, width: int, scheme: str
 def test_the_data_of_the_page_is_small_text(found: SizesCatalog) -> None:
     data = re.search(r'id="data">(.*?)</script>', sizes_page(found), re.DOTALL)
     assert data and json.loads(data[1])["sizes"] == [[1, 1], [2, 3], [3, 11]]
+
+
+SHEET = """() => Object.fromEntries(["limit", "open", "distinguishable", "indistinguishable"].map((name) => {
+  const spare = document.createElement("i");
+  spare.style.color = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
+  document.body.append(spare);
+  return [name, getComputedStyle(spare).color.match(/\\d+/g).map(Number)];
+}))"""
+
+
+def test_limits_have_a_colour_of_their_own(visit, found: SizesCatalog) -> None:  # type: ignore[no-untyped-def]
+    """What the page is about is seen: fields of two sizes by limit, of one size by relation."""
+    tab = visit(PAGE)
+    tab.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")  # fmt: skip
+    names = {tuple(colour): name for name, colour in tab.evaluate(SHEET).items()}
+    cell, gutter, left, top = tab.evaluate(
+        "() => ['cell', 'gutter', 'left', 'top'].map((k) => +document.getElementById('matrix').dataset[k])"
+    )
+    picture = Image.open(io.BytesIO(tab.locator("#matrix canvas").screenshot())).convert("RGB")
+    kinds = {LEFT_INSIDE: "limit", NOT_KNOWN: "open", NO_LIMIT: "distinguishable"}
+    seen = set()
+    for i, j in combinations(range(1, len(found.family) + 1), 2):
+        told = limit(found.verdict(i, j, View.EXACT))
+        same = found.size(i) == found.size(j)
+        wanted = found.relation(i, j, View.EXACT).value if same else kinds[told]
+        x, y = (gutter + from_ + (k - 1 + 0.2) * cell for k, from_ in ((j, left), (i, top)))
+        assert names[picture.getpixel((round(x), round(y)))] == wanted, (i, j)
+        seen.add(wanted)
+    assert {"limit", "distinguishable", "indistinguishable"} <= seen

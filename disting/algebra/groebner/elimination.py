@@ -177,15 +177,15 @@ def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus
     at = {m: j for j, m in enumerate(columns)}
     placed = {at[m]: ([at[c] for c in codes], numbers) for m, (codes, numbers) in pivots.items()}
     free = [j for j in range(len(columns)) if j not in placed]
+    steps = [(j, *placed[j]) for j in sorted(placed)]
     reduced = [
-        _freed([at[c] for c in codes], numbers, placed, len(columns), modulus)
-        for codes, numbers in others
+        _freed([at[c] for c in codes], numbers, steps, free, modulus) for codes, numbers in others
     ]
     kept = [row for row in reduced if any(row)]
     if not kept:
         return []
     matrix, rank = modular_matrix(
-        len(kept), len(free), [row[j] for row in kept for j in free], modulus
+        len(kept), len(free), [x for row in kept for x in row], modulus
     ).rref()
     entries, monomials, width = matrix.entries(), [columns[j] for j in free], len(free)
     return [_new_row(entries[r * width : (r + 1) * width], monomials) for r in range(rank)]
@@ -194,22 +194,21 @@ def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus
 def _freed(
     places: list[int],
     numbers: tuple[int, ...],
-    placed: dict[int, tuple[list[int], tuple[int, ...]]],
-    width: int,
+    steps: list[tuple[int, list[int], tuple[int, ...]]],
+    free: list[int],
     modulus: int,
 ) -> list[int]:
-    """A row minus multiples of the pivot rows, which are sparse: zero in all their columns."""
-    row = [0] * width
+    """A row minus multiples of the pivot rows, which are sparse, in the order of their columns:
+    what is left in the free columns.
+    """
+    row = [0] * (len(steps) + len(free))
     for j, c in zip(places, numbers, strict=True):
         row[j] = c
-    for j in range(places[0], width):
-        if row[j]:
-            row[j] %= modulus
-            if row[j] and j in placed:
-                factor = row[j]
-                for k, c in zip(*placed[j], strict=True):
-                    row[k] -= factor * c
-    return row
+    for j, columns, entries in steps:
+        if row[j] and (factor := row[j] % modulus):
+            for k, c in zip(columns, entries, strict=True):
+                row[k] -= factor * c
+    return [row[j] % modulus for j in free]
 
 
 def _new_row(entries: Sequence[SupportsInt], columns: list[int]) -> Row:

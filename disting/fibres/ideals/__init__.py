@@ -21,6 +21,9 @@ from disting.fibres.ideals.membership import decide as decide
 from disting.fibres.ideals.membership import decide_matched as decide_matched
 from disting.fibres.ideals.one_value import Values as Values
 from disting.fibres.ideals.one_value import one_value as one_value
+from disting.fibres.ideals.shares import MOST as MOST
+from disting.fibres.ideals.shares import TRIES as TRIES
+from disting.fibres.ideals.shares import Try as Try
 from disting.fibres.ideals.stacked import Fraction as Fraction
 from disting.fibres.ideals.stacked import StackedMap as StackedMap
 from disting.fibres.ideals.stacked import stacked_maps as stacked_maps

@@ -1,34 +1,39 @@
-"""Damped chains of equal rank told apart by the shares of the numerator's roots, whole or by the
-one row in which they differ.
+"""Chains with dampers, of equal rank, told apart by the shares of the numerator's roots, whole or
+by the one row in which they differ.
 
 Chains of one row are rows themselves. Of two chains with a gap at the same place, one row may be
 the same in both. Let H = R + F be generic of the first, and suppose that its rows satisfy
-conditions 1 and 2 of the theorem in `splits`. Condition 3 holds: receptances of damped rows fall as
-s^-2. Its proof speaks of poles that are not zero. The pole of F at zero, double or, with dampers
-to the ground, simple, belongs to the free row of both chains: the second one's grounded row,
-generic too, has none. In the second case of that proof the residues at S sum to lim s H minus
-those of the free row, which sum to zero, the residue at zero included; so they do here.
-Multiplying all elements of R includes its dampers to the ground. So the second chain's 2 h poles S
-hold all or none of the 2 h roots of D_R, and all or none of the roots of E. If E has not 2 h
-roots, S holds just those of D_R: the second chain has the same R and the same F. Where the
-closures of H are equal, so are those of R and those of F; equal ranks of H and one common row
-mean equal ranks of the other: it is enough to tell the others apart.
+conditions 1 and 2 of the theorem in `splits`, with x = s. Condition 3 holds: receptances of rows
+fall as s^-2 at least. (A row of several masses without any damper, beside one with dampers to the
+ground, is even in s and seldom satisfies condition 1; what is not seen is not claimed.) Its proof
+speaks of poles that are not zero. The pole of F at zero, double or, with dampers to the ground,
+simple, belongs to the free row of both chains: the second one's grounded row, generic too, has
+none. In the second case of that proof the residues at S sum to lim s H minus those of the free row,
+which sum to zero, the residue at zero included; so they do here. Multiplying all elements of R
+includes its dampers to the ground. So the second chain's 2 h poles S hold all or none of the 2 h
+roots of D_R, and all or none of the roots of E. If E has not 2 h roots, S holds just those of D_R:
+the second chain has the same R and the same F. Where the closures of H are equal, so are those of R
+and those of F; equal ranks of H and one common row mean equal ranks of the other: it is enough to
+tell the others apart.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from disting.evidence.ideals import Shared
 from disting.fibres.ideals.factored import factored
 from disting.fibres.ideals.monodromy import poles_are_inseparable
-from disting.fibres.ideals.shares import told_apart
+from disting.fibres.ideals.shares import TRIES, Try, told_apart
 from disting.fibres.ideals.splits import gap
 from disting.model.row import rows_of
 from disting.model.structure import Structure
 
 
-def chains_told_apart(a: Structure, b: Structure, seed: str) -> tuple[Shared, int] | None:
-    """Evidence that two damped chains of equal rank and size have different closures, and its
-    bits; None where there is none.
+def chains_told_apart(
+    a: Structure, b: Structure, seed: str, tries: Sequence[Try] = TRIES
+) -> tuple[Shared, int] | None:
+    """Evidence that two chains with dampers, of equal rank and size, have different closures, and
+    its bits; None where there is none.
 
     >>> from disting.model.chain import Chain
     >>> chains = (Chain(3, 0, 0, 1, 0, 3, damped=True, ground_dampers=(m,)) for m in (1, 2))
@@ -44,16 +49,16 @@ def chains_told_apart(a: Structure, b: Structure, seed: str) -> tuple[Shared, in
         return None
     row, here, there = unequal[0]
     if row.is_whole:
-        return told_apart(here, there, seed)
-    found = told_apart(here, there, seed) if _stay_together(a, b, seed) else None
+        return told_apart(here, there, seed, tries)
+    found = told_apart(here, there, seed, tries) if _stay_together(a, b, seed) else None
     return found and (replace(found[0], part=row.name), found[1])
 
 
 def _comparable(a: Structure, b: Structure) -> bool:
-    """Damped rows at the same places, with ports in each, without lag and dead time."""
+    """Rows at the same places, with ports in each, with dampers, without lag and dead time."""
     kinds = [(s.n_masses, s.sensor_order, s.row_ends) for s in (a, b)]
     plain = not any(s.lag or s.dead_time for s in (a, b)) and all(
-        any(e.kind == "d" for e in s.elements) for s in (a, b)
+        any(e.kind in "db" for e in s.elements) for s in (a, b)
     )
     complete = all(len(rows_of(s)) == len(s.row_ends) for s in (a, b))
     return plain and kinds[0] == kinds[1] and complete

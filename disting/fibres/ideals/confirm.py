@@ -10,13 +10,11 @@ from math import comb
 from flint import fmpz_mpoly, nmod_poly
 
 from disting.algebra.groebner.macaulay import reaches_one
-from disting.errors import NotSeenError
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
-from disting.fibres.ideals.membership import SPARE, Limits, decide_matched, labels_of
+from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
-from disting.model.question import Membership
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
@@ -29,7 +27,7 @@ def seen_again(
     limits: Limits = AGAIN,
 ) -> bool:
     """Whether solutions fit, and contradictions are found again: by plain elimination, or, where
-    that is too large, at a fresh point by the fast one.
+    that is too large, by the fast one at one fresh point, in the direction of the evidence.
 
     A contradiction of some degree is one of any larger degree too. Raises NotSeenError where none
     is found within the limits.
@@ -44,10 +42,7 @@ def seen_again(
     if by_maps:
         left, right = matched(left, right)  # type: ignore[arg-type]
     given, other = (left, right) if evidence.left_given else (right, left)
-    again = decide_matched(given, other, equal_rank=evidence.tangent, seed="verify", limits=limits)
-    if again.membership is Membership.UNKNOWN:
-        raise NotSeenError(f"the contradiction was not found again ({again.reason})")
-    return again.membership is Membership.EXCLUDED
+    return is_empty(given, other, equal_rank=evidence.tangent, seed="verify", limits=limits)
 
 
 def _is_small(degree: int, unknowns: int) -> bool:

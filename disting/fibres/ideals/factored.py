@@ -12,9 +12,15 @@ theta and phi look alike, and joints between the ports have their root as an unk
     m_(i+1) w_i)
 
 and f_i = b_i/m_i. The joint to a wall enters the first row alone; a damper of the first mass
-beside it is part of it. For non-zero masses and dampers of the joints these unknowns are quotients
-of products of the elements, and the elements quotients of products of these and of one mass: a
-birational map, as in `normalised`. N/g, theta, phi and D are monic.
+beside it is part of it.
+
+Without dampers in the joints N has no roots between the ports: N = g theta phi, the stiffnesses
+there are part of the gain, u_i enters row i and x_i row i + 1, both for themselves; the other
+joints have e_i = 0. A damper of the mass at a wall has its own f_1.
+
+For non-zero masses, springs and dampers of the joints these unknowns are quotients of products of
+the elements, and the elements quotients of products of these and of one mass: a birational map, as
+in `normalised`. N/g, theta, phi and D are monic.
 
 FIBRES WITH SHARES. Let p0 be a point of one row where N has its roots in the field, all distinct.
 An equivalent q of another row has the same N, so its joints between the ports, its theta and its
@@ -92,7 +98,7 @@ class Values:
 
 
 def factored(row: Row) -> FactoredMap:
-    """The receptance of a row with dampers in its joints.
+    """The receptance of a row with dampers in its joints, or with dampers to the ground alone.
 
     >>> m = factored(Row(3, False, 1, 2, damped=True))
     >>> m.parameters, [len(x) for x in (m.joints, m.left, m.right, m.poles)]
@@ -104,13 +110,14 @@ def factored(row: Row) -> FactoredMap:
     ring = symbols(["s", *names, "g"])
     added = [_entries(i, row, ring) for i in range(row.before, row.before + row.n_masses)]
     theta, phi, den = determinants(row, added, ring)
-    num = reduce(mul, (ring["s"] + ring[f"h{i}"] for i in range(a, b)), ring["g"] * theta * phi)
+    heads = [f"h{i}" for i in range(a, b) if row.damped]
+    num = reduce(mul, (ring["s"] + ring[h] for h in heads), ring["g"] * theta * phi)
     power = min(e[0] for e in den.monoms())  # of the poles at zero, which no zero cancels
     at = {name: k for k, name in enumerate(names)}
     return FactoredMap(
         name=f"masses {first}-{last}, ports {a}-{b}, {' '.join(names)}",
         parameters=names,
-        joints=tuple(at[f"h{i}"] for i in range(a, b)),
+        joints=tuple(at[h] for h in heads),
         left=_by_power(theta),
         right=_by_power(phi),
         poles=_by_power(den // ring["s"] ** power),
@@ -183,18 +190,21 @@ def _ports(row: Row) -> tuple[int, int]:
 def _names(row: Row) -> tuple[str, ...]:
     """Unknowns of a row but its gain, numbered as in the chain."""
     at = row.before
+    between, outside, wall = ("hex", "uer", "ue") if row.damped else ("ux", "ur", "u")
     joints = (
         f"{x}{i + at}"
         for i in range(1, row.n_masses)
-        for x in ("hex" if row.a <= i < row.b else "uer")
+        for x in (between if row.a <= i < row.b else outside)
     )
-    dampers = (f"f{i + at}" for i in row.ground_dampers if not (row.grounded and i == 1))
-    return (*("u0", "e0")[: 2 * row.grounded], *joints, *dampers)
+    apart = (i for i in row.ground_dampers if not (row.grounded and row.damped and i == 1))
+    return (*(f"{x}0" for x in wall * row.grounded), *joints, *(f"f{i + at}" for i in apart))
 
 
 def _entries(joint: int, row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
     """What a joint adds to the rows of the masses on its left and on its right."""
     s, zero, (a, b) = ring["s"], 0 * ring["s"], _ports(row)
+    if a <= joint < b and not row.damped:
+        return ring[f"u{joint}"], ring[f"x{joint}"]
     if a <= joint < b:
         same = s + ring[f"h{joint}"]
         return ring[f"e{joint}"] * same, ring[f"x{joint}"] * same

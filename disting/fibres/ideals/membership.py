@@ -23,7 +23,7 @@ from time import process_time
 from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.algebra.groebner.points import free_variable, solution
 from disting.algebra.sampling import about, residues
-from disting.errors import ContradictionError, InputError
+from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.decision import Decision
 from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
@@ -35,6 +35,7 @@ LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 # draws for one solution modulo the prime: each square root that it needs halves the chance that
 # there is one
 SPARE = 32
+NO_BOUND = "primes of 64 bits give no useful bound for models of this size"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,9 +108,11 @@ def decide(
     equal_rank: bool,
     seed: str = "disting",
     limits: Limits = Limits(),
+    members: bool = True,
 ) -> Told:
     """Whether generic models of `given` are models of `other`; `equal_rank` lets the other
-    direction decide as well.
+    direction decide as well. Without `members` it is UNKNOWN that they are: only what refutes is
+    looked for.
 
     Numerators of unequal degrees are compared with zeros where one has no coefficient. Raises
     InputError if the ranks at random points are not as told, or the given model has the larger
@@ -117,7 +120,9 @@ def decide(
     """
     if given.degrees[1] != other.degrees[1]:
         return Decision(Membership.UNKNOWN, reason="the numbers of poles differ")
-    return decide_matched(*matched(given, other), equal_rank=equal_rank, seed=seed, limits=limits)
+    return decide_matched(
+        *matched(given, other), equal_rank=equal_rank, seed=seed, limits=limits, members=members
+    )
 
 
 def decide_matched(
@@ -127,6 +132,7 @@ def decide_matched(
     equal_rank: bool,
     seed: str = "disting",
     limits: Limits = Limits(),
+    members: bool = True,
 ) -> Told:
     """The same for two maps whose coordinates can be compared, whatever they are of: several
     transfer functions of one model, for instance. The bounds rest on nothing else.
@@ -136,7 +142,7 @@ def decide_matched(
     if safety_of_empty(left, right, equal_rank) < LEAST:
         return Decision(
             Membership.UNKNOWN,
-            reason="primes of 64 bits give no useful bound for models of this size",
+            reason=NO_BOUND,
         )
     question = _Question(
         left=left,
@@ -148,13 +154,36 @@ def decide_matched(
     try:
         ways = (True, False) if equal_rank else (True,)
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
-        return (
-            _excluded(question, run, basis, seed)
-            if basis.is_one
-            else _member(question, run, basis, seed)
-        )
+        if basis.is_one:
+            return _excluded(question, run, basis, seed)
+        if not members:
+            return Decision(Membership.UNKNOWN, reason="a random point has solutions")
+        return _member(question, run, basis, seed)
     except _GivenUp as why:
         return Decision(Membership.UNKNOWN, reason=str(why))
+
+
+def is_empty(
+    given: PolynomialMap, other: PolynomialMap, *, equal_rank: bool, seed: str, limits: Limits
+) -> bool:
+    """Whether the fibre of `other` over the first point that the seed draws of `given` is empty:
+    one run, in this direction. Raises NotSeenError where the limits end it.
+    """
+    _refuse(given, other, equal_rank, seed)
+    question = _Question(
+        left=given,
+        right=other,
+        equal_rank=equal_rank,
+        limits=limits,
+        deadline=process_time() + limits.seconds,
+    )
+    if safety_of_empty(given, other, equal_rank) < LEAST:
+        raise NotSeenError(NO_BOUND)
+    (label,) = labels_of(seed, given, other, 1)
+    try:
+        return _race(question, [question.run(True, label)])[1].is_one
+    except _GivenUp as why:
+        raise NotSeenError(f"the contradiction was not found again ({why})") from None
 
 
 def _refuse(left: PolynomialMap, right: PolynomialMap, equal_rank: bool, seed: str) -> None:

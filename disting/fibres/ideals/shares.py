@@ -25,8 +25,9 @@ its conjugates generate 1 x S_n, and the group is S_m x S_n if it projects onto 
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from itertools import combinations, permutations
-from math import ceil, lcm, log2
+from math import ceil, inf, lcm, log2
 
 from flint import fmpz, fmpz_mod_poly
 
@@ -42,80 +43,119 @@ from disting.fibres.ideals.system import Terms, matched
 BITS = 192  # of the prime: one point gives more than 100 bits
 DRAWS = 1 << 14  # points looked at until the roots lie in the field: one in 720 for six roots
 PATTERNS = 400  # points at which the Galois group is looked at
-# of one matrix: little is lost where one direction is much dearer than the other
-ENTRIES = (40_000, 100_000, 400_000, 4_000_000)
+MOST = 4_000_000  # entries of one matrix
+Try = tuple[bool, int]
+"""Whether the left model's point is given, and how many entries a matrix may have."""
+# little is lost where one direction is much dearer than the other
+TRIES = tuple((way, most) for most in (40_000, 100_000, 400_000, MOST) for way in (True, False))
+
+
+class _SolvableError(Exception):
+    pass
 
 
 def told_apart(
-    left: FactoredMap, right: FactoredMap, seed: str, entries: Sequence[int] = ENTRIES
+    left: FactoredMap, right: FactoredMap, seed: str, tries: Sequence[Try] = TRIES
 ) -> tuple[Shared, int] | None:
     """Evidence that two rows of equal rank have different closures, and its bits; None where
     nothing is found.
 
-    Both directions are tried, with matrices of so many `entries` at most; one bit is paid for the
-    choice.
+    One bit is paid for the choice of the direction. What one of the `tries` found, that one alone
+    finds again. Where a share has solutions, no further try is made: the closures are the same.
     """
-    if _shape(left) != _shape(right):
+    if not may_share(left, right):
         return None
-    for most in entries:
-        for left_given in (True, False):
-            given, other = (left, right) if left_given else (right, left)
-            found = _refuted(given, other, f"shares:{seed}:{given.name}:{other.name}", most)
-            if found is not None:
-                label, shares, degree = found
-                safety = (
-                    safety_of_empty(*matched(given.whole, other.whole), True, BITS)
-                    - ceil(log2(DRAWS))
-                    - 1
-                )
-                return Shared(
-                    left_given=left_given, part="", label=label, shares=shares, degree=degree
-                ), safety
+    ways = dict[bool, _Way | None]()
+    for left_given, most in tries:
+        given, other = (left, right) if left_given else (right, left)
+        if left_given not in ways:
+            ways[left_given] = _way(given, other, f"shares:{seed}:{given.name}:{other.name}")
+        way = ways[left_given]
+        try:
+            is_refuted = way is not None and way.is_refuted(most)
+        except _SolvableError:
+            return None
+        if way is not None and is_refuted:
+            bits = safety_of_empty(*matched(given.whole, other.whole), True, BITS)
+            found = Shared(
+                left_given=left_given,
+                part="",
+                label=way.label,
+                shares=len(way.degrees),
+                degree=max(way.degrees),
+            )
+            return found, bits - ceil(log2(DRAWS)) - 1
     return None
 
 
-def _shape(row: FactoredMap) -> tuple[int, int, int]:
-    """Numbers of roots of N, of poles other than zero, of parameters."""
-    return len(row.joints) + len(row.left) + len(row.right), len(row.poles), len(row.parameters)
+def may_share(left: FactoredMap, right: FactoredMap) -> bool:
+    """Whether both have as many zeros, poles other than zero, and parameters."""
+    one, other = (
+        (len(x.joints) + len(x.left) + len(x.right), len(x.poles), len(x.parameters))
+        for x in (left, right)
+    )
+    return one == other
 
 
-def _refuted(
-    given: FactoredMap, other: FactoredMap, label: str, entries: int
-) -> tuple[str, int, int] | None:
-    """Label, number of shares and largest degree, if all shares are refuted."""
-    if not is_symmetric(given, label):
-        return None
+@dataclass(slots=True)
+class _Way:
+    """One direction, at the point of its label: the shares that are left, the degrees in which the
+    others were refuted, the steps of the one at hand, and the entries of the next of them.
+    """
+
+    label: str
+    fibres: Iterator[tuple[int, list[Polynomial]]]
+    modulus: int
+    degrees: list[int] = field(default_factory=list)
+    steps: Iterator[Basis | int] | None = None
+    entries: float = 0
+
+    def is_refuted(self, most: int) -> bool:
+        """Whether all shares are, with matrices of so many entries; a larger number goes on where
+        a smaller one ended. Raises _SolvableError where a share has solutions.
+        """
+        while self.steps is not None or self._is_next():
+            if self.entries > most:
+                return False
+            self._step()
+        return True
+
+    def _is_next(self) -> bool:
+        """Take the next share, if there is one, that the linear equations do not refute."""
+        for unknowns, equations in self.fibres:
+            if not any(len(g) == 1 and not any(next(iter(g))) for g in equations):
+                self.steps, self.entries = basis_steps(equations, unknowns, self.modulus), 0
+                return True
+            self.degrees.append(1)  # a constant
+        return False
+
+    def _step(self) -> None:
+        assert self.steps is not None
+        try:
+            step = next(self.steps)
+        except TooLarge:
+            self.entries = inf
+            return
+        if not isinstance(step, Basis):
+            self.entries = step
+        elif step.is_one:
+            self.degrees.append(step.degree)
+            self.steps = None
+        else:
+            raise _SolvableError
+
+
+def _way(given: FactoredMap, other: FactoredMap, label: str) -> _Way | None:
+    """A direction; None if no point is found, or the groups of roots are not seen to be
+    symmetric.
+    """
     modulus = prime(label, BITS)
-    drawn = next(_points(given, label, modulus), None)
+    drawn = next(_points(given, label, modulus), None) if is_symmetric(given, label) else None
     if drawn is None:
         return None
     at, types = drawn
-    degree, count = 0, 0
-    for share in shares_by_type(types, len(other.joints), len(other.left)):
-        found = _degree_of_one(*shared_fibre(at, other, share, modulus), modulus, entries)
-        if not found:
-            return None
-        degree, count = max(degree, found), count + 1
-    return label, count, degree
-
-
-def _degree_of_one(
-    unknowns: int, equations: Sequence[Polynomial], modulus: int, entries: int
-) -> int:
-    """The degree in which the equations contradict each other; 0 if they do not or it is not
-    found.
-    """
-    if any(len(g) == 1 and not any(next(iter(g))) for g in equations):
-        return 1  # a constant: the linear equations do
-    try:
-        for step in basis_steps(equations, unknowns, modulus) if unknowns else ():
-            if isinstance(step, Basis):
-                return step.degree if step.is_one else 0
-            if step > entries:
-                return 0
-    except TooLarge:
-        pass
-    return 0
+    shares = shares_by_type(types, len(other.joints), len(other.left))
+    return _Way(label, (shared_fibre(at, other, s, modulus) for s in shares), modulus)
 
 
 def _points(

@@ -42,6 +42,8 @@ from disting.fibres.ideals.system import (
 from disting.model.row import rows_of
 from disting.model.structure import Structure
 
+SAME = "same"  # the split of a chain into its own rows
+
 
 @dataclass(frozen=True, slots=True)
 class Receptances:
@@ -77,8 +79,8 @@ def is_plain(structure: Structure) -> bool:
 
 
 def power(structure: Structure) -> int:
-    """q: 2 for a damped chain, 1 for an undamped one."""
-    return 2 if any(e.kind == "d" for e in structure.elements) else 1
+    """q: 1 for a chain without any damper, else 2."""
+    return 2 if any(e.kind in "db" for e in structure.elements) else 1
 
 
 def gap(structure: Structure) -> int:
@@ -118,7 +120,7 @@ def splits(given: Structure, h: int) -> tuple[Split, ...]:
     n, g = given.n_masses, gap(given)
     found = list[Split]()
     if h == g:
-        found.append(Split("same", receptances(given)))
+        found.append(Split(SAME, receptances(given)))
     if g and h == n - 1 - g:
         found.append(
             Split("exchanged", Receptances(_without_rigid_body(given), _with_rigid_body(given)))

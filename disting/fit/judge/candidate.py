@@ -2,7 +2,7 @@
 seen, chi2 per line.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -87,27 +87,33 @@ class Candidate:
         }
 
 
-def judged(
-    known: Mapping[Chain, Estimate], task: Task, test_cost: AnyCost | None, settings: Settings
-) -> tuple[list[Candidate], Scatters]:
-    """What each estimate is worth, in the order of the cost on test, and the scatter that it
-    was judged by.
-    """
+def witnessed(known: Iterable[Estimate], task: Task, test_cost: AnyCost | None) -> Scatters:
+    """The scatter of training and judged data about the best estimates."""
     cost = test_cost or task.cost
-    best = sorted(known.values(), key=lambda e: e.j)[:WITNESSES]
-    inside, outside = yardsticks(
+    best = sorted(known, key=lambda e: e.j)[:WITNESSES]
+    return yardsticks(
         task.cost,
         cost,
         [_response(e, task) for e in best],
         [_response(e, replace(task, cost=cost)) for e in best],
     )
-    first = {c: _criteria(found, task, inside) for c, found in known.items()}
-    criteria = with_structure({c: found for c, (found, *_) in first.items()}, task, settings)
+
+
+def judged(
+    found: Iterable[Estimate],
+    task: Task,
+    test_cost: AnyCost | None,
+    known: Scatters,
+    settings: Settings,
+) -> list[Candidate]:
+    """What each estimate is worth by the scatter of the data, in the order of the cost on test."""
+    each = list(found)
+    first = {e.chain: _criteria(e, task, known[0]) for e in each}
+    criteria = with_structure({c: seen for c, (seen, *_) in first.items()}, task, settings)
     fitted = [
-        _candidate(found, criteria[c], first[c], task, test_cost, (inside, outside))
-        for c, found in known.items()
+        _candidate(e, criteria[e.chain], first[e.chain], task, test_cost, known) for e in each
     ]
-    return sorted(fitted, key=lambda c: c.j_test), (inside, outside)
+    return sorted(fitted, key=lambda c: c.j_test)
 
 
 def explains(found: Estimate, task: Task, most: Real) -> bool:
@@ -157,7 +163,7 @@ def _criteria(found: Estimate, task: Task, known: Scatter) -> Criteria:
     p = values_of(found, task)
     free = task.box(names).free
     residual, columns = task.cost.of(task.plant(chain), p)
-    sigma = task.cost.scatter(known.rho)
+    sigma = task.cost.scatter(known)
     there = noises(task.cost, residual, sigma, expected(columns[:, free], sigma))
     return (
         practical(
@@ -210,7 +216,7 @@ def _expected(
     columns = task.cost.of(task.plant(found.chain), p)[1][:, free]
     there = replace(task, cost=judging).plant(found.chain)
     seen = Whitened(judging, outside).of(there, p)[1][:, free]
-    return expected(columns, task.cost.scatter(inside.rho), seen, np.ones(len(seen)))
+    return expected(columns, task.cost.scatter(inside), seen, np.ones(len(seen)))
 
 
 def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:

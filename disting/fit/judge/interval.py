@@ -1,94 +1,197 @@
 """Intervals of 95 % of a fitted parameter.
 
 Where a parameter is well known, p -+ t s with its standard error s. Where it is not, the error of
-its logarithm tells nothing: a damper may as well be zero. There the profile of the likelihood
-decides, Q(v) = min |e|^2 over the other parameters with this one at v (`whitened`): the values with
-Q(v) - Q_min at most the quantile of F of 1 and the degrees of freedom of the scatter. Where zero is
-among them the interval ends above where it holds 95 % on one side: the parameter is below that.
+its logarithm tells less: the other parameters bend, a damper may as well be zero. There the profile
+of the likelihood decides,
+
+    Q(v) = min |e|^2 over the other parameters with this one at v        (`whitened`),
+
+the values with Q(v) - Q_min at most the quantile of F of 1 and the degrees of freedom of the
+scatter. Where zero is among them the interval ends above where it holds 95 % on one side: the
+parameter is below that. An estimate by another cost is not where Q is lowest: it has p -+ t s
+unless zero is near.
 """
 
-from collections.abc import Callable
-from dataclasses import replace
-from math import exp, inf, log
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import exp, inf, isfinite, log, sqrt
 
 import numpy as np
 from scipy.stats import t as t_distribution
 
 from disting.fit.judge.admissible import FROM_ZERO
 from disting.fit.judge.candidate import Candidate, values_of
-from disting.fit.judge.exclusion import limit
+from disting.fit.judge.exclusion import FELT, limit
+from disting.fit.judge.practical import covariance
+from disting.fit.noise.covariance import equal
 from disting.fit.noise.scatter import Scatter
-from disting.fit.search.descent import fine
+from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task
 from disting.fit.search.starts import natural, scale
 from disting.fit.search.whitened import Whitened
+from disting.measurement.arrays import Real
 
 OUTSIDE = 0.05  # probability of a value outside
+STRAIGHT = 0.05  # relative standard error up to which Q is as good as a parabola
+MOST_LIKELY = 0.01  # of Q above its minimum
 ZERO = 1e-4  # share of its natural size at which an element is as good as not there
-STEP, STEPS = 3.0, 20  # factor of the search for an end, and how many
-PRECISE = 0.02  # of the logarithm of an end
+STEP, STEPS = log(3.0), 20  # largest step of the search for an end in the logarithm, and how many
+PRECISE = 0.03  # of the length of an end, in standard errors
+ITERATIONS = 30  # of the search for the other parameters
 
 Interval = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class _Likelihood:
+    """Q of a candidate about its minimum `lowest` at the parameters `best`; `size`: of Q, what is
+    missed beside the scatter; `spread` = covariance of ln p where each residual scatters by 1;
+    `usual`: natural sizes of the parameters.
+    """
+
+    task: Task
+    candidate: Candidate
+    whitened: Whitened
+    known: Scatter
+    best: Real
+    lowest: float
+    size: float
+    spread: Real
+    usual: Mapping[str, float]
+
+    def error(self, at: int) -> float:
+        """Standard error of one ln p; infinite where it is not determined."""
+        return sqrt(float(self.spread[at, at]))
 
 
 def intervals(candidate: Candidate, task: Task, known: Scatter) -> dict[str, Interval]:
     """The interval of each fitted parameter; 0 and infinity where it has no end."""
     values, errors = candidate.estimate.parameters, candidate.practical.relative_errors
     wide = float(t_distribution.isf(OUTSIDE / 2, known.freedom))
-    found = dict[str, Interval]()
-    for name, error in errors.items():
-        if error <= FROM_ZERO:
-            found[name] = values[name] * (1 - wide * error), values[name] * (1 + wide * error)
-        else:
-            found[name] = profiled(candidate, task, known, name)
-    return found
+    found = {n: (values[n] * (1 - wide * e), values[n] * (1 + wide * e)) for n, e in errors.items()}
+    if all(e <= STRAIGHT for e in errors.values()):
+        return found
+    about = _likelihood(candidate, task, known)
+    response = task.plant(candidate.chain).response(values_of(candidate.estimate, task))
+    own = float(about.whitened.total(response))
+    most = STRAIGHT if own - about.lowest <= MOST_LIKELY else FROM_ZERO
+    return {
+        n: found[n] if e <= most else _profiled(about, n, e <= FROM_ZERO) for n, e in errors.items()
+    }
 
 
-def profiled(candidate: Candidate, task: Task, known: Scatter, name: str) -> Interval:
-    """The interval by the profile of the likelihood."""
+def _likelihood(candidate: Candidate, task: Task, known: Scatter) -> _Likelihood:
     names, whitened = task.names(candidate.chain), Whitened(task.cost, known)
-    plant, at = task.plant(candidate.chain), names.index(name)
-    best, lowest = fine(plant, whitened, task.box(names), values_of(candidate.estimate, task))
-    usual = natural(candidate.chain, scale(task.cost.measured)).get(name, float(best[at]))
+    plant, box = task.plant(candidate.chain), task.box(names)
+    best, lowest = fine(plant, whitened, box, values_of(candidate.estimate, task))
+    columns = whitened.of(plant, best)[1][:, box.free]
+    spread = np.full((len(best), len(best)), inf)
+    if box.free.any():
+        unit = equal(float(len(columns)), len(columns), 0)
+        spread[np.ix_(box.free, box.free)] = covariance(columns, unit)
     size = max(1.0, lowest / max(whitened.cost.n_residuals - len(best), 1))
-    point = best
+    usual = natural(candidate.chain, scale(task.cost.measured))
+    return _Likelihood(task, candidate, whitened, known, best, lowest, size, spread, usual)
 
-    def rise(logarithm: float) -> float:
-        """Q - Q_min, in units of what is missed beside the scatter."""
-        nonlocal point
-        held = replace(task, fixed={**task.fixed, name: exp(logarithm)})
-        point, cost = fine(plant, whitened, held.box(names), point)
-        return (cost - lowest) / size
 
-    value, zero = float(best[at]), log(ZERO * usual)
-    felt = rise(zero) > limit(1, known.freedom, level=OUTSIDE)
-    gone = value <= ZERO * usual  # the best value is as good as zero
+def _profiled(about: _Likelihood, name: str, is_felt: bool) -> Interval:
+    """The interval by the profile of the likelihood; `is_felt`: it is known not to be zero."""
+    task, candidate, known = about.task, about.candidate, about.known
+    at = task.names(candidate.chain).index(name)
+    usual = about.usual.get(name, float(about.best[at]))
+    value, zero = float(about.best[at]), log(ZERO * usual)
+    felt = is_felt or _rise(about, at, inf)(zero) > limit(1, known.freedom, level=OUTSIDE)
+    gone = not is_felt and value <= ZERO * usual  # the best value is as good as zero
     # what is as small and felt all the same, as others follow it, is followed from its own value
     middle = log(value) if value and (felt or not gone) else zero
     from_zero = gone or not felt
     most = limit(1, known.freedom, level=2 * OUTSIDE if from_zero else OUTSIDE)
-    point = best
-    high = _end(rise, middle, log(STEP), most)
-    point = best
-    return 0.0 if from_zero else exp(_end(rise, middle, -log(STEP), most)), exp(high)
+    wide = sqrt(most * about.size) * about.error(at)
+    step = min(wide, STEP) if isfinite(wide) and wide > 0 else STEP
+    high = _end(_rise(about, at, most), middle, step, most)
+    return 0.0 if from_zero else exp(_end(_rise(about, at, most), middle, -step, most)), exp(high)
+
+
+def _rise(about: _Likelihood, at: int, most: float) -> Callable[[float], float]:
+    """Q - Q_min by the logarithm of one parameter, in units of what is missed beside the scatter;
+    each search begins where the last one that found at most `most` ended.
+    """
+    task, chain = about.task, about.candidate.chain
+    names, plant = task.names(chain), task.plant(chain)
+    own = about.error(at)
+    along = about.spread[:, at] / own**2 if isfinite(own) and own > 0 else np.zeros(len(names))
+    along = np.where(np.isfinite(along), along, 0.0)
+    # what missed beyond the scatter widens the errors of some parameters more than of others
+    stated = about.candidate.practical.relative_errors[names[at]]
+    size = max(about.size, (stated / own) ** 2 if 0 < own < inf and stated < inf else 1.0)
+    point, before = about.best, log(max(about.best[at], np.finfo(float).tiny))
+
+    def rise(logarithm: float) -> float:
+        nonlocal point, before
+        held = replace(task, fixed={**task.fixed, names[at]: exp(logarithm)})
+        moved = np.exp(np.clip(along * (logarithm - before), -STEP, STEP))
+        starts = _starts(about, held, point * moved)
+        points, costs = rough(plant, about.whitened, held.box(names), starts, ITERATIONS)
+        risen = max(float(costs.min()) - about.lowest, 0.0) / size
+        if risen <= most:  # what has left the valley leads no further
+            point, before = points[np.argmin(costs)], logarithm
+        return risen
+
+    return rise
+
+
+def _starts(about: _Likelihood, held: Task, point: Real) -> Real:
+    """A point, shape (1, n_p), and, where some of its parameters have no effect, one where they
+    have as much as the data scatter: what has gone to zero or infinity does not come back by steps
+    of its logarithm.
+    """
+    box = held.box(held.names(about.candidate.chain))
+    point = box.clipped(point)
+    columns = about.whitened.of(held.plant(about.candidate.chain), point)[1]
+    effect = np.maximum(np.abs(columns).max(axis=0), np.finfo(float).tiny)
+    usual = np.array([about.usual.get(n, 1.0) for n in held.names(about.candidate.chain)])
+    lifted = point * np.where(point > usual, effect, 1 / effect)
+    unfelt = box.free & (effect < FELT) & np.isfinite(lifted)
+    both = np.stack([point, box.clipped(np.where(unfelt, lifted, point))])
+    return both if unfelt.any() else both[:1]
 
 
 def _end(rise: Callable[[float], float], start: float, step: float, most: float) -> float:
-    """Where the profile reaches `most`, from `start` in steps; infinite where it does not."""
-    inside = start
+    """Where the profile reaches `most`, from `start` in steps that grow to `STEP`; infinite where
+    it does not.
+    """
+    inside, there = (start, 0.0), start
     for _ in range(STEPS):
-        there = inside + step
-        if rise(there) > most:
-            return _bisected(rise, inside, there, most)
-        inside = there
+        there += step
+        reached = rise(there)
+        if reached > most:
+            return _between(rise, inside, (there, reached), most)
+        inside, step = (there, reached), float(np.clip(2 * step, -STEP, STEP))
     return float(np.copysign(inf, step))
 
 
-def _bisected(rise: Callable[[float], float], inside: float, outside: float, most: float) -> float:
-    """Where the profile passes `most`: by halves, as a search that finds less than before must not
-    matter.
+def _between(
+    rise: Callable[[float], float],
+    inside: tuple[float, float],
+    outside: tuple[float, float],
+    most: float,
+) -> float:
+    """Where the profile passes `most` between two points with their rises: by its root, which is
+    nearly straight, by halves where that does not get on, as a search that finds less than before
+    must not matter.
     """
-    while abs(outside - inside) > PRECISE:
-        middle = (inside + outside) / 2
-        inside, outside = (inside, middle) if rise(middle) > most else (middle, outside)
-    return outside
+    wanted = sqrt(most)
+    for turn in range(STEPS):
+        low, high = sqrt(inside[1]), sqrt(outside[1])
+        if high - wanted <= PRECISE * wanted:
+            break
+        share = 0.5 if turn % 3 == 2 or not high > low else (wanted - low) / (high - low)
+        middle = inside[0] + min(max(share, PRECISE), 1 - PRECISE) * (outside[0] - inside[0])
+        reached = rise(middle)
+        if reached > most:
+            outside = middle, reached
+        else:
+            inside = middle, reached
+            if wanted - sqrt(reached) <= PRECISE * wanted:
+                return middle
+    return outside[0]

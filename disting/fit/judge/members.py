@@ -232,7 +232,7 @@ def disagreements(candidate: Candidate, task: Task, test: AnyCost) -> tuple[Disa
     residual, columns = test.of(plant, p)
     known = together(scatters(test, [plant.response(p)]))
     free = [n for n, chosen in zip(names, box.free, strict=True) if chosen]
-    sigma, columns = test.scatter(known.rho), columns[:, box.free]
+    sigma, columns = test.scatter(known), columns[:, box.free]
     other = practical(
         columns, free, noises(test, residual, sigma, expected(columns, sigma))
     ).relative_errors

@@ -58,7 +58,7 @@ def assumed(measured: FrequencyResponse) -> Sensor | None:
 
 
 def other_quantities(
-    candidates: Sequence[Candidate],
+    searched: Sequence[Estimate],
     task: Task,
     store: Store | None = None,
     executor: Executor | None = None,
@@ -73,7 +73,7 @@ def other_quantities(
     taken = assumed(cost.measured)
     if taken is None:
         return ()
-    task, known = explored((c.estimate for c in candidates), task)
+    task, known = explored(searched, task)
     nearest = min(known, key=lambda fit: _criterion(fit, task))
     before, most = _criterion(nearest, task), share_about(nearest, task)
     found = list[tuple[float, Sensor, Estimate]]()
@@ -83,7 +83,7 @@ def other_quantities(
         progress(f"read as {quantity.value}", len(found), len(Sensor) - 1)
         shifted = _shifted(task.cost.measured, taken.order - quantity.order)
         seen = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
-        fits = estimates(_small(candidates), seen, store=store, executor=executor).values()
+        fits = estimates(_small(known), seen, store=store, executor=executor).values()
         best = min(fits, key=lambda fit: _criterion(fit, seen))
         if _criterion(best, seen) <= before + AS_WELL and explains(best, seen, most):
             found.append((_criterion(best, seen), quantity, best))
@@ -153,7 +153,7 @@ def _shifted(measured: FrequencyResponse, steps: int) -> FrequencyResponse:
     )
 
 
-def _small(candidates: Sequence[Candidate]) -> tuple[Chain, ...]:
+def _small(candidates: Sequence[Estimate]) -> tuple[Chain, ...]:
     """Chains of one and two masses where these are candidates, else of the fewest: with and without
     ground dampers and lag, all with a dead time.
     """

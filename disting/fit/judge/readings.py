@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from disting.errors import ConstraintViolation
-from disting.fit.judge.candidate import Candidate, explains, share_about
+from disting.fit.judge.candidate import explains, share_about
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.exchange import estimates, explored
 from disting.measurement import FrequencyResponse
@@ -50,20 +50,20 @@ class Reading:
 
 
 def readings(
-    candidates: Sequence[Candidate],
+    searched: Sequence[Estimate],
     task: Task,
     *,
     store: Store | None = None,
     executor: Executor | None = None,
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[Reading, ...]:
-    """Readings under which the data fit much better than the best of the candidates does, small
+    """Readings under which the data fit much better than the best of the estimates does, small
     changes first.
     """
-    task, known = explored((c.estimate for c in candidates), task)
-    small = [c for c in candidates if c.chain.n_masses <= SMALL] or candidates
-    base = _loose(min(small, key=lambda c: c.j_train).chain)
-    largest = max((c.chain for c in candidates), key=lambda c: c.n_masses)
+    task, known = explored(searched, task)
+    small = [e for e in known if e.chain.n_masses <= SMALL] or known
+    base = _loose(min(small, key=lambda e: e.j).chain)
+    largest = max((e.chain for e in known), key=lambda c: c.n_masses)
     nearest = min(known, key=lambda fit: fit.j)
     lowest, most = nearest.j, share_about(nearest, task)
     found, views = list[Reading](), list(_views(base, largest, task))

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
+from disting.fit.noise.scatter import Scatter
 from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
@@ -48,6 +49,11 @@ class Case(IntEnum):
 
 class SquaredCost(ABC):
     """J = |residual|^2, of one response or of several."""
+
+    @property
+    @abstractmethod
+    def n_residuals(self) -> int:
+        """N_y."""
 
     @abstractmethod
     def residual(self, response: Complex) -> Real:
@@ -128,15 +134,19 @@ class Cost(SquaredCost):
         np.multiply(gradient.imag, second, out=columns[..., n_f:])
         return columns.swapaxes(-1, -2)
 
-    def scatter(self, rho: Real) -> Real:
-        """Standard deviation of the residuals, shape (2 n_f,), for a relative deviation `rho`,
-        shape (n_f,), of the data.
-        """
+    def scatter(self, known: Scatter) -> Real:
+        """Standard deviation of the residuals, shape (2 n_f,), of data that scatter so."""
         first, second = self._both
-        size = np.abs(self.measured.G) if self.case is not Case.LOGARITHM else 1.0 / log(10)
-        return np.concatenate(
-            [first * size * rho, second * rho * (size if self.case is Case.COMPLEX else 1.0)]
-        )
+        plane = known.rho * known.size
+        amplitude = known.rho / log(10) if self.case is Case.LOGARITHM else plane
+        phase = plane if self.case is Case.COMPLEX else known.rho
+        return np.concatenate([first * amplitude, second * phase])
+
+    def likely(self, known: Scatter) -> "Cost":
+        """Minus twice the logarithm of the likelihood of data that scatter so, but for a constant:
+        squared distances in the complex plane in units of sigma / sqrt 2, of variance 1 each.
+        """
+        return replace(self, case=Case.COMPLEX, weights=None, lines=sqrt(2) / known.sigma)
 
     @property
     def parts(self) -> tuple["Cost", ...]:

@@ -61,7 +61,7 @@ def estimates(
         rough = estimates(
             candidates, few, method=method, store=store, executor=executor, progress=progress
         )
-        return _polished(rough, task, store, executor, progress)
+        return {e.chain: e for e in polished(rough.values(), task, store, executor, progress)}
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     known: dict[Chain, Estimate] = {}
     for _, variants in groupby(wanted, key=body):
@@ -86,25 +86,26 @@ def estimates(
     return known
 
 
-def _polished(
-    rough: Mapping[Chain, Estimate],
+def polished(
+    rough: Iterable[Estimate],
     task: Task,
     store: Store,
     executor: Executor | None,
     progress: Callable[[str, int, int], object],
-) -> dict[Chain, Estimate]:
-    """The estimates of a search on few lines, on those of the task; what a candidate contains comes
-    before it.
+) -> list[Estimate]:
+    """The estimates of a search on few lines, or by another cost, brought to the last digit of the
+    task; what a candidate contains comes before it.
     """
+    own = {one.chain: one for one in rough}
     found: dict[Chain, Estimate] = {}
-    for _, stage in groupby(sorted(rough, key=_stage), key=_stage):
+    for _, stage in groupby(sorted(own, key=_stage), key=_stage):
         whole = list(stage)
         found |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
-        helpful = {c: _helpful(c, found) | {c: rough[c]} for c in whole if c not in found}
+        helpful = {c: _helpful(c, found) | {c: own[c]} for c in whole if c not in found}
         for one in _results(refined, helpful, task, store, executor):
             found[one.chain] = one
-            progress("fit on all lines", len(found), len(rough))
-    return found
+            progress("last digits", len(found), len(own))
+    return [found[c] for c in own]
 
 
 def explored(known: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:

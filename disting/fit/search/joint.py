@@ -8,15 +8,15 @@ A machine in one state is eliminated once for all its sensors. A dead time of it
 second response, stands behind the parameters of the chain.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import compress
+from itertools import compress, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.fit.noise.scatter import LEAST, changed, scatter, widened
+from disting.fit.noise.scatter import LEAST, Scatter, changed, scatter, widened
 from disting.fit.search.cost import Case, Cost, SquaredCost
 from disting.fit.search.plant import Motion, Plant
 from disting.fit.search.setup import Setup, measurable
@@ -151,12 +151,20 @@ class JointCost(SquaredCost):
         each = zip(self.parts, self.by_line(response), self.by_line(gradient), strict=True)
         return np.concatenate([part.sensitivity(*own) for part, *own in each], axis=-2)
 
-    def scatter(self, rho: Real) -> Real:
-        """Standard deviation of the residuals, shape (2 n_f,), for a relative deviation of the
-        data, shape (n_f,).
-        """
-        each = zip(self.parts, self.by_line(rho), strict=True)
+    def scatter(self, known: Scatter) -> Real:
+        """Standard deviation of the residuals, shape (2 n_f,), of data that scatter so."""
+        each = zip(self.parts, self._of_each(known), strict=True)
         return np.concatenate([part.scatter(own) for part, own in each])
+
+    def likely(self, known: Scatter) -> "JointCost":
+        """The sum of those of all responses, which are independent."""
+        each = zip(self.parts, self._of_each(known), strict=True)
+        return replace(self, parts=tuple(part.likely(own) for part, own in each))
+
+    def _of_each(self, known: Scatter) -> Iterator[Scatter]:
+        """The scatter of each response."""
+        ends = np.cumsum([0, *(len(part.measured) for part in self.parts)])
+        return (known.at(slice(*both)) for both in pairwise(ends))
 
     def plant(self, structure: Structure, sign: int) -> JointPlant:
         """The structure under each setup at the lines of the data."""

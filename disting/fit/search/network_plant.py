@@ -4,12 +4,13 @@ matrix a frequency.
 With P x = b, P^T y = c and G = s^q c^T x, for a term f(p) s^r u v^T of P, f = p or 1/p:
 
     dG/dp = -s^q s^r f'(p) (y.u) (v.x),
+    dG/dn = -s^q s^r ln(s) f (y.u) (v.x)                  for r = n of a constant phase element,
     dG/dg = -s^q s^r f ((y.u') (v.x) + (y.u) (v'.x))    for the ratio g of a gear, u' = du/dg.
 
 Everything is vectorised over frequencies and over parameter vectors.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -25,6 +26,7 @@ from disting.network.network import Network
 Entries = Mapping[int, Fraction | str | int]
 """Of a vector, by nodes; a text stands for minus a parameter."""
 RATIOS = 3.0  # of gears: starts lie within this factor of 1
+LEAST_EXPONENT = 0.5  # of starts: between a Warburg element and a capacitor
 SPREAD = 3.0  # of other values, around their size
 SMALL = 1e-13  # of the largest entry of P: what keeps an undamped one from being singular
 
@@ -38,8 +40,17 @@ class NetworkPlant:
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
-        """Those that enter, sorted: names in the order of the last axis of a parameter array."""
-        return tuple(p for p in self.network.parameters if p not in self.network.unseen)
+        """Those that enter, values and ratios, then exponents, each sorted: names in the order of
+        the last axis of a parameter array.
+        """
+        every = (*self.network.parameters, *self.network.exponents)
+        return tuple(p for p in every if p not in self.network.unseen)
+
+    @cached_property
+    def highest(self) -> Real:
+        """Upper bounds of the parameters, (n_p,): 1 of exponents."""
+        exponents = self.network.exponents
+        return np.array([1.0 if name in exponents else np.inf for name in self.parameters])
 
     def response(self, p: Real) -> Complex:
         """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p)."""
@@ -56,13 +67,17 @@ class NetworkPlant:
         share = np.divide(1, whole, out=np.zeros_like(whole), where=whole != 0)
         gradient = np.zeros((*p.shape, self.omega.size), dtype=np.complex128)
         for e in self._plain.elements:
-            power = self._power(e)
+            power = self._power(e, p)
             feels, pulls = self._placed(e.feels), self._placed(e.pulls)
             felt, pulled = self._seen(feels, x, p), self._seen(pulls, y, p)
             if e.value:
                 at = self._at[e.value]
                 slope = -1 / p[..., at, None] ** 2 if e.kind.divides else 1.0
-                gradient[..., at, :] -= slope * power * pulled * felt * share
+                moved = power * pulled * felt * share
+                gradient[..., at, :] -= slope * moved
+                if e.exponent:
+                    sizes = p[..., at, None] * np.log(self._s)
+                    gradient[..., self._at[e.exponent], :] -= sizes * moved
             if e.known_ratio is None:
                 size = p[..., self._at[e.value], None] * power
                 moved = -(x[..., e.nodes[1] - 1] * pulled + y[..., e.nodes[1] - 1] * felt)
@@ -75,7 +90,7 @@ class NetworkPlant:
         found = np.zeros((*p.shape[:-1], self.omega.size, size, size), dtype=np.complex128)
         for e in self._plain.elements:
             value = p[..., self._at[e.value], None] if e.value else np.ones(1)
-            term = self._power(e) * (1 / value if e.kind.divides else value)
+            term = self._power(e, p) * (1 / value if e.kind.divides else value)
             for i, u in self._placed(e.pulls).items():
                 for j, v in self._placed(e.feels).items():
                     found[..., i - 1, j - 1] += term * self._size(u, p) * self._size(v, p)
@@ -91,8 +106,10 @@ class NetworkPlant:
             return np.asarray(-p[..., self._at[entry], None])
         return np.asarray(float(entry))  # type: ignore[arg-type]
 
-    def _power(self, e: Element) -> Complex:
-        return np.asarray(self._s ** (e.kind.halves / 2))
+    def _power(self, e: Element, p: Real) -> Complex:
+        """s^r, shape (..., n_f)."""
+        r = p[..., self._at[e.exponent], None] if e.exponent else e.kind.halves / 2
+        return np.asarray(self._s**r)
 
     @cached_property
     def _plain(self) -> Network:
@@ -168,7 +185,7 @@ def random_starts(
     plant: NetworkPlant, measured: FrequencyResponse, count: int, draw: np.random.Generator
 ) -> NDArray[np.float64]:
     """Values, shape (count, n_p), with which each element alone would have the size of the response
-    at a random frequency of the band, within a factor of three.
+    at a random frequency of the band, within a factor of three; exponents from 1/2 to 1.
     """
     low, high = np.log(measured.omega[0]), np.log(measured.omega[-1])
     omega = np.exp(draw.uniform(low, high, (count, len(plant.parameters))))
@@ -176,20 +193,20 @@ def random_starts(
         omega**plant.network.order
     )
     values = np.ones_like(omega)
-    for name, power, divides in _kinds(plant.network):
-        at = plant.parameters.index(name)
-        # p w^r = 1/|G|, where p divides w^r/p = 1/|G|
-        stiffness = omega[:, at] ** -power / size[:, at]
-        values[:, at] = 1 / stiffness if divides else stiffness
+    is_exponent = plant.highest < np.inf
+    values[:, is_exponent] = draw.uniform(LEAST_EXPONENT, 1, values[:, is_exponent].shape)
+    for e in plant.network.seen:
+        if e.value:
+            at = plant.parameters.index(e.value)
+            power = (
+                values[:, plant.parameters.index(e.exponent)] if e.exponent else e.kind.halves / 2
+            )
+            # p w^r = 1/|G|, where p divides w^r/p = 1/|G|
+            stiffness = omega[:, at] ** -power / size[:, at]
+            values[:, at] = 1 / stiffness if e.kind.divides else stiffness
     spread = np.full(len(plant.parameters), np.log(SPREAD))
     for e in plant.network.elements:
         if e.known_ratio is None and e.ratio in plant.parameters:
             spread[plant.parameters.index(e.ratio)] = np.log(RATIOS)
+    spread[is_exponent] = 0
     return np.asarray(values * np.exp(draw.uniform(-1, 1, values.shape) * spread))
-
-
-def _kinds(network: Network) -> Iterator[tuple[str, float, bool]]:
-    """Yield the values that enter with their powers of s, and whether they divide."""
-    for e in network.seen:
-        if e.value:
-            yield e.value, e.kind.halves / 2, e.kind.divides

@@ -4,8 +4,8 @@
     AutoEIS, EquivalentCircuits R0-[R1,C1]-W1        - series, [,] parallel
     Boukamp (CDC)               R(RC)W, R(C[RW])     side by side and [ ] series, ( ) parallel
 
-An element is R, L, C or W and a number; Boukamp's may have none and are numbered. The port is at
-both ends of the circuit.
+An element is R, L, C, W or P and a number; Boukamp's may have none and are numbered. P, a constant
+phase element, is CPE of impedance.py and Q of Boukamp. The port is at both ends of the circuit.
 """
 
 import re
@@ -19,10 +19,12 @@ from disting.network.element import Element, Port
 from disting.network.network import Network
 
 WORDS = re.compile(r"\s*(p\(|[-,()\[\]]|[A-Za-z]+\d*|\S)")
-LETTER = re.compile(r"\s*([()\[\]]|[A-Z][a-z]*\d*|\S)")  # where elements stand side by side
-LETTERS = "RLCW"
+# where elements stand side by side
+LETTER = re.compile(r"\s*([()\[\]]|CPE\d*|[A-Z][a-z]*\d*|\S)")
+ELEMENT = re.compile(r"(CPE|[RLCWPQ])(\d*)", re.ASCII)
+OURS = {"CPE": "P", "Q": "P"}  # what other programs call an element
 DEEPEST = 30
-IRRATIONAL = ("CPE", "Q", "P", "Wo", "Ws", "G", "T", "O")  # elements of other programs
+IRRATIONAL = ("Wo", "Ws", "G", "T", "O")  # elements of other programs
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,21 +156,26 @@ class _Reader:
 
     def element(self) -> str:
         """The name of an element; one without a number gets one."""
-        name = self.next
-        if not re.fullmatch(rf"[{LETTERS}]\d*", name):
+        name = ELEMENT.fullmatch(self.next)
+        if not name:
             opening, closing = self.dialect.parallel
             example = f"R0-{opening}R1,C1{closing}" if self.dialect.dashes else "R(RC)"
-            said = f"write R, L, C or W (Warburg) and a number here, as in {example}"
-            if name.rstrip("0123456789") in IRRATIONAL:
+            said = (
+                "write R, L, C, W (Warburg) or P (constant phase) and a number here, as in"
+                f" {example}"
+            )
+            if self.next.rstrip("0123456789") in IRRATIONAL:
                 said = (
-                    f"no verdicts are known for this element; take C or W for it, as in {example}"
+                    "no verdicts are known for this element; take C, W or P for it, as in"
+                    f" {example}"
                 )
             raise self.problem(said)
         self.at += 1
-        if len(name) > 1:
-            return name
-        self.unnumbered[name] += 1
-        return f"{name}{self.unnumbered[name]}"
+        letter = OURS.get(name[1], name[1])
+        if name[2]:
+            return f"{letter}{name[2]}"
+        self.unnumbered[letter] += 1
+        return f"{letter}{self.unnumbered[letter]}"
 
     def problem(self, remedy: str) -> InputError:
         """What is wrong at the next token."""

@@ -65,6 +65,25 @@ def of_flows(
     return Network(tuple(elements), ports[0], ports[1], name=name)
 
 
+def space_of_flows(network: Network) -> tuple[list[list[str]], list[list[int]], list[list[int]]]:
+    """A, B and C of x' = A x + B u, y = C x, x the contents of the compartments in order.
+
+    >>> space_of_flows(compartments("1>2, 2>0; in 1; out 2", ""))[0]
+    [['-a12', '0'], ['+a12', '-a20']]
+    """
+    nodes = network.nodes
+    a = [["" for _ in nodes] for _ in nodes]
+    for e in network.elements:
+        if e.letter == "a":
+            at = nodes.index(e.nodes[0])
+            a[at][at] += f"-{e.value}"
+            if e.nodes[1]:
+                a[nodes.index(e.nodes[1])][at] += f"+{e.value}"
+    b = [[int(p.plus == i) for p in network.inputs] for i in nodes]
+    c = [[int(p.plus == i) for i in nodes] for p in network.outputs]
+    return [[entry or "0" for entry in row] for row in a], b, c
+
+
 def _named(a: int, b: int) -> str:
     return f"a{a}{b}" if max(a, b) < 10 else f"a{a}_{b}"
 

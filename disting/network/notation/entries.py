@@ -6,7 +6,8 @@
     {"elements": [["R1", 0, 1], ["L1", 0, 2]], "port": [1, 0]}
 
 The first letter of a name says the kind of an element, a text behind its nodes the ratio of its
-gear; a compartment is ["v", 1]; node 0 is the ground, a port is [plus, minus] or a list of such.
+gear, or the exponent of a constant phase element (two may share one); a compartment is ["v", 1];
+node 0 is the ground, a port is [plus, minus] or a list of such.
 """
 
 from collections.abc import Mapping
@@ -55,7 +56,8 @@ def entry_of(network: Network) -> dict[str, object]:
         if _is_read_back(made, network):
             return made
     elements = [
-        [e.value or e.letter, *e.nodes, *[e.ratio] * bool(e.ratio)] for e in network.elements
+        [e.value or e.letter, *e.nodes, *(text for text in (e.ratio, e.exponent) if text)]
+        for e in network.elements
     ]
     inputs, outputs = ([[p.plus, p.minus] for p in ps] for ps in (network.inputs, network.outputs))
     if network.sort is Sort.CIRCUIT and inputs == outputs:
@@ -115,16 +117,18 @@ def _element(given: object) -> Element:
         )
     name, *rest = given
     kind = KINDS["v"] if name == "v" else kind_of(name)
-    ratio = rest.pop() if len(rest) > kind.ends else ""
-    if not isinstance(ratio, str) or len(rest) != kind.ends:
-        nodes = (
-            "one node behind it"
-            if kind.ends == 1
-            else 'two nodes behind it, then perhaps the ratio of a gear as a text, such as "i"'
-        )
+    more = rest.pop() if len(rest) > kind.ends else ""
+    phase = kind.letter == "P"
+    if not isinstance(more, str) or len(rest) != kind.ends:
+        what = 'its exponent, such as "n"' if phase else 'the ratio of a gear, such as "i"'
+        nodes = f"two nodes behind it, then perhaps as a text {what}"
+        nodes = "one node behind it" if kind.ends == 1 else nodes
         raise InputError(f"{shown(name)} is a {kind.word}: write {nodes}")
     value = "" if kind.letter == "v" else name
-    return Element(value, kind.letter, tuple(map(_node, rest)), ratio)
+    places = tuple(map(_node, rest))
+    if phase:
+        return Element(value, kind.letter, places, exponent=more)
+    return Element(value, kind.letter, places, more)
 
 
 def _ports(given: object) -> tuple[Port, ...]:

@@ -11,7 +11,7 @@ from disting.errors import InputError, shown
 from disting.network.element import Element, Port
 from disting.network.network import Network
 
-LINE = re.compile(r"([RLCW]\w*)\s+(\w+)\s+(\w+)(?:\s+\S+)*", re.ASCII)
+LINE = re.compile(r"([RLCWP]\w*)\s+(\w+)\s+(\w+)(?:\s+\S+)*", re.ASCII)
 PORT = re.compile(r"(?:port|[VI]\w*)\s+(\w+)\s+(\w+)(?:\s+\S+)*", re.ASCII | re.IGNORECASE)
 
 
@@ -29,8 +29,8 @@ def netlist(text: str, name: str) -> Network:
         found = port or element
         if found is None:
             raise InputError(
-                f"{shown(line)} is no line of a netlist: write R, L, C or W with a number and its"
-                " two nodes, as in R1 1 2, or port 1 0"
+                f"{shown(line)} is no line of a netlist: write R, L, C, W or P, a number and two"
+                " nodes, as in R1 1 2, or port 1 0"
             )
         *_, a, b = (
             numbers.setdefault(node, len(set(numbers.values()))) for node in found.groups()[-2:]

@@ -24,6 +24,7 @@ Conversely, where in a split both are limits of what the larger chain's rows can
 sum is a limit of its models. What a row can be, in a limit, `row_closures` tells.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from disting.algebra.certainty import joint_safety
@@ -31,11 +32,29 @@ from disting.algebra.sampling import about
 from disting.evidence.limits import SUPPORTS, WHOLE, Outside, RowsInside
 from disting.fibres.ideals import normalised
 from disting.fibres.ideals.monodromy import poles_are_inseparable
-from disting.fibres.ideals.splits import gap, has_relation, is_plain, power, receptances, splits
+from disting.fibres.ideals.splits import (
+    SAME,
+    gap,
+    has_relation,
+    is_plain,
+    power,
+    receptances,
+    splits,
+)
 from disting.model.chain import Chain, Sensor
 from disting.model.row import FREE, canonical_rows
 from disting.model.structure import Structure
-from disting.questions.inclusion.row_closures import Wanted, holds, shown
+from disting.questions.inclusion.row_closures import (
+    Shown,
+    Wanted,
+    as_large,
+    by_dimension,
+    holds,
+    shown,
+)
+
+Told = tuple[Wanted, Shown | None]
+"""A row, and what settles it at little cost."""
 
 
 def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsInside, int] | None:
@@ -52,25 +71,43 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
     if not _alike(given, other):
         return None
     label = about(seed, small)
-    found = {
-        name: [shown(wanted, label) for wanted in some]
-        for name, some in _by_split(given, other, large).items()
-    }
-    for told in found.values():
-        known = [one.step for one in told if one is not None]
-        if known and len(known) == len(told) and all(step.why in SUPPORTS for step in known):
+    splits = [
+        [(wanted, shown(wanted, label)) for wanted in some]
+        for some in _by_split(given, other, large).values()
+    ]
+    for rows in splits:
+        known = [one.step for _, one in rows if one is not None]
+        if known and len(known) == len(rows) and all(step.why in SUPPORTS for step in known):
             return RowsInside(True, tuple(known)), 0
     if not _covered(given, other, f"{seed}:{small}:poles"):
         return None
-    against = [
-        next((one for one in told if one is not None and one.step.why not in SUPPORTS), None)
-        for told in found.values()
-    ]
-    sure = [one for one in against if one is not None]
-    if len(sure) < len(against):
+    against = _against(splits, seed)
+    if against is None:
         return None
-    bits = joint_safety(one.safety for one in sure if one.safety)
-    return Outside(True, tuple(one.step for one in sure)), bits
+    bits = joint_safety(one.safety for one in against if one.safety)
+    return Outside(True, tuple(one.step for one in against)), bits
+
+
+def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Shown] | None:
+    """What refutes one row of every split, by ideals only where nothing else does; None if a split
+    has no such row.
+    """
+    found = [
+        next((one for _, one in rows if one is not None and one.step.why not in SUPPORTS), None)
+        for rows in splits
+    ]
+    open_rows = [[wanted for wanted, one in rows if one is None] for rows in splits]
+    missing = [rows for one, rows in zip(found, open_rows, strict=True) if one is None]
+    if not all(any(map(as_large, rows)) for rows in missing):
+        return None  # of one split nothing will be found
+    dear = []
+    for rows in missing:
+        one = next(filter(None, (by_dimension(wanted, seed) for wanted in rows)), None)
+        if one is None:
+            return None
+        dear.append(one)
+    rest = iter(dear)
+    return [next(rest) if one is None else one for one in found]
 
 
 def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) -> bool:
@@ -119,7 +156,7 @@ def _covered(given: Structure, other: Structure, label: str) -> bool:
 
 
 def _by_split(given: Structure, other: Structure, large: Chain) -> dict[str, list[Wanted]]:
-    rows = canonical_rows(large.structure)
+    rows, own = canonical_rows(large.structure), canonical_rows(given)
     if gap(other) == 0:
         wanted, there = normalised(given), normalised(other)
         return {
@@ -133,7 +170,14 @@ def _by_split(given: Structure, other: Structure, large: Chain) -> dict[str, lis
     for split in splits(given, gap(other)):
         pairs = zip(split.receptances.named, receptances(other).named, strict=True)
         found[split.name] = [
-            Wanted(split=split.name, name=name, receptance=wanted, there=there, row=rows[name])
+            Wanted(
+                split=split.name,
+                name=name,
+                receptance=wanted,
+                there=there,
+                row=rows[name],
+                given=own[name] if split.name == SAME else None,
+            )
             for (name, wanted), (_, there) in pairs
         ]
     return found

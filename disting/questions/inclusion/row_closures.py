@@ -10,13 +10,14 @@ limit of its receptances.
 * RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error
   bound.
 * DIMENSION: what is wanted has the largest rank that the row could have. Then its closure lies in
-  that of the row, both irreducible, only if they are the same; and at random points the ideal of
-  the fibre with its tangent equations (`disting.fibres.ideals`), found with an error bound, shows
-  that they are not. Where force and sensor of the row are on one mass, more is wanted of it: a mass
-  added there maps its pairs (N : D) to pairs (N : D + m s^2 N) of the row, and limits to limits,
-  for the map is linear. So all that becomes of what is wanted is wanted as well, and its rank may
-  be the one that is as large as it can be. With b the coefficient of s^(deg D - 2) in a monic N/D
-  and m = u/(1 - u b) it is ((1 - u b) N : (1 - u b) D + u s^2 N), monic again.
+  that of the row, both irreducible, only if they are the same. That they are not is shown at random
+  points, with an error bound: where what is wanted is a row with as many zeros, poles and unknowns,
+  by all ways to share out its zeros (`fibres.ideals.shares`), else by the ideal of the fibre with
+  its tangent equations. Where force and sensor of the row are on one mass, more is wanted of it: a
+  mass added there maps its pairs (N : D) to pairs (N : D + m s^2 N) of the row, and limits to
+  limits, for the map is linear. So all that becomes of what is wanted is wanted as well, and its
+  rank may be the one that is as large as it can be. With b the coefficient of s^(deg D - 2) in a
+  monic N/D and m = u/(1 - u b) it is ((1 - u b) N : (1 - u b) D + u s^2 N), monic again.
 """
 
 from dataclasses import dataclass, replace
@@ -29,7 +30,9 @@ from disting.algebra.symbols import renamed, symbols
 from disting.behaviour.chain_model import powers
 from disting.evidence.limits import RowLimits, Why
 from disting.fibres.ideals import CoefficientMap, Limits, decide
+from disting.fibres.ideals.factored import factored
 from disting.fibres.ideals.fibre_ideal import evaluated, generic_rank
+from disting.fibres.ideals.shares import may_share, told_apart
 from disting.fibres.ideals.system import terms
 from disting.model.question import Membership
 from disting.model.row import Row
@@ -54,7 +57,7 @@ Support = tuple[frozenset[int], frozenset[int]]
 @dataclass(frozen=True, slots=True)
 class Wanted:
     """A receptance wanted of a row of the larger chain in one split, with the map and the row that
-    are there; `name`: "grounded", "free", "whole".
+    are there; `name`: "grounded", "free", "whole". `given`: the row whose receptance it is, if any.
     """
 
     split: str
@@ -62,6 +65,7 @@ class Wanted:
     receptance: CoefficientMap
     there: CoefficientMap
     row: Row
+    given: Row | None = None
 
 
 class Shown(NamedTuple):
@@ -72,13 +76,33 @@ class Shown(NamedTuple):
 
 
 def shown(wanted: Wanted, label: str) -> Shown | None:
-    """What settles a row, the cheapest first; None if nothing does."""
+    """What settles a row at little cost, the cheapest first; None if nothing does."""
     named = f"{label}:{label_of(wanted.row)}"
     found = next(filter(None, (test(wanted, named) for test in _TESTS)), None)
     if found is None:
         return None
-    bits = {Why.EQUATION: _safety(wanted.row), Why.DIMENSION: SAFETY}
-    return Shown(RowLimits(wanted.split, wanted.name, *found), bits.get(found[0], 0))
+    bits = _safety(wanted.row) if found[0] is Why.EQUATION else 0
+    return Shown(RowLimits(wanted.split, wanted.name, *found), bits)
+
+
+def by_dimension(wanted: Wanted, seed: str) -> Shown | None:
+    """Whether rows of one dimension differ, by ideals: up to some seconds; None if nothing is
+    found.
+    """
+    found = _dimension(wanted, seed)
+    return found and Shown(RowLimits(wanted.split, wanted.name, *found), SAFETY)
+
+
+def as_large(wanted: Wanted) -> tuple[CoefficientMap, str] | None:
+    """What is wanted, or becomes of it with a mass added, where that has the largest rank that the
+    row could have, and the row has it.
+    """
+    most = _most_rank(wanted.there)
+    if most != generic_rank(wanted.there, RANKS):
+        return None
+    maps = ((wanted.receptance, ""), (with_mass(wanted), ", a mass added"))
+    large = ((m, told) for m, told in maps if m is not None and _rank_of_function(m) == most)
+    return next(large, None)
 
 
 def holds(step: RowLimits, wanted: Wanted) -> bool:
@@ -134,17 +158,33 @@ def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     return (Why.MOMENTUM, "") if missing == 1 and _keeps_momentum(wanted) else None
 
 
-def _dimension(wanted: Wanted, label: str, bits: int = SAFETY) -> tuple[Why, str] | None:
-    most = _most_rank(wanted.there)
-    if most != generic_rank(wanted.there, RANKS):
+def _dimension(wanted: Wanted, seed: str, bits: int = SAFETY) -> tuple[Why, str] | None:
+    large = as_large(wanted)
+    if large is None:
         return None
-    for more, told in ((wanted.receptance, ""), (with_mass(wanted), ", a mass added")):
-        if more is not None and _rank_of_function(more) == most:
-            limits = replace(DIMENSION_LIMITS, safety=bits)
-            found = decide(more, wanted.there, equal_rank=True, seed=label, limits=limits)
-            sure = found.membership is Membership.EXCLUDED and found.safety >= bits
-            return (Why.DIMENSION, f"{most} = {most}{told}") if sure else None
-    return None
+    more, told = large
+    given = None if told else wanted.given
+    if given is not None and given.damped and may_share(factored(given), factored(wanted.row)):
+        differ = _differ_by_shares(given, wanted.row, seed, bits)
+    else:
+        differ = _differ_by_ideals(more, wanted.there, seed, bits)
+    most = _most_rank(wanted.there)
+    return (Why.DIMENSION, f"{most} = {most}{told}") if differ else None
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _differ_by_shares(given: Row, there: Row, seed: str, bits: int) -> bool:
+    """Whether two rows of one dimension differ; many pairs of chains ask about the same two."""
+    found = told_apart(factored(given), factored(there), seed)
+    return found is not None and found[1] >= bits
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _differ_by_ideals(wanted: CoefficientMap, there: CoefficientMap, seed: str, bits: int) -> bool:
+    """The same of what is wanted of a row."""
+    limits = replace(DIMENSION_LIMITS, safety=bits)
+    found = decide(wanted, there, equal_rank=True, seed=seed, limits=limits, members=False)
+    return found.membership is Membership.EXCLUDED and found.safety >= bits
 
 
 def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
@@ -235,7 +275,7 @@ def _safety(row: Row) -> int:
     return TRIALS * equation_safety(row)
 
 
-_TESTS = (_inside, _coefficient, _full, _resultant, _equation, _dimension)
+_TESTS = (_inside, _coefficient, _full, _resultant, _equation)
 _OF = {
     Why.INSIDE: _inside,
     Why.FULL: _full,

@@ -14,6 +14,7 @@ from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.evidence.seen import Seen, SeenPair, seen
 from disting.fibres.ideals import (
+    MOST,
     chains_told_apart,
     coefficient_map,
     normalised,
@@ -133,8 +134,9 @@ def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
 
 
 def _shares(evidence: Shared, a: Chain, b: Chain) -> bool:
-    """Every share refuted once more, at a fresh point."""
-    again = chains_told_apart(rational_part(a), rational_part(b), "verify")
+    """Every share refuted once more, at a fresh point, in the same direction."""
+    tries = [(evidence.left_given, MOST)]
+    again = chains_told_apart(rational_part(a), rational_part(b), "verify", tries)
     told = (evidence.part, evidence.shares > 0)
     return again is not None and (again[0].part, again[0].shares > 0) == told
 

@@ -38,7 +38,7 @@ as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and fu
 ranks.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -52,8 +52,11 @@ from disting.evidence.kinds import Evidence
 from disting.fibres import ideals
 from disting.fibres.decision import Decision
 from disting.fibres.ideals import (
+    MOST,
+    TRIES,
     Limits,
     PolynomialMap,
+    Try,
     chains_told_apart,
     coefficient_map,
     matched,
@@ -94,12 +97,15 @@ def exact_again(evidence: Evidence, a: Chain, b: Chain, settings: Settings) -> F
     """What the settings find with evidence of this kind on two canonical chains of equal rank, None
     if nothing: a point, a prime or a bound that somebody chose bounds nothing.
 
-    All is computed again, but for ideals: of these the labels are drawn again.
+    All is computed again, of shares in the direction of the evidence alone; but for ideals: of
+    these the labels are drawn again.
     """
     if isinstance(evidence, Solved | Refuted):
         coordinates = normalised if evidence.is_normalised else coefficient_map
         maps = (coordinates(rational_part(chain)) for chain in (a, b))
         return by_labels(evidence, *matched(*maps), settings.seed)
+    if isinstance(evidence, Shared):
+        return by_shares(a, b, settings, [(evidence.left_given, MOST)])
     method = METHODS.get(type(evidence))
     return None if method is None else method(a, b, settings)
 
@@ -153,11 +159,13 @@ def by_full_rows(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     )
 
 
-def by_shares(a: Chain, b: Chain, settings: Settings) -> Finding | None:
+def by_shares(
+    a: Chain, b: Chain, settings: Settings, tries: Sequence[Try] = TRIES
+) -> Finding | None:
     """What the shares of the numerator's roots refute; a dead time that both have is a factor
     of its own.
     """
-    found = chains_told_apart(rational_part(a), rational_part(b), settings.seed)
+    found = chains_told_apart(rational_part(a), rational_part(b), settings.seed, tries)
     if found is None or found[1] < LEAST_SAFETY:
         return None
     return Finding(

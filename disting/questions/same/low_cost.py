@@ -1,8 +1,8 @@
-"""The exact decision at little cost, for classes of thousands of models: theorems, then one fibre
-by the synthesis.
+"""The exact decision for classes of thousands of models: at little cost by theorems, then one fibre
+by the synthesis; with patience by shares and ideals.
 
-What takes longer than SECONDS is given up, and the pair is left undecided; that is many times what
-the dearest pair of the shipped families takes, so that runs repeat.
+A synthesis that takes longer than SECONDS is given up, and the pair is left undecided; that is many
+times what the dearest pair of the shipped families takes, so that runs repeat.
 """
 
 import signal
@@ -61,27 +61,9 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
 
 
 def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """What the ideals of the fibre say, in seconds to a minute: where the synthesis has no
-    method.
-    """
-    return by_ideals(a, b, settings, LIMITS)
-
-
-def sharing_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """What the shares of the numerator's roots refute, in a second to some minutes."""
+    """What shares and ideals say where the synthesis has no method, in a second to some minutes."""
     found = by_shares(a, b, settings)
-    return (
-        Finding(EXACT, Outcome.ABANDONED, note="the shares refute nothing")
-        if found is None
-        else found
-    )
-
-
-def settled_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """Nothing: what was settled once is told to the engine before it is asked (see
-    `catalogs.damper_settled`).
-    """
-    return Finding(EXACT, Outcome.ABANDONED, note="not settled")
+    return by_ideals(a, b, settings, LIMITS) if found is None else found
 
 
 def quick_profile(chain: Chain, settings: Settings) -> Profile:
@@ -91,8 +73,6 @@ def quick_profile(chain: Chain, settings: Settings) -> Profile:
 
 
 QUICKLY = Question("quick exact decisions", quick_finding, Finding.to_json, Finding.from_json)
-SETTLED = Question("settled decisions", settled_finding, Finding.to_json, Finding.from_json)
-SHARING = Question("decisions by shares", sharing_finding, Finding.to_json, Finding.from_json)
 PATIENTLY = Question("patient exact decisions", patient_finding, Finding.to_json, Finding.from_json)
 INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile_from_json)
 

@@ -194,6 +194,8 @@ def cost_in_words(cost: AnyCost) -> str:
     'the squares of the amplitude errors [decades] and of the phase errors [rad], weighted π : 1'
     """
     alone = cost.parts[0]
+    if cost.case is Case.COMPLEX and alone.lines is not None:
+        return f"{CASES[cost.case]}, each in units of what the line scatters by"
     first, second = alone.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
     if first == second:
         return CASES[cost.case]

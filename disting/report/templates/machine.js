@@ -26,12 +26,17 @@
     offer(dampers, kinds.filter(([kind]) => catalogues.some((c) => c.masses === +masses.value && c.damped === (kind === "damped"))));
   };
   const offerGap = () => offer(gap, upTo(0, +masses.value - 1).map((g) => [`${g}`, g ? `between ${mass(g)} and ${mass(g + 1)}` : "none between masses: a free row"]));
+  const choicesOf = (word) => {
+    const references = +gap.value ? upTo(1, +gap.value) : [0];
+    return upTo(+gap.value + 1, +masses.value).flatMap((to) => references.map((from) => [`${from},${to}`, `${word} ${mass(to)}, against ${mass(from)}`]));
+  };
+  const more = createMore(form, { upTo, mass, offer });
   const offerPorts = () => {
     const references = +gap.value ? upTo(1, +gap.value) : [0];
     for (const [select, word] of [[force, "on"], [sensor, "of"]]) {
-      const choices = upTo(+gap.value + 1, +masses.value).flatMap((to) => references.map((from) => [`${from},${to}`, `${word} ${mass(to)}, against ${mass(from)}`]));
-      offer(select, choices, `${references[0]},${select.value.split(",")[1]}`);
+      offer(select, choicesOf(word), `${references[0]},${select.value.split(",")[1]}`);
     }
+    more.offerMore(+masses.value, +gap.value, choicesOf("of"));
   };
 
   // ---- the model: as described, or by a symmetry that keeps the transfer function
@@ -40,25 +45,27 @@
   const find = (c, described) => {
     const free = described[0] ? `masses ${described[0] + 1} to ${c.masses}` : "the masses";
     const other = `${free} counted from the other end`, swapped = "force and sensor exchanged";
-    const ways = [[described, ""], [mirrored(c.masses, described), other], [exchanged(described), swapped], [exchanged(mirrored(c.masses, described)), `${other} and ${swapped}`]];
+    const turned = mirrored(c.masses, described);
+    const ways = [[described, "", false], [turned, other, true], [exchanged(described), swapped, false], [exchanged(turned), `${other} and ${swapped}`, true]];
     const number = (indices) => c.models.findIndex((model) => `${model}` === `${indices}`) + 1;
-    return ways.map(([indices, how]) => [number(indices), how]).find(([found]) => found);
+    return ways.map(([indices, how, isTurned]) => [number(indices), how, isTurned]).find(([found]) => found);
   };
 
   // ---- the drawing, of parts that the page holds
-  const draw = (c, [g, from, on, against, of]) => {
+  const draw = (c, [g, from, on, against, of], { friction, lag, delay }) => {
     const svg = slot("drawing"), joints = upTo(0, c.masses - 1).filter((i) => i !== g).map(between);
     const parts = [`ground-${g ? 1 : 0}`, ...upTo(1, c.masses).map((i) => `m${i}`), ...joints.map((j) => `k${j}${c.damped ? "-damped" : ""}`)];
-    parts.push(...(c.damped ? joints.map((j) => `d${j}`) : []), `gap-${g}`, `sensor-${against}-${of}`, `force-${from}-${on}`);
+    parts.push(...(c.damped ? joints.map((j) => `d${j}`) : []), `gap-${g}`, `sensor-${against}-${of}`, `force-${from}-${on}`, ...friction.map((k) => `friction-${k}`));
     svg.replaceChildren(...parts.map((part) => {
       const use = document.createElementNS(svg.namespaceURI, "use");
       use.setAttribute("href", `#part-${part}`);
       return use;
     }));
-    svg.setAttribute("viewBox", `0 0 ${c.size.join(" ")}`);
+    svg.setAttribute("viewBox", `0 0 ${c.size[0]} ${c.size[1] + (friction.length ? c.below : 0)}`);
     svg.setAttribute("width", SCALE * c.size[0]);
     const said = (select) => select.selectedOptions[0].text;
-    svg.setAttribute("aria-label", `${c.title}; gap: ${said(gap)}; force ${said(force)}; sensor ${said(sensor)}.`);
+    svg.setAttribute("aria-label", `${c.title}; gap: ${said(gap)}; force ${said(force)}; sensor ${said(sensor)}${friction.map((k) => `; friction at mass ${k}`).join("")}.`);
+    put("behind", lag || delay ? `The force acts behind ${[lag && "a lag T1", delay && "a dead time Td"].filter(Boolean).join(" and ")}.` : "");
   };
 
   // ---- what is said
@@ -68,6 +75,45 @@
     return a;
   };
   const put = (name, ...content) => slot(name).replaceChildren(...content);
+  const EMPTY = ["remark", "known", "twins", "depends", "open", "links", "behind", "commands"];
+  const command = (text) => { // to copy
+    const box = Object.assign(document.createElement("div"), { className: "command" }), code = Object.assign(document.createElement("code"), { textContent: text });
+    const button = Object.assign(document.createElement("button"), { type: "button", className: "plainbutton", textContent: "Copy" });
+    button.setAttribute("aria-label", `Copy ${text}`);
+    button.addEventListener("click", () => {
+      getSelection().selectAllChildren(code); // stays selected where a browser refuses the clipboard
+      navigator.clipboard?.writeText(text).then(() => (button.textContent = "Copied"), () => {});
+    });
+    box.append(code, button);
+    return box;
+  };
+  const NOTHING = "Nothing is said here about what else looks like this machine: it is in no catalogue of this site. ";
+  const sayExtended = (c, number, how, turned, extras) => { // a chain with friction, lag, dead time, another quantity
+    const g = +gap.value, there = (k) => (turned && k > g ? g + 1 + c.masses - k : k);
+    const name = `${c.masses}:${number}${damperSet(extras.friction.map(there).sort((a, b) => a - b))}${extras.lag ? "+lag" : ""}${extras.delay ? "+delay" : ""}`;
+    const only = !extras.lag && !extras.delay && extras.quantity === "acceleration", kind = c.damped ? "damped" : "undamped";
+    const families = JSON.parse(document.getElementById("families").textContent), found = only ? addressOf(parseModels(name), c.masses, kind, families) : {};
+    const flags = `${c.damped ? "" : " --undamped"}${extras.quantity === "acceleration" ? "" : ` --quantity ${extras.quantity}`}`;
+    put("number", `${name}, ${c.title}${extras.quantity === "acceleration" ? "" : `, ${extras.quantity}`}`);
+    put("remark", how ? `Listed with ${how}: the transfer function is the same.` : "");
+    put("twins", ...(found.address ? ["What looks the same, and what does not, stands in ", link("its row of the catalogue with dampers to the ground", found.address), "."] : [NOTHING, "This command tells it, at values that you give:"]));
+    put("commands", ...(found.address ? [] : [command(`disting equivalents ${name} --to "${c.masses}+b*"${flags} --set ${valuesOf(c, extras)}`)]));
+    form.dataset.model = name;
+    put("typed", `${name}${flags}`);
+  };
+  const valuesOf = (c, { friction, lag, delay }) => [...upTo(1, c.masses).map((k) => `m${k}`), ...upTo(0, c.masses - 1).filter((k) => k !== +gap.value).flatMap((k) => [`k${between(k)}`, ...(c.damped ? [`d${between(k)}`] : [])]), ...friction.map((k) => `b${k}`), ...(lag ? ["T1"] : []), ...(delay ? ["Td"] : [])].map((name) => `${name}=..`).join(",");
+  const sayOther = (c, described, extras) => { // no chain, or one with two sensors: written as commands read it
+    const text = more.written(described, c.damped, extras), tree = c.masses === 4 && !extras.loop;
+    const family = c.masses > 1 && c.masses < 4 ? `machines-${c.masses}` : tree ? "trees-4" : "";
+    drawMachine(slot("drawing"), c.masses, described, c.damped, extras);
+    slot("drawing").setAttribute("aria-label", `A machine: ${text}`);
+    put("number", text);
+    put("remark", extras.lag || extras.delay ? "A lag and a dead time are no part of such a machine: they are left away." : "");
+    put("twins", NOTHING, "These commands tell it:");
+    put("commands", ...[`disting models "${text}"`, ...(family && !extras.second ? [`disting equivalents "${text}" --family ${family}${c.damped ? "-damped" : ""}`] : []), `disting draw "${text}" --svg machine.svg`].map(command));
+    form.dataset.model = text;
+    put("typed", "no chain with a number");
+  };
   const say = (c, number, how) => {
     const twins = (c.groups.find((group) => group.includes(number)) || []).filter((other) => other !== number), open = c.open[number];
     const one = twins.length === 1, others = c.models.length - 1 - twins.length, depends = c.depends[number] || [];
@@ -91,23 +137,37 @@
     offerAll();
     const c = catalogue(), [[from, on], [against, of]] = [force, sensor].map((select) => select.value.split(",").map(Number));
     const described = [+gap.value, from, on, against, of];
-    draw(c, described);
-    say(c, ...find(c, described));
+    const extras = more.read(c.masses, +gap.value);
+    for (const name of EMPTY) put(name);
+    if (extras.other) return sayOther(c, described, extras);
+    draw(c, described, extras);
+    const [number, how, turned] = find(c, described);
+    if (extras.plain) return say(c, number, how);
+    sayExtended(c, number, how, turned, extras);
   };
 
   // ---- the address keeps the description, for the way back and for others
   const CHOICES = [masses, dampers, gap, force, sensor];
   const follow = () => {
-    const given = /^#machine=(\d+),((?:un)?damped),(\d+),(\d+,\d+),(\d+,\d+)$/.exec(location.hash);
+    const given = /^#machine=(\d+),((?:un)?damped),(\d+),(\d+,\d+),(\d+,\d+)((?:\/[\w-]+=[\w,]+)*)$/.exec(location.hash);
     if (!given) return;
     CHOICES.forEach((select, at) => {
       choose(select, given[at + 1]);
       offerAll();
     });
+    for (const one of beside()) one.type === "checkbox" ? (one.checked = false) : (one.selectedIndex = 0);
+    for (const [, name, value] of given[6].matchAll(/\/([\w-]+)=([\w,]+)/g)) {
+      const one = beside().find((e) => e.name === name);
+      if (one?.type === "checkbox") one.checked = true;
+      else if (one) choose(one, value);
+      offerAll();
+    }
     refresh();
     form.scrollIntoView({ block: "nearest" });
   };
-  const keep = () => history.replaceState(null, "", `#machine=${CHOICES.map((select) => select.value)}`);
+  const beside = () => [...form.elements].filter((e) => e.name && !CHOICES.includes(e)); // what is asked beside a chain, where it is not as at first
+  const said = (e) => (e.type === "checkbox" ? e.checked && 1 : e.selectedIndex > 0 && e.value);
+  const keep = () => history.replaceState(null, "", `#machine=${CHOICES.map((select) => select.value)}${beside().filter(said).map((e) => `/${e.name}=${said(e)}`).join("")}`);
   let soon = 0; // browsers refuse an address that changes too often
   form.addEventListener("change", () => {
     refresh();

@@ -1,5 +1,6 @@
-// The fields as keys: 0 on the diagonal, else 1 + relation, and 4 more where the filter lets it through. A level has half the
+// The fields as keys: 0 on the diagonal, else 1 + relation, and KINDS more where the filter lets it through. A level has half the
 // side of the one before it: of four fields the largest key wins, the rarer relation, so that no field of millions is lost.
+const KINDS = 6; // of colours, see the painter
 const createFields = (state, source) => {
   let levels = [];
   const keysOf = () => {
@@ -10,7 +11,7 @@ const createFields = (state, source) => {
       for (let row = 1; row < n; row++)
         for (let col = 0; col < row; col++) {
           const i = order[row], j = order[col], code = relation(i, j);
-          keys[at(row, col, n)] = 1 + code + (lit(i, j, code) ? 4 : 0);
+          keys[at(row, col, n)] = 1 + code + (lit(i, j, code) ? KINDS : 0);
         }
     };
     fill(views[0], (row, col) => row * n + col);
@@ -36,7 +37,7 @@ const createFields = (state, source) => {
       for (let row = r0; row < r1; row++)
         for (let col = c0; col < c1; col++) {
           const key = keys[row * size + col];
-          if (row !== col) act(row, col, (key - 1) % 4, key > 4);
+          if (row !== col) act(row, col, (key - 1) % KINDS, key > KINDS);
         }
     },
   };

@@ -1,7 +1,7 @@
 // Draws what is visible: the fields from a picture of their level, then lines, marks and signs where they are large enough,
 // frames and names. Colours come from the style sheet, so that light and dark follow it.
 const createPainter = (canvas, v, state, fields, source) => {
-  const LINES_FROM = 5, MARKS_FROM = 7, SIGNS_FROM = 14, RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided"];
+  const LINES_FROM = 5, MARKS_FROM = 7, SIGNS_FROM = 14, RELATIONS = ["distinguishable", "indistinguishable", "sometimes", "undecided", "limit", "open"]; // the last two of different sizes
   const pen = canvas.getContext("2d");
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
   const labels = createLabels(pen, v, state, source, css);

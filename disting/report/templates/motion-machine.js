@@ -2,14 +2,18 @@
 // `joints` are pairs of nodes, 0 is the ground; springs and dampers sit at some of them. `values` stand in the order of `names`: each
 // has a kind and a place, the number of a mass or of a joint, from 0. `act`, `meas`: [minus, plus], nodes of force and sensor.
 const machineOf = (given) => {
-  const held = new Set(given.kinds.flatMap((kind, at) => (kind === "m" ? [] : [given.places[at]]))), root = [0];
-  for (let i = 1; i <= given.masses; i++) root.push(i);
-  for (const at of held) {
-    const [low, high] = given.joints[at].map((node) => root[node]).sort((a, b) => a - b);
-    root.forEach((r, i) => (root[i] = r === high ? low : r));
-  }
-  const free = root.slice(1).flatMap((r, i) => (r ? [i] : [])); // masses, from 0, that nothing holds to the ground: they travel
-  return { near: given.joints.filter((_, at) => held.has(at)), ...given, free };
+  const { masses, kinds, places, joints } = given, at = (letters) => places.filter((_, i) => letters.includes(kinds[i])).map((place) => joints[place]);
+  const roots = (pairs) => { // of the parts that the pairs connect, by node; 0 is that of the ground
+    const found = Array.from({ length: masses + 1 }, (_, i) => i);
+    for (const [from, to] of pairs) {
+      const [low, high] = [found[from], found[to]].sort((a, b) => a - b);
+      found.forEach((root, i) => (found[i] = root === high ? low : root));
+    }
+    return found;
+  };
+  const free = roots(at("kd")).slice(1).flatMap((root, i) => (root ? [i] : [])); // masses, from 0, that nothing holds to the ground: they travel
+  const loose = new Set(roots(at("k")).filter((root) => root)).size; // parts that no spring holds: so many frequencies are zero
+  return { near: at("kd"), ...given, free, loose };
 };
 // A chain; `ports` are [gap, act-, act+, meas-, meas+].
 const between = (i) => (i < 9 ? `${i}${i + 1}` : `${i}_${i + 1}`);

@@ -96,8 +96,9 @@ const expansionsOf = ({ ports, parts }, n) => {
   }
   return found;
 };
-// The values of `other`, by the simplest formulas that are known; null if there are none.
+// The values of `other`, by the simplest formulas that are known; null if there are none, as of what is no chain.
 const mapped = (given, other, values) => {
+  if (!given.ports || !other.ports) return null;
   const n = given.masses, start = { ports: given.ports, parts: partsOf(given, values) }, wanted = `${other.ports}`;
   const among = (from) => imagesOf(from, n).find((image) => `${image.ports}` === wanted);
   let found = among(start);

@@ -6,7 +6,7 @@ const EXACT = { refined: 12, rounds: 500, least: 1e-13 }; // an exact answer may
 const createSecond = (onFound) => {
   let turn = 0, last = null; // what was found last, and for which pair
   const band = (given, values) => { // [rad/s], and as round numbers in Hz
-    const parts = partsOf(given, values), [slow, fast] = [1 + (given.free.length > 0), given.masses].map((which) => frequencyOf(given, parts, which) / (2 * Math.PI));
+    const parts = partsOf(given, values), [slow, fast] = [1 + given.loose, given.masses].map((which) => frequencyOf(given, parts, which) / (2 * Math.PI));
     const low = roundDown(slow / 5), high = 10 / roundDown(10 / (fast * 3)); // rounded outwards
     return [2 * Math.PI * low, 2 * Math.PI * high];
   };

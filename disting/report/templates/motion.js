@@ -3,15 +3,15 @@
   const byId = (id) => document.getElementById(id), root = document.documentElement;
   const SECONDS = 20, SAMPLES = 16; // of a run; samples of the fastest oscillation
   const UNITS = { m: "kg", k: "N/m", d: "N s/m" };
-  const chains = data.models.map((ports) => chainOf(data.masses, data.damped, ports, data.order));
-  const nameOf = (i) => `A${i}`, numbers = chains.map((_, i) => i + 1);
+  const chains = data.machines?.map(machineOf) ?? data.models.map((ports) => chainOf(data.masses, data.damped, ports, data.order));
+  const nameOf = (i) => data.names?.[i - 1] ?? `A${i}`, numbers = chains.map((_, i) => i + 1);
   const kindOf = (given, other) => {
     if (data.groups.some((group) => group.includes(given) && group.includes(other))) return "always";
     const share = data.able.find(([a, b]) => a === given && b === other)?.[2];
     const open = data.open.some((pair) => pair.includes(given) && pair.includes(other));
-    return share === "always" ? "always-there" : share === "sometimes" ? "sometimes" : open || share === "unknown" ? "open" : "never";
+    return share === "always" ? "always-there" : share === "sometimes" ? "sometimes" : open || share === "unknown" ? "open" : data.sided === false ? "apart" : "never";
   };
-  const RANK = ["always", "always-there", "sometimes", "open", "never"];
+  const RANK = ["always", "always-there", "sometimes", "open", "apart", "never"];
   const pairs = numbers.flatMap((a) => numbers.slice(a).map((b) => [a, b]));
   const ranked = pairs.map(([a, b]) => [a, b, Math.min(RANK.indexOf(kindOf(a, b)), RANK.indexOf(kindOf(b, a)))]);
   const order = ranked.sort((x, y) => x[2] - y[2] || x[0] - y[0] || x[1] - y[1]).map(([a, b]) => [a, b]);
@@ -28,6 +28,7 @@
     "always-there": (a, b) => `Whatever the positive parameters of ${a}, some of ${b} give the very same response; the reverse holds for some only.`,
     sometimes: (a, b) => `For some positive parameters of ${a}, some of ${b} give the very same response; for others none do.`,
     open: (a, b) => `Whether positive parameters of ${b} do what ${a} does is not known.`,
+    apart: (a, b) => `An experiment tells them apart: with generic positive parameters, at least one of ${a} and ${b} does what the other cannot.`,
     never: (a, b) => `An experiment tells them apart: with generic positive parameters, ${b} cannot do what ${a} does.`,
   };
   const names = () => pair.map(nameOf);
@@ -160,7 +161,7 @@
   const offer = () => {
     byId("left").replaceChildren(...numbers.map((i) => new Option(nameOf(i), i)));
     byId("left").value = pair[0];
-    const titles = { always: "Not told apart", "always-there": "Does all that it does", sometimes: "Depends on the values", open: "Not known", never: "Told apart" };
+    const titles = { always: "Not told apart", "always-there": "Does all that it does", sometimes: "Depends on the values", open: "Not known", apart: "Told apart", never: "Told apart" };
     const groups = RANK.map((kind) => [titles[kind], numbers.filter((i) => i !== pair[0] && kindOf(pair[0], i) === kind)]).filter(([, of]) => of.length);
     byId("right").replaceChildren(...groups.map(([label, of]) => {
       const group = Object.assign(document.createElement("optgroup"), { label });
@@ -169,17 +170,17 @@
     }));
     byId("right").value = pair[1];
   };
-  const hash = () => `#${names().join("-")}${presenting ? ",present" : ""}`;
+  const hash = () => `#${pair.map((i) => `A${i}`).join("-")}${presenting ? ",present" : ""}`;
   const select = (next, first = data.values[next[0] - 1], second = data.values[next[1] - 1]) => {
     pair = next;
     byId("trouble").textContent = "";
     [values, base, usual] = [[...first], [...first], second];
     offer();
     [["one", given()], ["two", other()]].forEach(([id, chain], which) => {
-      move[which] = drawMoving(byId(id), chain, data.drawing);
+      move[which] = chain.at ? drawGraph(byId(id), chain) : drawMoving(byId(id), chain, data.drawing);
       byId(id).setAttribute("aria-label", `${nameOf(pair[which])}, moving`);
       byId(`${id}-name`).textContent = nameOf(pair[which]);
-      byId(`${id}-name`).href = `${data.folder}/${pair[which]}.html`;
+      if (data.folder) byId(`${id}-name`).href = `${data.folder}/${pair[which]}.html`;
     });
     fillValues();
     now = 0;
@@ -256,7 +257,7 @@
     const match = /^#(?:(\d+)(?::|%3A))?A?(\d+)-(?:(\d+)(?::|%3A))?A?(\d+)(,present)?$/i.exec(location.hash);
     const two = match && [+match[2], +match[4]], sizes = match ? [match[1], match[3]].filter(Boolean) : [];
     const there = two && two.every((i) => numbers.includes(i)) && two[0] !== two[1] && sizes.every((n) => +n === data.masses);
-    const trouble = there || !location.hash ? "" : `${decodeURI(location.hash.slice(1))} names no pair here: there are the models ${data.masses}:1 to ${data.masses}:${numbers.length}.`;
+    const trouble = there || !location.hash ? "" : `${decodeURI(location.hash.slice(1))} names no pair here: there are the models ${data.names ? "A" : `${data.masses}:`}1 to ${data.names ? "A" : `${data.masses}:`}${numbers.length}.`;
     return { two: there ? two : data.first, present: Boolean(there && match[5]), trouble };
   };
   const arrive = () => {

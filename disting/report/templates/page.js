@@ -11,6 +11,7 @@
   // ---- data: entry (high-1)(high-2)/2 + low-1 of a view
   const entries = {};
   const entriesOf = (view) => (entries[view] ??= unpacked(data.views[view], (data.models * (data.models - 1)) / 2));
+  const LIMITS = { 1: 4, 2: 4, 4: 5 }; // distinguishable models of two sizes: one is a limit of the other, or that is not known; by their kind, the painter's colour
   const relations = data.entries.map((entry) => RELATIONS.indexOf(data.texts[entry[0]]));
   const place = (i, j) => (i > j ? ((i - 1) * (i - 2)) / 2 + j - 1 : ((j - 1) * (j - 2)) / 2 + i - 1);
   const limits = data.limits ? createLimits(data, place) : null;
@@ -148,7 +149,8 @@
     },
     relation: (view) => {
       const codes = Uint8Array.from(entriesOf(view), (number) => relations[number]);
-      return (i, j) => codes[place(i, j)];
+      if (!limits) return (i, j) => codes[place(i, j)];
+      return (i, j) => codes[place(i, j)] || (names.masses(i) === names.masses(j) ? 0 : LIMITS[limits.kind(i, j)] || 0);
     },
     sign: (i, j, view) => {
       return limits?.sign(i, j) || data.signs[data.texts[data.entries[entry(i, j, view)][1]]] || "";
@@ -181,7 +183,7 @@
     const shown = RELATIONS.map((name) => byId("filter").elements[name].checked);
     const members = byId("group").value ? new Set(data.groups[domain()][byId("group").value - 1]) : null;
     const kinds = byId("limit")?.value; // of inclusion, a digit each
-    matrix.filter((i, j, code) => shown[code] && (!members || (members.has(i) && members.has(j))) && (!kinds || kinds.includes(limits.kind(i, j))));
+    matrix.filter((i, j, code) => shown[code > 3 ? 0 : code] && (!members || (members.has(i) && members.has(j))) && (!kinds || kinds.includes(limits.kind(i, j))));
   };
   const offerGroups = () => {
     const named = (of) => `${of.slice(0, 6).map(nameOf).join(data.names ? ", " : " ")}${of.length > 6 ? " …" : ""}`;

@@ -29,17 +29,17 @@ from disting.model.question import Membership, Settings
 from disting.model.row import Row, rows_of
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_finding
+from disting.questions.same.exact import by_shares, exact_again, exact_finding
 
 S = sympy.Symbol("s")
 
 
-def model(name):
-    """A chain by its name, such as 5:59+b2."""
+def model(name, damped=True):
+    """A chain by its name, such as 5:59+b2, with dampers beside its springs or not."""
     head, *dampers = name.split("+")
     n, number = map(int, head.split(":"))
     return canonical(
-        replace(Family(n, damped=True)[number], ground_dampers=tuple(int(b[1:]) for b in dampers))
+        replace(Family(n, damped)[number], ground_dampers=tuple(int(b[1:]) for b in dampers))
     ).chain
 
 
@@ -74,7 +74,7 @@ def unknown(kind, i, found, ports):
     if kind == "h":
         return spring / damper
     if kind == "x":
-        return damper / right
+        return (damper or spring) / right
     near = right if (left is None or i >= ports[1]) else left
     if kind == "r":
         return near / (left if near is right else right)
@@ -83,11 +83,12 @@ def unknown(kind, i, found, ports):
     return (damper + (found.get(("b", i + 1), 0) if left is None else 0)) / near
 
 
+@pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize(
     "name", ["2:2+b1", "3:2+b1+b3", "3:3+b2", "3:6+b1+b3", "3:8+b1+b2", "4:6+b4", "4:18+b2+b4"]
 )
-def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name):
-    structure = model(name).structure
+def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name, damped):
+    structure = model(name, damped).structure
     numbers = [sympy.Rational(x, 7) for x in residues(name, len(structure.elements), 97)]
     for place, ends in zip(rows_of(structure), structure.row_ends, strict=True):
         matrix, found = physical(structure, ends, numbers)
@@ -136,15 +137,16 @@ def test_the_equations_hold_where_the_roots_are_shared_as_they_are():
     assert not any(list(e) == [(0,) * count] for e in equations)
 
 
-def test_models_that_are_the_same_are_never_told_apart():
+@pytest.mark.parametrize(("damped", "pairs"), [(False, 36), (True, 58)])
+def test_models_that_are_the_same_are_never_told_apart(damped, pairs):
     """All pairs of unequal canonical forms in a class of 3 masses with all sets of dampers."""
-    found, tried = damper_catalog(3, damped=True).found, 0
+    found, tried = damper_catalog(3, damped=damped).found, 0
     for members in found.classes():
         forms = sorted({canonical(found.chains[i]).chain for i in members}, key=str)
         for a, b in combinations(forms, 2):
             tried += 1
             assert chains_told_apart(a.structure, b.structure, "same") is None
-    assert tried == 58
+    assert tried == pairs
 
 
 @pytest.mark.parametrize(
@@ -172,6 +174,28 @@ def test_five_masses_that_were_left_open_are_decided_by_the_part_that_differs(le
     assert not Witness().confirms(found.evidence, "fibre", a, a)
 
 
+@pytest.mark.parametrize(
+    ("left", "right", "part"),
+    [("5:3+b1+b4", "5:3+b2+b4", ""), ("5:59+b1+b2+b3", "5:69+b1+b2+b4", "grounded")],
+)
+def test_rows_with_dampers_to_the_ground_alone_are_told_apart(left, right, part):
+    a, b = model(left, False), model(right, False)
+    found = by_shares(a, b, Settings())
+    assert found.evidence.part == part
+    assert found.safety >= 100
+    assert exact_again(found.evidence, a, b, Settings()) == found
+    assert Witness().confirms(found.evidence, "fibre", a, b)
+    assert not Witness().confirms(found.evidence, "fibre", a, a)
+
+
+def test_what_has_solutions_is_tried_once():
+    """No larger matrices, no other direction."""
+    a, b = (factored(rows_of(model(name, False).structure)[-1]) for name in ("3:3+b1", "3:3+b3"))
+    tries = iter([(True, 10**6), (False, 10**6)])
+    assert told_apart(a, b, "same", tries) is None
+    assert list(tries) == [(False, 10**6)]
+
+
 def test_parts_are_not_compared_where_both_or_none_differ():
     a, b = (Chain(4, 2, 1, 3, p, q, damped=True).structure for p, q in ((1, 3), (2, 4)))
     assert chains_told_apart(a, b, "both") is None
@@ -191,12 +215,12 @@ def test_groups_of_rows_are_symmetric():
     assert is_symmetric(factored(*rows_of(model("5:8+b1").structure)), "two and two")
 
 
-def of_one_kind(masses):
-    """Pairs of damped rows of equal rank and degrees, with one damper to the ground or none."""
+def of_one_kind(masses, damped):
+    """Pairs of rows of equal rank and degrees, with one damper to the ground or, if damped, none."""
     ports = [(a, b) for a in range(1, masses + 1) for b in range(a, masses + 1)]
-    dampers = [(), *((m,) for m in range(1, masses + 1))]
+    dampers = [*[()] * damped, *((m,) for m in range(1, masses + 1))]
     found = product((False, True), ports, dampers)
-    rows = sorted({Row(masses, wall, *p, True, d).canonical for wall, p, d in found})
+    rows = sorted({Row(masses, wall, *p, damped, d).canonical for wall, p, d in found})
     maps = {row: factored(row) for row in rows}
     ranks = {row: generic_rank(m.whole, "test") for row, m in maps.items()}
     return [
@@ -209,10 +233,13 @@ def alike(row, ranks):
     return row.grounded, row.distance, len(row.ground_dampers), ranks[row]
 
 
-@pytest.mark.parametrize("masses", [2, pytest.param(3, marks=pytest.mark.slow)])
-def test_rows_are_told_apart_where_the_ideal_of_the_whole_fibre_is_everything(masses):
+@pytest.mark.parametrize(
+    ("masses", "damped"),
+    [(2, True), (2, False), *(pytest.param(3, x, marks=pytest.mark.slow) for x in (True, False))],
+)
+def test_rows_are_told_apart_where_the_ideal_of_the_whole_fibre_is_everything(masses, damped):
     limits, told = Limits(seconds=600, entries=10**8, safety=40), list[bool]()
-    for left, right in of_one_kind(masses):
+    for left, right in of_one_kind(masses, damped):
         whole = decide(left.whole, right.whole, equal_rank=True, seed="test", limits=limits)
         told.append(whole.membership is Membership.EXCLUDED)
         assert whole.membership is not Membership.UNKNOWN

@@ -1,0 +1,253 @@
+"""The page on which two machines of a list move side by side, where all are made of masses, springs
+and dampers: trees and loops as chains.
+
+Masses move to the left and to the right, and stand in columns by their distance from the force; two
+of a column that are joined are half a column apart. Their rows are those in which the fewest joints
+cross or pass a third mass.
+"""
+
+from cmath import phase
+from collections.abc import Iterator, Sequence
+from itertools import combinations, count, cycle, islice, product
+from math import pi
+
+from disting.evidence.positive import Share
+from disting.general.matrix_model import AnyModel
+from disting.model.chain import Sensor
+from disting.network.element import Sort
+from disting.network.graph import edges
+from disting.network.network import Network
+from disting.report.domains import one_sided
+from disting.report.environment import render
+from disting.report.listing import JudgedList
+from disting.report.motion import START
+from disting.report.payload import script_json
+from disting.verdict.query import View
+from disting.verdict.result import Relation
+
+COLUMN, ROW = 116.0, 92.0  # from one mass to the next
+MARGINS = (76.0, 52.0, 76.0, 32.0)  # left, above, right, below the masses
+ROWS = 3
+PASSED, CROSSED = 100.0, 10.0  # what a joint costs that passes a third mass, or crosses another one
+MOST = 200  # machines of a page: each can be chosen
+# a piece of ground, from its mass
+GROUNDS = ((-0.4, 0.65), (0.4, 0.65), (0.0, 0.75), (0.65, 0.35), (-0.65, 0.35), (0.55, -0.45))
+Place = tuple[float, float]
+"""Column and row."""
+Line = tuple[Place, Place]
+
+
+def page_of_motion(found: JudgedList, name: str) -> str:
+    """Name of the page of a list, "" where there is none: for fewer than two machines, for models
+    that are none, for machines of different numbers of masses or quantities of the sensor.
+    """
+    machines = list(map(machine_of, found.family))
+    sizes = {(len(m.nodes), m.order) for m in machines if m is not None}
+    has = None not in machines and len(sizes) == 1 and 2 <= len(machines) <= MOST
+    return f"{name}-motion.html" if has else ""
+
+
+def machine_of(model: AnyModel) -> Network | None:
+    """The machine that a model is, one force, one sensor, a mass at every node, a spring, no gears;
+    None of any other model.
+    """
+    network = model.network
+    if network is None or network.sort is not Sort.MACHINE or network.shape != (1, 1):
+        return None
+    letters = {e.letter for e in network.elements}
+    masses = [e for e in network.elements if e.letter == "m"]
+    plain = {"m", "k"} <= letters <= set("mkd") and not any(e.ratio for e in network.elements)
+    return network if plain and len(masses) == len(network.nodes) else None
+
+
+def motion_page_of(found: JudgedList, title: str, name: str, *, site: bool = False) -> str:
+    """HTML of the page; `site`: whether start page and guide stand beside it."""
+    groups = found.classes(View.POSITIVE)
+    machines = [m for m in map(machine_of, found.family) if m is not None]
+    drawn = list(map(drawing_of, machines))
+    payload = {
+        "masses": len(machines[0].nodes),
+        "damped": any(e.letter == "d" for m in machines for e in m.elements),
+        "names": [model.name for model in found.family],
+        "machines": drawn,
+        "values": [start_values_of(m) for m in machines],
+        "first": groups[0][:2] if groups else (1, 2),
+        "groups": groups,
+        "able": _able(found),
+        "open": [
+            (low, high)
+            for low, high, v in found.pairs(View.POSITIVE)
+            if v.relation is Relation.UNDECIDED
+        ],
+        "sided": False,
+    }
+    return render(
+        "motion.html",
+        family=title,
+        back=f"{name}.html",
+        site=site,
+        members=[tuple(found.family[i - 1].name for i in group) for group in groups],
+        parts="",
+        payload=script_json(payload),
+    )
+
+
+def _able(found: JudgedList) -> list[tuple[int, int, Share]]:
+    """(given, other, share) where it is known."""
+    known = [(one.given, one.other, one.share) for one in one_sided(found)]
+    for low, high in found.depending(View.POSITIVE):
+        v = found.verdict(low, high, View.POSITIVE)
+        for given, other, side in ((low, high, v.left_positive), (high, low, v.right_positive)):
+            known.append((given, other, Share.UNKNOWN if side is None else side.share))
+    return known
+
+
+def start_values_of(machine: Network) -> tuple[float, ...]:
+    """Positive values as they are shown first, in the order of the page [kg, N/m, N s/m]."""
+    joints = _joints(machine)
+    sizes = {kind: list(islice(cycle(of), len(machine.elements))) for kind, of in START.items()}
+    return tuple(sizes[letter][_at(machine, joints, ends)] for _, letter, ends in _listed(machine))
+
+
+def _listed(machine: Network) -> list[tuple[str, str, tuple[int, ...]]]:
+    """Name, letter and nodes of the elements: masses, springs, dampers."""
+    rank = "mkd".index
+    ordered = sorted(machine.elements, key=lambda e: rank(e.letter))
+    return [(e.value, e.letter, e.nodes) for e in ordered]
+
+
+def _joints(machine: Network) -> list[tuple[int, ...]]:
+    """Pairs of nodes that are joined, each once, by place of a mass, 0 for the ground."""
+    ends = [tuple(sorted(e.nodes)) for e in machine.elements if e.kind.ends == 2]
+    return list(dict.fromkeys(ends))
+
+
+def _at(machine: Network, joints: Sequence[tuple[int, ...]], ends: tuple[int, ...]) -> int:
+    """Number of a mass or a joint, from 0."""
+    if len(ends) == 1:
+        return machine.nodes.index(ends[0])
+    return joints.index(tuple(sorted(ends)))
+
+
+def drawing_of(machine: Network) -> dict[str, object]:
+    """What the page needs of a machine; nodes are numbered from 1 without gaps."""
+    number = dict(zip((0, *machine.nodes), count(), strict=False))
+    joints, elements = _joints(machine), _listed(machine)
+    placed = places(machine)
+    left, above, right, below = MARGINS
+    joined, held = _joined(machine), [max(j) for j in joints if 0 in j]
+    grounds = [_ground(i, placed, joined) for i in held]
+    x0, x1, y1 = (
+        min(x for x, _ in (*placed.values(), *grounds)),
+        max(x for x, _ in (*placed.values(), *grounds)),
+        max(y for _, y in (*placed.values(), *grounds)),
+    )
+
+    def drawn(at: Place) -> list[float]:
+        """In the drawing's units."""
+        return [left + COLUMN * (at[0] - x0), above + ROW * at[1]]
+
+    (force,), (sensor,) = machine.inputs, machine.outputs
+    return {
+        "masses": len(machine.nodes),
+        "damped": any(e.letter == "d" for e in machine.elements),
+        "order": Sensor.ACCELERATION.order,  # what the page shows; verdicts are those of any
+        "joints": [[number[i] for i in joint] for joint in joints],
+        "kinds": [letter for _, letter, _ in elements],
+        "places": [_at(machine, joints, ends) for *_, ends in elements],
+        "names": [name for name, *_ in elements],
+        "act": [number[force.minus], number[force.plus]],
+        "meas": [number[sensor.minus], number[sensor.plus]],
+        "at": [drawn(placed[i]) for i in machine.nodes],
+        "grounds": {number[i]: drawn(at) for i, at in zip(held, grounds, strict=True)},
+        "size": [left + COLUMN * (x1 - x0) + right, above + ROW * y1 + below],
+    }
+
+
+def places(machine: Network) -> dict[int, Place]:
+    """Column and row of each mass.
+
+    >>> from disting.network import network_of
+    >>> places(network_of("1~2~3, 2~4; F1; S3"))
+    {1: (0.0, 0), 2: (1.0, 0), 3: (2.0, 0), 4: (2.0, 1)}
+    """
+    columns = _columns(machine)
+    choices: Iterator[dict[int, Place]] = (
+        {i: (columns[i], y) for i, y in zip(columns, rows, strict=True)}
+        for rows in product(range(ROWS), repeat=len(columns))
+        if 0 in rows
+    )
+    apart = (placed for placed in choices if len(set(placed.values())) == len(placed))
+    return min(apart, key=lambda placed: _cost(placed, _joined(machine)))
+
+
+def _joined(machine: Network) -> list[tuple[int, int]]:
+    """Pairs of masses that are joined, each once."""
+    every = [edge for e in machine.elements for edge in edges(e) if 0 not in edge]
+    return sorted({(min(edge), max(edge)) for edge in every})
+
+
+def _columns(machine: Network) -> dict[int, float]:
+    """By distance from the force; what is not joined to it stands behind the rest."""
+    joined, found = _joined(machine), dict[int, float]()
+    starts = [i for p in machine.ports for i in (p.plus, p.minus) if i]
+    for start in (*starts, *machine.nodes):
+        if start in found:
+            continue
+        x, column = max(found.values(), default=-1.0) // 1 + 1, [start]
+        while column:
+            for i in column:
+                beside = [k for k in found if (min(i, k), max(i, k)) in joined]
+                found[i] = x + 0.5 * sum(found[k] >= x for k in beside)
+            near = [k for pair in joined for k in pair if set(pair) & set(column)]
+            column = list(dict.fromkeys(k for k in near if k not in found))
+            x += 1
+    return found
+
+
+def _cost(placed: dict[int, Place], joined: Sequence[tuple[int, int]]) -> float:
+    """Of masses that joints pass, of joints that cross, of what is not level or not above."""
+    lines = [(placed[a], placed[b]) for a, b in joined]
+    passed = sum(
+        _side(*line, at) == 0 and at not in line and _between(*line, at)
+        for line in lines
+        for at in placed.values()
+    )
+    crossed = sum(_cross(*pair) for pair in combinations(lines, 2))
+    steep = sum(abs(a[1] - b[1]) for a, b in lines)
+    return PASSED * passed + CROSSED * crossed + steep + 0.1 * sum(y for _, y in placed.values())
+
+
+def _ground(node: int, placed: dict[int, Place], joined: Sequence[tuple[int, int]]) -> Place:
+    """Where the piece of ground of a mass is: where its joint meets the others least."""
+    at = placed[node]
+    own = [placed[b if a == node else a] for a, b in joined if node in (a, b)]
+    lines = [(placed[a], placed[b]) for a, b in joined if node not in (a, b)]
+
+    def cost(by: Place) -> float:
+        """Of joints that cross it, and of the one that is nearest in direction."""
+        line = at, (at[0] + by[0], at[1] + by[1])
+        angles = [abs(phase(complex(*by) / complex(x - at[0], y - at[1]))) for x, y in own]
+        return sum(_cross(line, other) for other in lines) + 1 / (0.3 + min(angles, default=pi))
+
+    by = min(GROUNDS, key=cost)
+    return at[0] + by[0], at[1] + by[1]
+
+
+def _side(a: Place, b: Place, c: Place) -> float:
+    """On which side of the line through a and b the place c is; 0: on it."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _between(a: Place, b: Place, c: Place) -> bool:
+    """Whether c, on the line through a and b, is between them."""
+    return min(a, b) < c < max(a, b)
+
+
+def _cross(one: Line, other: Line) -> bool:
+    """Whether two lines cross, or lie on each other."""
+    ends = [_side(*one, p) for p in other], [_side(*other, p) for p in one]
+    if set(one) & set(other):
+        on = all(x == 0 for side in ends for x in side)
+        return on and any(_between(*one, p) or _between(*other, p) for p in (*one, *other))
+    return all(a * b < 0 for a, b in ends)

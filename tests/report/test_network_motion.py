@@ -1,0 +1,210 @@
+"""Trees and loops in motion: the page computes what Python computes, and draws them so that they can
+be read.
+"""
+
+import json
+import re
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import lsim
+
+from disting.general.any_model import of_network
+from disting.general.model_files import ModelList
+from disting.model.chain import Sensor
+from disting.network import network_of
+from disting.network.families import family_of
+from disting.report.listing import Listing, judged
+from disting.report.model_list import write_model_list
+from disting.report.network_motion import (
+    drawing_of,
+    machine_of,
+    motion_page_of,
+    page_of_motion,
+    places,
+    start_values_of,
+)
+from disting.simulation import frequency_response, matrices, port_vectors
+from disting.verdict.engine import Engine
+from disting.verdict.query import View
+
+pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+TEXTS = {
+    "tree": "1=2, 1=3; F1; S1",
+    "row": "1=2=3; F1; S1",
+    "loop": "1=2=3=1; F1; S1",
+    "held": "1=2=3=1, 2=#, 3-#; F1:2; S3",
+}
+FAMILIES = ("machines-2", "machines-2-damped", "machines-3", "trees-4")
+PAGE = "list-loops-motion.html"
+
+
+def listed(texts):
+    return judged(
+        ModelList(tuple(of_network(network_of(t, name=n)) for n, t in texts.items())), Engine()
+    )
+
+
+@pytest.fixture(scope="module")
+def found():
+    return listed(TEXTS)
+
+
+@pytest.fixture(scope="module")
+def site(found, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("motion")
+    written = write_model_list(Listing(found, "Loops", "list-loops"), folder)
+    assert PAGE in [path.name for path in written]
+    return folder
+
+
+def data_of(page: str):
+    return json.loads(re.search(r'id="data">(.*?)</script>', page)[1])
+
+
+def drawn(machine, values):
+    """Values under their names, as the page lists them: masses, springs, dampers."""
+    rank = "mkd".index
+    names = [e.value for e in sorted(machine.elements, key=lambda e: rank(e.letter))]
+    return dict(zip(names, values, strict=True))
+
+
+def test_frequency_responses_are_those_of_python(visit, found) -> None:
+    rng, omega = np.random.default_rng(1), np.geomspace(0.5, 80, 9)
+    every = [m for name in FAMILIES for m in family_of(name).networks[::7]]
+    every += [machine_of(model) for model in found.family]
+
+    asked = []
+    for machine in every:
+        values = np.array(start_values_of(machine)) * np.exp(
+            rng.uniform(-1, 1, len(machine.parameters))
+        )
+        asked.append([drawing_of(machine), values.tolist()])
+    seen = visit(PAGE).evaluate(
+        """([models, omega]) => models.map(([given, values]) => {
+          const machine = machineOf(given), solver = createSolver(machine), parts = partsOf(machine, values);
+          return omega.map((w) => solver.response(parts, 0, w));
+        })""",
+        [asked, omega.tolist()],
+    )
+    for machine, (_, values), pairs in zip(every, asked, seen, strict=True):
+        expected = frequency_response(machine, drawn(machine, values), omega)
+        np.testing.assert_allclose([complex(*pair) for pair in pairs], expected, rtol=1e-8)
+
+
+MOVED = """([given, values, force, dt]) => {
+  const machine = machineOf(given), found = moved(machine, partsOf(machine, values), Float64Array.from(force), dt);
+  return { acceleration: [...found.acceleration], places: [...found.places], free: machine.free };
+}"""
+
+
+@pytest.mark.parametrize("name", ["loop", "held"])
+def test_the_motion_is_that_of_the_state_space(visit, found, name) -> None:
+    data = data_of(motion_page_of(found, "Loops", "list"))
+    at = list(TEXTS).index(name)
+    machine = machine_of(found.family[at])
+    values = data["values"][at]
+    m, (act, meas) = matrices(machine, drawn(machine, values)), port_vectors(machine)
+    n, dt = len(m.M), 0.02
+    inverse = np.linalg.inv(m.M)
+    below = np.hstack([-inverse @ m.K, -inverse @ m.D])
+    a = np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), below])
+    push = inverse @ act
+    system = a, np.concatenate([np.zeros(n), push])[:, None], (meas @ below)[None], [[meas @ push]]
+    force = np.sin(np.arange(400) ** 2 / 2000) + (np.arange(400) < 90)
+    seen = visit(PAGE).evaluate(MOVED, [data["machines"][at], values, force.tolist(), dt])
+    _, expected, _ = lsim(system, force, dt * np.arange(400))
+    np.testing.assert_allclose(seen["acceleration"], expected, atol=1e-9 * np.abs(expected).max())
+    assert seen["free"] == ([0, 1, 2] if name == "loop" else [])
+    where = np.array(seen["places"]).reshape(400, -1)
+    if name == "loop":  # its centre stays where it was
+        assert np.abs(where @ np.diag(m.M)).max() < 1e-9 * np.abs(where).max()
+
+
+def test_the_page_knows_every_verdict(found) -> None:
+    data = data_of(motion_page_of(found, "Loops", "list-loops"))
+    assert data["names"] == list(TEXTS) and data["masses"] == 3 and data["damped"]
+    assert data["groups"] == [list(group) for group in found.classes(View.POSITIVE)]
+    assert [m["order"] for m in data["machines"]] == [Sensor.ACCELERATION.order] * 4
+
+
+def test_all_machines_of_the_families_can_be_read() -> None:
+    """No two masses at one place, none on a joint of others; trees without a joint that crosses."""
+    for name in FAMILIES:
+        for machine in family_of(name).networks:
+            placed = places(machine)
+            assert set(placed) == set(machine.nodes)
+            assert len(set(placed.values())) == len(placed)
+            joints = {tuple(sorted(e.nodes)) for e in machine.elements if e.kind.ends == 2}
+            lines = [tuple(placed[i] for i in joint) for joint in joints if 0 not in joint]
+            for (ax, ay), (bx, by) in lines:
+                assert ax != bx  # a joint that stands upright would shear
+                for x, y in set(placed.values()) - {(ax, ay), (bx, by)}:
+                    on = (bx - ax) * (y - ay) == (by - ay) * (x - ax)
+                    assert not (on and min(ax, bx) < x < max(ax, bx))
+            for one, other in combinations(lines, 2):
+                assert not (name == "trees-4" and crosses(one, other))
+
+
+def crosses(one, other):
+    """Independent: both parameters of the meeting point lie inside."""
+    (p, q), (r, s) = (np.array(line, dtype=float) for line in (one, other))
+    matrix = np.array([q - p, r - s]).T
+    if abs(np.linalg.det(matrix)) < 1e-9:
+        return False
+    t, u = np.linalg.solve(matrix, r - p)
+    return 1e-6 < t < 1 - 1e-6 and 1e-6 < u < 1 - 1e-6
+
+
+def test_a_pair_moves_and_is_named(visit) -> None:
+    tab = visit(PAGE + "#A1-A4")
+    assert tab.text_content("#pair").startswith("tree and held")
+    assert "at least one of tree and held does what the other cannot" in tab.inner_text("#verdict")
+    boxes = tab.locator("#two g rect")
+    assert boxes.count() == 3 and tab.locator("#two text").count() > 10
+    before = tab.locator("#two g >> nth=0").get_attribute("transform")
+    tab.locator("#time").fill("0.11")
+    assert tab.locator("#two g >> nth=0").get_attribute("transform") != before
+    first = tab.locator("#two path").evaluate_all("(all) => all.map((e) => e.getAttribute('d'))")
+    tab.locator("#time").fill("0.3")
+    moved = tab.locator("#two path").evaluate_all("(all) => all.map((e) => e.getAttribute('d'))")
+    assert (
+        sum(a != b for a, b in zip(first, moved, strict=True)) == 9
+    )  # springs and dampers, that of the bearing too
+    tab.click("#after")
+    assert re.search(r"#A\d-A\d$", tab.url)
+
+
+def test_what_a_damper_alone_holds_has_a_band(visit) -> None:
+    """The frequencies of the springs: that of travel is zero, though a damper holds it."""
+    from_to = visit(PAGE).evaluate(
+        """(given) => {
+          const machine = machineOf(given);
+          return [machine.free, machine.loose, ...createSecond(() => 0).band(machine, [1, 1, 100, 0.5])];
+        }""",
+        drawing_of(network_of("1~2, 1-#; F1; S2")),
+    )
+    free, loose, low, high = from_to
+    own = np.sqrt(200)
+    assert (free, loose) == ([], 1) and own / 16 < low < own / 4 and 2 * own < high < 8 * own
+
+
+def test_wrong_addresses_say_what_there_is(visit) -> None:
+    tab = visit(PAGE + "#A1-A9")
+    assert "names no pair here: there are the models A1 to A4" in tab.inner_text("#trouble")
+
+
+@pytest.mark.parametrize(
+    "texts",
+    [
+        {"a": "R1-C1", "b": "p(R1,C1)"},
+        {"a": "1=2; F1; S1", "b": "1=2=3; F1; S1"},
+        {"a": "1=2*i; F1; S1", "b": "1=2; F1; S1"},
+        {"a": "1=2; F1; S1; position", "b": "1=2; F1; S2"},
+        {"a": "1-2; F1; S1", "b": "1=2; F1; S1"},
+    ],
+)
+def test_other_lists_have_no_page(texts) -> None:
+    assert page_of_motion(listed(texts), "list") == ""
