@@ -11,11 +11,12 @@ from pathlib import Path
 
 from disting.conditions.finding import Finding
 from disting.evidence.ideals import Refuted, Solved
+from disting.fibres.ideals import coefficient_map, matched, normalised, refuted_at
 from disting.files import intact_text, shipped_folder
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_again
+from disting.questions.same.exact import exact_again, rational_part
 
 FILE = "settled-dampers.jsonl"
 Settled = dict[tuple[Chain, Chain], Finding]
@@ -50,13 +51,18 @@ def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
 def holds(found: Finding, first: Chain, second: Chain, settings: Settings) -> bool:
     """Whether a finding on two canonical chains of equal rank is what its evidence shows.
 
-    Outcome, bound and labels are compared with those that the settings draw. Shares are refuted
-    once more at the same point; of ideals, every solution is put into both transfer functions, and
-    a contradiction is found again at one fresh point. Raises NotSeenError where that takes too
-    long.
+    Outcome, bound and labels are compared with those that the settings draw. At these labels shares
+    are refuted once more, solutions are put into both transfer functions, and contradictions of
+    ideals are found again: all that the bound counts, in the direction that the evidence names.
+    Raises NotSeenError where that takes too long.
     """
-    if found.evidence is None or found != exact_again(found.evidence, first, second, settings):
+    evidence = found.evidence
+    if evidence is None or found != exact_again(evidence, first, second, settings):
         return False
-    if isinstance(found.evidence, Solved | Refuted):  # of these, only the labels were drawn again
-        return Witness().confirms(found.evidence, "fibre", first, second)
+    if isinstance(evidence, Solved):  # of ideals, only the labels were drawn again
+        return Witness().confirms(evidence, "fibre", first, second)
+    if isinstance(evidence, Refuted):
+        coordinates = normalised if evidence.is_normalised else coefficient_map
+        maps = matched(*(coordinates(rational_part(chain)) for chain in (first, second)))
+        return refuted_at(evidence.labels, evidence, *maps)
     return True

@@ -219,7 +219,9 @@ def one_of_each(known):
     return {found.evidence.kind: (found, *pair) for pair, found in by_cost}
 
 
-@pytest.mark.parametrize(("damped", "kinds"), [(True, {"shared"}), (False, {"shared", "solved"})])
+@pytest.mark.parametrize(
+    ("damped", "kinds"), [(True, {"shared"}), (False, {"shared", "solved", "refuted"})]
+)
 def test_what_was_settled_once_is_sure_and_holds(damped, kinds):
     """One of each kind and, by hand, every third."""
     known = settled(damped)
@@ -236,18 +238,22 @@ def test_what_was_settled_once_holds(damped):
 
 def forged(found):
     """Findings that say something else than their evidence shows, or have other evidence."""
-    yield found.turned
     yield from (replace(found, safety=found.safety + n) for n in (1, -1))
     other = {Outcome.HOLDS: Outcome.FAILS, Outcome.FAILS: Outcome.HOLDS}
     yield replace(found, outcome=other[found.outcome])
     yield replace(found, evidence=None)
+    if found.evidence.kind == "refuted":  # other labels, or more than there are
+        yield replace(found, evidence=replace(found.evidence, labels=found.evidence.labels[1:]))
+        yield replace(found, evidence=replace(found.evidence, tangent=False))
+    else:  # another direction; an ideal that contradicts itself there is true evidence too
+        yield found.turned
     if found.evidence.kind == "solved":
         first, *others = found.evidence.solutions
         yield replace(found, evidence=replace(found.evidence, solutions=((*first[1:], 1), *others)))
         yield replace(found, evidence=replace(found.evidence, labels=found.evidence.labels[::-1]))
 
 
-@pytest.mark.parametrize("kind", ["shared", "solved"])
+@pytest.mark.parametrize("kind", ["shared", "solved", "refuted"])
 def test_what_says_more_than_its_evidence_shows_does_not_hold(kind):
     found, *pair = one_of_each(settled(False))[kind]
     assert [x for x in forged(found) if holds(x, *pair, Settings())] == []

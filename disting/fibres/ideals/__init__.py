@@ -12,6 +12,7 @@ from disting.fibres.ideals.by_two_rows import included_by_rows as included_by_ro
 from disting.fibres.ideals.by_two_rows import refuted_by_rows as refuted_by_rows
 from disting.fibres.ideals.confirm import confirms as confirms
 from disting.fibres.ideals.confirm import confirms_matched as confirms_matched
+from disting.fibres.ideals.confirm import refuted_at as refuted_at
 from disting.fibres.ideals.confirm import safety_of as safety_of
 from disting.fibres.ideals.confirm import seen_again as seen_again
 from disting.fibres.ideals.fibre_ideal import generic_rank as generic_rank

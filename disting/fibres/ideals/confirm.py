@@ -41,8 +41,24 @@ def seen_again(
         return check(evidence, left, right)  # type: ignore[arg-type]
     if by_maps:
         left, right = matched(left, right)  # type: ignore[arg-type]
+    return refuted_at(labels_of("verify", left, right, 1), evidence, left, right, limits)
+
+
+def refuted_at(
+    labels: Sequence[str],
+    evidence: Refuted,
+    left: PolynomialMap,
+    right: PolynomialMap,
+    limits: Limits = AGAIN,
+) -> bool:
+    """Whether the fibre is empty at all of these labels, in the direction of the evidence; raises
+    NotSeenError where that is not found within the limits.
+    """
     given, other = (left, right) if evidence.left_given else (right, left)
-    return is_empty(given, other, equal_rank=evidence.tangent, seed="verify", limits=limits)
+    return all(
+        is_empty(given, other, equal_rank=evidence.tangent, label=label, limits=limits)
+        for label in labels
+    )
 
 
 def _is_small(degree: int, unknowns: int) -> bool:

@@ -164,12 +164,12 @@ def decide_matched(
 
 
 def is_empty(
-    given: PolynomialMap, other: PolynomialMap, *, equal_rank: bool, seed: str, limits: Limits
+    given: PolynomialMap, other: PolynomialMap, *, equal_rank: bool, label: str, limits: Limits
 ) -> bool:
-    """Whether the fibre of `other` over the first point that the seed draws of `given` is empty:
+    """Whether the fibre of `other` over the point of `given` that the label stands for is empty:
     one run, in this direction. Raises NotSeenError where the limits end it.
     """
-    _refuse(given, other, equal_rank, seed)
+    _refuse(given, other, equal_rank, "verify")
     question = _Question(
         left=given,
         right=other,
@@ -179,7 +179,6 @@ def is_empty(
     )
     if safety_of_empty(given, other, equal_rank) < LEAST:
         raise NotSeenError(NO_BOUND)
-    (label,) = labels_of(seed, given, other, 1)
     try:
         return _race(question, [question.run(True, label)])[1].is_one
     except _GivenUp as why:
