@@ -5,11 +5,12 @@ values.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.general.alternatives import Alternatives, alternatives
 from disting.general.any_model import of_network
 from disting.general.model import Model
 from disting.model.presentation import Shown, summary
+from disting.network.element import as_number
 from disting.network.network import Network
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
@@ -73,7 +74,7 @@ def network_equivalents(
     if values is not None and not isinstance(model, Model):
         raise InputError("values are found of networks with one input and one output")
     engine = Engine() if engine is None else engine
-    phases = {n: str((values or {}).get(n, n)) for n in given.exponents}
+    phases = {n: _phase(n, (values or {}).get(n, n)) for n in given.exponents}
     known = None if values is None else {n: x for n, x in values.items() if n not in phases}
     found = []
     for other in others:
@@ -89,3 +90,11 @@ def network_equivalents(
             equal = tuple((mine, phases[theirs]) for mine, theirs in named)
             found.append(NetworkEquivalent(other, verdict, at, equal))
     return found
+
+
+def _phase(name: str, value: object) -> str:
+    """An exponent by its name, or its value as it is given; raises InputError."""
+    number = as_number(str(value))
+    if value != name and (number is None or not 0 < number <= 1):
+        raise InputError(f"{name} is an exponent: a number up to 1, not {shown(value)}")
+    return str(value)
