@@ -5,12 +5,13 @@ family, and with which values.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from disting.errors import InputError
+from disting.errors import InputError, shown
 from disting.general.alternatives import Alternatives, alternatives
 from disting.general.any_model import of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.model.presentation import Shown, summary
+from disting.network.element import as_number
 from disting.network.network import Network
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
@@ -76,7 +77,7 @@ def model_equivalents(
         raise InputError("values are found of models with one input and one output")
     engine = Engine() if engine is None else engine
     exponents = model.network.exponents if model.network is not None else ()
-    phases = {n: str((values or {}).get(n, n)) for n in exponents}
+    phases = {n: _phase(n, (values or {}).get(n, n)) for n in exponents}
     known = None if values is None else {n: x for n, x in values.items() if n not in phases}
     found = []
     for there in map(_as_model, others):
@@ -96,3 +97,11 @@ def model_equivalents(
 
 def _as_model(given: Network | AnyModel) -> AnyModel:
     return of_network(given) if isinstance(given, Network) else given
+
+
+def _phase(name: str, value: object) -> str:
+    """An exponent by its name, or its value as it is given; raises InputError."""
+    number = as_number(str(value))
+    if value != name and (number is None or not 0 < number <= 1):
+        raise InputError(f"{name} is an exponent: a number up to 1, not {shown(value)}")
+    return str(value)

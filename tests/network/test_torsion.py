@@ -118,7 +118,7 @@ FIRST = ("components", 0, "elements")
     [
         (changed(("force",), "Motor"), 'say where the force is, as "force": one of Motor.Rotor'),
         (changed(("sensor",), "Motor.Shaft"), "not 'Motor.Shaft'"),
-        (changed(("sensor",), None), "not None"),
+        (changed(("sensor",), None), "Pump.Big, Pump.Impeller$"),
         (changed((*FIRST, 1, "stiffness"), 0), "stiffness of Motor.Shaft is a positive number"),
         (changed((*FIRST, 1, "stiffness"), "soft"), "not 'soft'"),
         (changed((*FIRST, 1, "stiffness"), "1e-999999999"), "not '1e-999999999'"),

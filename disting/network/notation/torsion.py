@@ -166,9 +166,8 @@ def _at(name: object, side: str, built: _Places) -> _Part:
     """The disk or gear where force or sensor is."""
     turning = [n for n, part in built.named.items() if part.given["type"] != "ShaftDiscrete"]
     if not isinstance(name, str) or name not in turning:
-        raise InputError(
-            f'say where the {side} is, as "{side}": one of {listed(turning)}, not {shown(name)}'
-        )
+        instead = "" if name is None else f", not {shown(name)}"
+        raise InputError(f'say where the {side} is, as "{side}": one of {listed(turning)}{instead}')
     return built.named[name]
 
 
