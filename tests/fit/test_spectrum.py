@@ -8,9 +8,19 @@ import pytest
 from disting.fit.plan.design import designed
 from disting.fit.plan.power import plan
 from disting.fit.plan.rival import apart
-from disting.fit.plan.spectrum import CLOSE, KEPT, Adversary, best_band, optimal, runnable
+from disting.fit.plan.spectrum import (
+    CLOSE,
+    KEPT,
+    Adversary,
+    _loose,
+    _programme,
+    best_band,
+    optimal,
+    runnable,
+)
 from disting.fit.search.descent import Box, fine
 from disting.model.chain import Chain
+from disting.network import network_of
 from tests.fit.test_plan import MODEL, OMEGA, RIVAL, VALUES, alike
 
 THREE = {"m1": 0.0045, "m2": 0.005, "m3": 0.003, "k12": 550.0, "k23": 800.0}
@@ -108,3 +118,25 @@ def test_several_valleys_of_the_rival_do_not_lead_astray():
     assert found.optimum.noncentrality <= found.optimum.bound
     assert found.optimum.bound <= found.optimum.noncentrality * (1 + 3 * CLOSE)
     assert found.run.noncentrality >= (1 - KEPT) * found.optimum.noncentrality * (1 - CLOSE)
+
+
+def test_cuts_of_very_different_sizes_have_a_bound_that_holds():
+    """Such cuts, of a rival whose elements run to limits, may stop the simplex method."""
+    source = np.random.default_rng(0)
+    cuts = np.exp(source.uniform(-30, 7, (90, 120)))
+    shares, bound = _programme(cuts)
+    assert shares.sum() == pytest.approx(1)
+    assert (cuts @ shares).min() == pytest.approx(bound, rel=1e-3)
+    given = source.dirichlet(np.ones(120), size=2000)
+    reached = (given @ cuts.T).min(axis=1).max()
+    corner, last = _loose(cuts)
+    assert reached <= bound * (1 + 1e-9) and bound <= last and corner.sum() == 1
+
+
+@pytest.mark.slow
+def test_a_rival_that_runs_to_a_limit_has_a_spectrum():
+    model, rival = network_of("1=2=3, 2=4; F1; S4"), network_of("1=2=3=4; F1; S4")
+    sizes = {"m": 0.01, "k": 400.0, "d": 0.1}
+    values = {n: sizes[n[0]] * (1 + 0.3 * i) for i, n in enumerate(model.parameters)}
+    found = designed(plan(model, values, rival, OMEGA, alike(0.02)))
+    assert found.optimum.noncentrality <= found.optimum.bound < np.inf

@@ -32,6 +32,7 @@ from disting.measurement.arrays import Real
 
 CLOSE = 1e-3  # relative distance of the bound at which a spectrum is optimal
 ENOUGH = 1e-6  # relative gain of a fit at which its cut is sharp enough
+TINY = 1e-9  # of the mean of the cuts
 STEPS = 200  # cuts, at most
 BASINS = 3  # of the rival's earlier fits, from which the next one begins
 EDGES = 11  # of the bands that are tried, evenly on a logarithmic scale
@@ -158,19 +159,33 @@ def _improved(adversary: Adversary, best: Real, size: float) -> tuple[Real, floa
 
 
 def _programme(cuts: Real) -> tuple[Real, float]:
-    """The shares w that are best under the cuts, shape (n_c, n_f): max t with t <= cuts w."""
+    """The shares w that are best under the cuts, shape (n_c, n_f): max t with t <= cuts w; of cuts
+    of very different sizes, at which the simplex method may give up, by an interior point.
+    """
     n_c, n_f = cuts.shape
     scale = float(cuts.mean())
-    found = linprog(
-        np.append(np.zeros(n_f), -1.0),
-        A_ub=np.hstack([-cuts / scale, np.ones((n_c, 1))]),
-        b_ub=np.zeros(n_c),
-        A_eq=np.append(np.ones(n_f), 0.0)[None, :],
-        b_eq=[1.0],
-        bounds=(0, None),
-        method="highs",
-    )
-    return np.maximum(found.x[:-1], 0.0), float(-found.fun) * scale
+    scaled = np.maximum(cuts / scale, TINY)  # raised, so that the bound stays one
+    for method in ("highs", "highs-ipm"):
+        found = linprog(
+            np.append(np.zeros(n_f), -1.0),
+            A_ub=np.hstack([-scaled, np.ones((n_c, 1))]),
+            b_ub=np.zeros(n_c),
+            A_eq=np.append(np.ones(n_f), 0.0)[None, :],
+            b_eq=[1.0],
+            bounds=(0, None),
+            method=method,
+        )
+        if found.x is not None:
+            return np.maximum(found.x[:-1], 0.0), float(-found.fun) * scale
+    return _loose(cuts)
+
+
+def _loose(cuts: Real) -> tuple[Real, float]:
+    """A bound that holds as well: no spectrum does better under one cut than all on its best line,
+    and this for the lowest such cut.
+    """
+    lowest = cuts[int(cuts.max(axis=1).argmin())]
+    return np.eye(cuts.shape[1])[int(lowest.argmax())], float(lowest.max())
 
 
 def _cleaned(shares: Real) -> Real:

@@ -26,6 +26,8 @@ from disting.network.network import Network
 
 Entries = Mapping[int, Fraction | str | int]
 """Of a vector, by nodes; a text stands for minus a parameter."""
+Sized = Mapping[int, float | str]
+"""The same in floating point."""
 RATIOS = 3.0  # of gears: starts lie within this factor of 1
 LEAST_EXPONENT = 0.5  # of starts: between a Warburg element and a capacitor
 SPREAD = 3.0  # of other values, around their size
@@ -67,9 +69,8 @@ class NetworkPlant:
         # where G is too small for a number its logarithm is taken as constant
         share = np.divide(1, whole, out=np.zeros_like(whole), where=whole != 0)
         gradient = np.zeros((*p.shape, self.omega.size), dtype=np.complex128)
-        for e in self._plain.elements:
+        for e, pulls, feels in self._terms:
             power = self._power(e, p)
-            feels, pulls = self._placed(e.feels), self._placed(e.pulls)
             felt, pulled = self._seen(feels, x, p), self._seen(pulls, y, p)
             if e.value:
                 at = self._at[e.value]
@@ -79,7 +80,7 @@ class NetworkPlant:
                 if e.exponent:
                     sizes = p[..., at, None] * np.log(self._s)
                     gradient[..., self._at[e.exponent], :] -= sizes * moved
-            if e.known_ratio is None:
+            if e.ratio and e.known_ratio is None:
                 size = p[..., self._at[e.value], None] * power
                 moved = -(x[..., e.nodes[1] - 1] * pulled + y[..., e.nodes[1] - 1] * felt)
                 gradient[..., self._at[e.ratio], :] -= size * moved * share
@@ -89,28 +90,39 @@ class NetworkPlant:
         """P, shape (..., n_f, n, n)."""
         size = len(self._plain.nodes)
         found = np.zeros((*p.shape[:-1], self.omega.size, size, size), dtype=np.complex128)
-        for e in self._plain.elements:
+        for e, pulls, feels in self._terms:
             value = p[..., self._at[e.value], None] if e.value else np.ones(1)
             term = self._power(e, p) * (1 / value if e.kind.divides else value)
-            for i, u in self._placed(e.pulls).items():
-                for j, v in self._placed(e.feels).items():
-                    found[..., i - 1, j - 1] += term * self._size(u, p) * self._size(v, p)
+            for i, u in pulls.items():
+                for j, v in feels.items():
+                    found[..., i - 1, j - 1] += term * (self._size(u, p) * self._size(v, p))
         return found
 
-    def _seen(self, side: Entries, z: Complex, p: Real) -> Complex:
+    def _seen(self, side: Sized, z: Complex, p: Real) -> Complex:
         """v.x or u.y, shape (..., n_f)."""
         return np.asarray(sum(self._size(w, p) * z[..., i - 1] for i, w in side.items()))
 
-    def _size(self, entry: object, p: Real) -> Real:
+    def _size(self, entry: float | str, p: Real) -> Real | float:
         """An entry of u or v: a number, or minus a ratio."""
-        if isinstance(entry, str):
-            return np.asarray(-p[..., self._at[entry], None])
-        return np.asarray(float(entry))  # type: ignore[arg-type]
+        return np.asarray(-p[..., self._at[entry], None]) if isinstance(entry, str) else entry
 
     def _power(self, e: Element, p: Real) -> Complex:
         """s^r, shape (..., n_f)."""
-        r = p[..., self._at[e.exponent], None] if e.exponent else e.kind.halves / 2
-        return np.asarray(self._s**r)
+        if e.exponent:
+            return np.asarray(self._s ** p[..., self._at[e.exponent], None])
+        return self._powers[e.kind.halves]
+
+    @cached_property
+    def _powers(self) -> dict[int, Complex]:
+        """s^r by 2 r."""
+        halves = {e.kind.halves for e in self._plain.elements}
+        return {h: np.asarray(self._s ** (h / 2)) for h in halves}
+
+    @cached_property
+    def _terms(self) -> tuple[tuple[Element, Sized, Sized], ...]:
+        """The elements with u and v over the unknowns."""
+        sides = ((e, self._placed(e.pulls), self._placed(e.feels)) for e in self._plain.elements)
+        return tuple((e, _sized(pulls), _sized(feels)) for e, pulls, feels in sides)
 
     @cached_property
     def _plain(self) -> Network:
@@ -211,6 +223,10 @@ class NetworkPlants:
 
 
 AnyNetworkPlant = NetworkPlant | NetworkPlants
+
+
+def _sized(side: Entries) -> Sized:
+    return {i: x if isinstance(x, str) else float(x) for i, x in side.items()}
 
 
 def _solved(matrix: Complex, side: Complex) -> Complex:
