@@ -250,31 +250,31 @@ def test_hostile_names_are_told_and_not_obeyed(visit) -> None:  # type: ignore[n
     assert "{R} and {L} a numerator" in tab.inner_text("#detail .why")
 
 
-def gantries():
-    """Two motors that drive one beam, without and with a belt between them: a family of one's
+def drives():
+    """A motor with two loads, in a row or side by side, and a sensor anywhere: a family of one's
     own.
     """
-    for belt in ("", ", 1~3"):
+    for second in ("2~3", "1~3"):
         for sensor in (1, 2, 3):
-            yield f"1~2, 2~3{belt}; F1; S{sensor}"
+            yield f"1~2, {second}; F1; S{sensor}"
 
 
 @pytest.fixture(scope="module")
 def own(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    return write_family(gantries(), "Gantries", tmp_path_factory.mktemp("own"))
+    return write_family(drives(), "Two loads", tmp_path_factory.mktemp("own"))
 
 
 def test_a_family_of_ones_own_has_the_same_pages(own: list[Path]) -> None:
     assert [p.name for p in own[:4]] == [
-        "list-gantries.html", "list-gantries.csv", "list-gantries.json", "list-gantries-models.csv",
+        "list-two-loads.html", "list-two-loads.csv", "list-two-loads.json", "list-two-loads-models.csv",
     ]  # fmt: skip
     page = Outline(own[0].read_text("utf-8"))
-    texts = list(gantries())
-    assert page.texts["h1"] == ["Gantries"] and page.count("svg", role="img") >= len(texts)
+    texts = list(drives())
+    assert page.texts["h1"] == ["Two loads"] and page.count("svg", role="img") >= len(texts)
     assert data(own[0].read_text("utf-8"))["names"] == texts
     for number, text in enumerate(texts, 1):
-        model = Outline((own[0].parent / f"models/list-gantries/{number}.html").read_text("utf-8"))
-        assert f"A{number}: {text} \u2013 Gantries" in model.text
+        model = Outline((own[0].parent / f"models/list-two-loads/{number}.html").read_text("utf-8"))
+        assert f"A{number}: {text} \u2013 Two loads" in model.text
         assert model.count("svg", role="img") >= 1 and "Transfer function" in model.text
 
 
