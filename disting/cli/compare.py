@@ -32,7 +32,7 @@ from disting.cli.structures import is_network
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import named
-from disting.general.any_model import of_network
+from disting.general.any_model import measured, of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor
@@ -143,7 +143,8 @@ def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
 def _told(found: Judged, options: argparse.Namespace) -> Iterator[str]:
     """The verdict in words."""
     verdict, chains = found.verdict, _chains(found.models)
-    yield explained(verdict, list(map(in_letters, found.models)), _unknown(verdict, found.known))
+    unknown = _unknown(verdict, found.known)
+    yield explained(verdict, list(map(in_letters, found.models)), unknown, measured(found.models))
     if chains and _tells_ways(verdict, options):
         yield from both_ways(verdict, chains, dict(options.bound))
 

@@ -16,15 +16,17 @@ from disting.network.element import Sort
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict.comparison import names_of
 from disting.verdict.everywhere import Answer, Everywhere
-from disting.verdict.meaning import shown
+from disting.verdict.meaning import RESPONSE, shown
 from disting.verdict.result import Relation, Verdict
 
 MOST_TERMS = 30  # of a transfer function that is written out
 
 
-def explained(verdict: Verdict, drawn: list[str], unknown: Sequence[str] = ()) -> str:
-    """Relation, drawings, what of the models is `unknown` whatever is measured, sentence, evidence,
-    certainty, domain, inclusion.
+def explained(
+    verdict: Verdict, drawn: list[str], unknown: Sequence[str] = (), what: str = RESPONSE
+) -> str:
+    """Relation, drawings, what of the models is `unknown` whatever is measured, what a measurement
+    (of `what`) shows, sentence, evidence, certainty, domain, inclusion.
     """
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
@@ -33,7 +35,7 @@ def explained(verdict: Verdict, drawn: list[str], unknown: Sequence[str] = ()) -
     lines = [heading, "", *drawings, ""]
     lines += [*unknown, *[""] * bool(unknown)]
     if verdict.evidence:
-        lines += [shown(verdict), ""]
+        lines += [shown(verdict, what), ""]
     lines.append(verdict.sentence)
     if verdict.evidence:
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]

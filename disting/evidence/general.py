@@ -2,10 +2,11 @@
 and without one; constants.
 """
 
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
 
-from disting.evidence.kind import Carrier, Claim, Kind
+from disting.evidence.decision import Theorem
+from disting.evidence.kind import Carrier, Claim, Kind, plain_fields, read
 from disting.model.question import Domain, Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
@@ -14,7 +15,7 @@ parameters; and, if a value contains a root, (its name, the equation's polynomia
 fractions between which it is).
 """
 Point = tuple[tuple[str, str], ...]  # parameter name, number
-SHOWN = 3
+SHOWN, LONGEST = 3, 160  # contradictions that are told, characters of each
 BOTH = (True, False)  # ways from one model to the other
 
 
@@ -90,7 +91,8 @@ class NoEquivalent(_OverDomain):
     def sentence(self, left: str, right: str) -> str:
         """What would have to hold."""
         given, searched = (left, right) if self.left_given else (right, left)
-        first = (c if set("<>=") & set(c) else f"{c} = 0" for c in self.contradictions[:SHOWN])
+        whole = (c if set("<>=") & set(c) else f"{c} = 0" for c in self.contradictions[:SHOWN])
+        first = (c if len(c) <= LONGEST else f"{c[:LONGEST]} .." for c in whole)
         some = " or ".join([*first, *[".."] * (len(self.contradictions) > SHOWN)])
         return (
             f"{given} has no equivalent in {searched} with {self.domain} parameters: that asks for"
@@ -165,7 +167,65 @@ class Witnesses(_OverDomain):
         return "∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A ≠ ∅,  ∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A = ∅"
 
 
-OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants
+@dataclass(frozen=True, slots=True)
+class Replaced(Kind):
+    """What is true of two networks that give the same transfer functions as these for all positive
+    values, special ones aside: `left` and `right` are those networks, `inner` is the evidence on
+    them. One that is `larger` may give more: that shows only that there are no equivalents.
+    """
+
+    kind: ClassVar[str] = "replaced"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE)
+    left: str
+    right: str
+    left_larger: bool
+    right_larger: bool
+    inner: Explicit | NoEquivalent | Witnesses | Theorem
+
+    def shows(self, domain: Domain) -> Relation:
+        """What the inner one shows, of positive values: those theorems speak of no others."""
+        found = self.inner.shows(domain) if domain is Domain.POSITIVE else Relation.UNDECIDED
+        larger = self.left_larger or self.right_larger
+        return Relation.UNDECIDED if larger and found is not Relation.DISTINGUISHABLE else found
+
+    @property
+    def turned(self) -> "Replaced":
+        """The same of the pair in the other order."""
+        larger = self.right_larger, self.left_larger
+        return Replaced(self.right, self.left, *larger, self.inner.turned)
+
+    @property
+    def title(self) -> str:
+        """What the inner one is called."""
+        return self.inner.title
+
+    def sentence(self, left: str, right: str) -> str:
+        """Which networks stand for these, and what is known of them."""
+        said = ["all that", "the same as"]
+        return (
+            f"Special values aside, A = [{self.left}] gives {said[not self.left_larger]} {left}"
+            f"{' gives' * self.left_larger}, B = [{self.right}] {said[not self.right_larger]}"
+            f" {right}{' gives' * self.right_larger}. {self.inner.sentence('A', 'B')}"
+        )
+
+    @property
+    def formula(self) -> str:
+        """That of the inner one."""
+        return self.inner.formula
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> "Replaced":
+        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        inner = read(data["inner"], (Explicit, NoEquivalent, Witnesses, Theorem))
+        return cls(**plain_fields(data) | {"inner": inner})
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        told = {f.name: getattr(self, f.name) for f in fields(self)}
+        return {"kind": self.kind, **told, "inner": self.inner.to_dict()}
+
+
+OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced
 
 
 def _spelled(point: Point) -> str:

@@ -48,7 +48,9 @@ def admissible_finding(left: AnyModel, right: AnyModel, domain: Domain, seed: st
     """
     if domain is Domain.POSITIVE and (found := _by_lists(left, right, seed, FIRST)):
         return _sometimes(found)
-    return of_ways(left, right, (way(left, right, domain), way(right, left, domain)), domain, seed)
+    first = way(left, right, domain)
+    second = None if first and first.never else way(right, left, domain)
+    return of_ways(left, right, (first, second), domain, seed)
 
 
 def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: str) -> Finding:

@@ -2,7 +2,7 @@
 maps, and the exact decision where conditions 1 to 7 stay silent: one fibre as a polynomial ideal.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar, overload
 
@@ -22,11 +22,25 @@ from disting.general.model import Model, Terms
 from disting.general.powers import Cell, Powers, in_v, out_of_v, weighted
 from disting.model.chain import Chain
 from disting.model.question import Settings
+from disting.network.element import Sort
 from disting.network.network import Network
 from disting.questions.same.exact import SAFETY, decided
 
 LIMITS = Limits(safety=SAFETY)
 M = TypeVar("M", Model, AnyModel)
+
+
+def measured(models: Iterable[Chain | AnyModel]) -> str:
+    """What is measured of them: of circuits an impedance, of anything else a response."""
+    networks = [None if isinstance(m, Chain) else m.network for m in models]
+    return "impedance" if all(map(_has_impedance, networks)) else "response"
+
+
+def _has_impedance(network: Network | None) -> bool:
+    """Whether it is a circuit whose voltage is measured where the current flows."""
+    if network is None:
+        return False
+    return network.sort is Sort.CIRCUIT and network.inputs == network.outputs
 
 
 def as_chain(model: Chain | AnyModel) -> Chain | None:
@@ -55,8 +69,8 @@ def on_one_variable(models: Sequence[M]) -> list[M]:
         return [m if m.powers.halves == halves else in_powers(m, Powers(halves)) for m in models]
     cells = [_doubled(cell, m.powers.halves < halves) for m in models for cell in cells_of(m)]
     size = len(wide.powers.weights)
-    padded = [_padded(cell, size) for cell in cells]
-    return [in_powers(m, weighted(padded, halves, wide.powers.exponents)) for m in models]
+    powers = weighted([_padded(cell, size) for cell in cells], halves, wide.powers.exponents)
+    return [in_powers(m, powers) for m in models]
 
 
 @overload

@@ -13,7 +13,7 @@ few of them, and the roots of linear inequalities.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, combinations_with_replacement, islice
 from math import prod
 
@@ -22,6 +22,7 @@ from flint import fmpz_mpoly
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import residues
 from disting.general.cases import Case, numbered, placed
+from disting.general.counts import number_of_roots
 from disting.general.orthant import Orthant
 
 CHOICES = 12  # fractions that are tried for the unknown that is chosen
@@ -35,7 +36,7 @@ End = tuple[fmpz_mpoly, fmpz_mpoly]
 @dataclass(frozen=True, slots=True)
 class Path:
     """An equivalent for every generic p: `values`, x among them being a root of `equation`
-    between `low` and `high`.
+    between `low` and `high` at which all of `where` are positive.
     """
 
     equation: fmpz_mpoly
@@ -43,6 +44,7 @@ class Path:
     low: End
     high: End
     values: tuple[RationalFunction, ...]
+    where: tuple[fmpz_mpoly, ...] = ()
 
 
 def path(ring: Orthant, case: Case) -> Path | None:
@@ -70,6 +72,20 @@ def odd_path(ring: Orthant, case: Case) -> Path | None:
         return None
     one, zero = ring.number(1), ring.number(0)
     return _known(ring, case, free[0], (-one, zero), (one, zero))
+
+
+def by_count(ring: Orthant, case: Case) -> Path | None:
+    """A root between 0 and oo of a case in which there are as many for all p, and some (see
+    `counts`).
+    """
+    if not number_of_roots(ring, case) or not all(
+        map(ring.occurring, ([g] for g in case.positive))
+    ):
+        return None
+    (at,) = ring.occurring(case.equations)
+    one, zero = ring.number(1), ring.number(0)
+    found = _known(ring, case, at, (zero, one), (one, zero))
+    return found and replace(found, where=case.positive)
 
 
 def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case | None:

@@ -19,7 +19,7 @@ from flint import fmpz_mpoly
 from disting.algebra.symbols import factored
 from disting.general.orthant import Orthant, TooMuch
 
-SIZE = 400_000  # product of numbers of terms and degrees of both: below, less than a second
+SIZE = 200_000  # product of numbers of terms and degrees of both: below, less than a second
 
 
 Line = tuple[fmpz_mpoly, fmpz_mpoly]
@@ -57,8 +57,7 @@ def branches(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly) -> Branches | No
         return None
     at = min(shared, key=lambda i: int(one.degrees()[i]) * int(other.degrees()[i]))
     kept = next(i for i in unknowns if i != at)
-    degrees = int(one.degrees()[at]) * int(other.degrees()[at])
-    if len(one) * len(other) * degrees**2 > SIZE:
+    if _size(one, other, at) > SIZE:
         raise TooMuch(f"a resultant of polynomials of {len(one)} and {len(other)} terms")
     line, contents = _line(ring, one, other, at)
     open_, closed, generic = list[Branch](), list[fmpz_mpoly](), list[fmpz_mpoly]()
@@ -72,10 +71,8 @@ def branches(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly) -> Branches | No
         else:
             asked = [line[1], *contents]
             missed = [e for e in (one, other) if not divides(factor, _on(ring, e, at, line))]
-            generic += [
-                c.resultant(factor, kept) if c.degrees()[kept] else c
-                for c in (*asked, *(_on(ring, e, at, line) for e in missed[:1]))
-            ]
+            asked += [_on(ring, e, at, line) for e in missed[:1]]
+            generic += [_apart(ring, factor, c, kept) for c in asked]
             if missed:
                 closed.append(factor)
             else:
@@ -86,6 +83,21 @@ def branches(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly) -> Branches | No
 def divides(factor: fmpz_mpoly, polynomial: fmpz_mpoly) -> bool:
     """Whether an irreducible polynomial divides another one."""
     return not polynomial.gcd(factor).is_constant()
+
+
+def _apart(ring: Orthant, factor: fmpz_mpoly, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
+    """What is not zero where both have no common zero: their resultant, or 0 if it is too large, so
+    that nothing is said of any p.
+    """
+    if not polynomial.degrees()[at]:
+        return polynomial
+    return (
+        factor.resultant(polynomial, at) if _size(factor, polynomial, at) < SIZE else ring.number(0)
+    )
+
+
+def _size(one: fmpz_mpoly, other: fmpz_mpoly, at: int) -> int:
+    return len(one) * len(other) * (int(one.degrees()[at]) * int(other.degrees()[at])) ** 2
 
 
 def _on(ring: Orthant, polynomial: fmpz_mpoly, at: int, line: Line) -> fmpz_mpoly:

@@ -75,7 +75,8 @@ def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
         (q, text_of(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True)
     )
     ends = [_end_text(end, names) for end in (found.low, found.high)]
-    return left_given, (), values, (root, polynomial_text(found.equation, names), *ends)
+    where = tuple(polynomial_text(g, names) for g in found.where)
+    return left_given, where, values, (root, polynomial_text(found.equation, names), *ends)
 
 
 def _end_text(end: End, names: list[str]) -> str:

@@ -1,10 +1,11 @@
 """Points with and without positive equivalents, from lists of all equivalents of a rational point;
 what holds at such a point is proven to hold near it.
 
-WITH. Let both have the same degrees, the searched model Y n parameters and n + 1 coefficients, and
-at a point x of the given model X an equivalent y, positive, at which the matrix of the coefficients
-of Y and their derivatives is not singular. Then all transfer functions of these degrees near that
-of y are those of parameters near y, which are positive, so all x near by have an equivalent.
+WITH. Let the same coefficients of both be zero for all parameters, let the searched model Y have n
+parameters and n + 1 others, and at a point x of the given model X an equivalent y, positive, at
+which the matrix of these and their derivatives is not singular. Then all transfer functions with
+such coefficients near that of y are those of parameters near y, which are positive, so all x near
+by have an equivalent.
 
 WITHOUT. Let Y be a one-port of positive elements, and let the function g of X at x be that of no
 positive values of Y, and of no positive values of a minor of Y (elements deleted or contracted).
@@ -53,7 +54,8 @@ def having(given: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...
     """
     if not (isinstance(given, Model) and isinstance(other, Model)):
         return None
-    if given.degrees != other.degrees or len(other.parameters) != sum(other.degrees) + 1:
+    there = _there(other)
+    if _there(given) != there or len(other.parameters) != sum(map(sum, there)) - 1:
         return None
     goal = _goal(given, values)
     found = (goal and _positive(goal, other)) or ()
@@ -85,6 +87,11 @@ def _is_in_one_variable(one: Powers, other: Powers) -> bool:
     """Whether both count powers of the same v."""
     weights = zip(one.weights, other.weights, strict=False)
     return one.halves == other.halves and all(a == b for (_, a), (_, b) in weights)
+
+
+def _there(model: Model) -> tuple[list[bool], list[bool]]:
+    """Which coefficients are not zero for all parameters."""
+    return list(map(bool, model.numerator_terms)), list(map(bool, model.denominator_terms))
 
 
 def _goal(given: Model, values: Values) -> Target | None:
@@ -154,8 +161,9 @@ def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:
 
 
 def _is_regular(model: Model, at: Equivalent) -> bool:
-    """Whether the matrix of its n + 1 coefficients and their derivatives is not singular there:
-    the determinant is zero at a root of an irreducible polynomial only where that divides it.
+    """Whether the matrix of its n + 1 coefficients and their derivatives is not singular there,
+    those left out that are always zero: the determinant is zero at a root of an irreducible
+    polynomial only where that divides it.
     """
     modulus = fmpq_poly(list(at.polynomial))
     values = [fmpq_poly([fmpq(x.numerator, x.denominator) for x in c]) for c in at.coordinates]
@@ -171,7 +179,7 @@ def _is_regular(model: Model, at: Equivalent) -> bool:
 @lru_cache(maxsize=REMEMBERED)
 def _jacobian(model: Model) -> fmpz_mpoly:
     context = fmpz_mpoly_ctx.get(model.parameters, Ordering.lex)
-    row = [*model.numerator, *model.denominator]
+    row = [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]
     derivatives = [[c.derivative(i) for c in row] for i in range(len(model.parameters))]
     found = subdeterminants([row, *derivatives], {0: context.constant(1)})
     return found.get((1 << len(row)) - 1, context.constant(0))

@@ -26,6 +26,8 @@ from disting.general.model import Model, Terms
 from disting.model.question import Domain
 
 QUADRATIC = 2
+SQUARES = 2  # discriminants of discriminants
+LARGEST = 10_000  # terms of a discriminant before like ones are collected
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
 """A sign and distinct irreducible factors whose signs are not seen: their product has the sign
 of a polynomial, or is zero.
@@ -149,18 +151,19 @@ class Orthant:
                 return 0
         return signs.pop()
 
-    def _by_squares(self, polynomial: fmpz_mpoly) -> int:
+    def _by_squares(self, polynomial: fmpz_mpoly, depth: int = SQUARES) -> int:
         """The sign of a polynomial of mixed terms that is quadratic in a variable, if its
         discriminant shows one.
         """
-        if len(polynomial) > self.terms:
-            return 0
         for at, degree in enumerate(polynomial.degrees()):
-            if degree != QUADRATIC:
+            if degree != QUADRATIC or len(polynomial) > self.terms:
                 continue
             c, b, a = self.coefficients(polynomial, at)
-            sign = self.sign(a)
-            if sign and sign == self.sign(c) and self.sign(4 * a * c - b**2) > 0:
+            sign = _of_terms(a)
+            if not sign or sign != _of_terms(c) or len(a) * len(c) + len(b) ** 2 > LARGEST:
+                continue
+            rest = 4 * a * c - b**2
+            if _of_terms(rest) > 0 or (depth > 1 and self._by_squares(rest, depth - 1) > 0):
                 return sign
         return 0
 
@@ -208,6 +211,12 @@ class Orthant:
         for c in reversed(coefficients):
             total, power = total * num + c * power, power * den
         return total, degree
+
+
+def _of_terms(polynomial: fmpz_mpoly) -> int:
+    """The sign that all coefficients have, 0 if there are two."""
+    signs = {1 if c > 0 else -1 for c in polynomial.coeffs()}
+    return signs.pop() if len(signs) == 1 else 0
 
 
 def value_at(polynomial: fmpz_mpoly, point: dict[int, Fraction]) -> Fraction:

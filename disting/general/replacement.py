@@ -27,8 +27,10 @@ from disting.general.model import Model
 from disting.general.powers import placed_network
 from disting.network.element import Element, Port
 from disting.network.network import Network
-from disting.network.normal_form import Part, Power, normal_form, same_parts
+from disting.network.normal_form import Part, Power, normal_form
+from disting.network.simplest import simplest
 
+TWO = 2  # kinds of elements
 MOST_LEFT_OUT = 3  # elements, of the minors that are looked at
 REMEMBERED = 4096
 
@@ -41,15 +43,19 @@ def replaceable(left: AnyModel, right: AnyModel) -> bool:
     >>> replaceable(bridge, Model.from_network(network_of("p(R1,C1)-p(R2,C2)")))
     True
     """
-    if left.network is None or right.network is None:
-        return False
-    one, other = (placed_network(m.network, m.powers) for m in (left, right) if m.network)
-    if (one.sort, one.order) != (other.sort, other.order):
-        return False
-    if same_parts(one, other):
-        return True
-    found = full_set(left)
-    return found is not None and found == full_set(right)
+    one = simplest_network(left)
+    return one is not None and one == simplest_network(right)
+
+
+def simplest_network(model: AnyModel, larger: bool = False) -> Network | None:
+    """The simplest network that gives the same functions by the theorems, None of what is no
+    network or has no normal form. `larger`: that gives all of K where the network gives some of it.
+    """
+    if model.network is None:
+        return None
+    known = set_of(model) if larger else full_set(model)
+    network = placed_network(model.network, model.powers)
+    return simplest(network, known[1] if known else None)
 
 
 def full_set(model: AnyModel) -> tuple[int, Part] | None:
@@ -57,18 +63,24 @@ def full_set(model: AnyModel) -> tuple[int, Part] | None:
     gives it, and the sign before it: -1 where the sensor is turned against the force; None where
     that is not shown.
     """
+    found = set_of(model)
+    if found is None or model.network is None:
+        return None
+    network = placed_network(model.network, model.powers)
+    return found if _has_minor(network.grounded, found[1]) else None
+
+
+def set_of(model: AnyModel) -> tuple[int, Part] | None:
+    """The set K(n, c, z) in which the functions of a one-port of two kinds of elements are."""
     if model.network is None or not isinstance(model, Model):
         return None
     network = placed_network(model.network, model.powers)
-    sign = network.sign_of_one_port
+    sign, kinds = network.sign_of_one_port, sorted({e.power for e in network.seen})
     known = {"", *model.powers.placed.exponents}
-    if not sign or any(e.exponent not in known for e in network.seen):
-        return None
-    kinds = sorted({e.power for e in network.seen})
-    if len(kinds) != 2:
+    if not sign or len(kinds) != TWO or any(e.exponent not in known for e in network.seen):
         return None
     whole = _set_of(model, network.order, kinds[0], kinds[1])
-    return (sign, whole) if whole is not None and _has_minor(network.grounded, whole) else None
+    return None if whole is None else (sign, whole)
 
 
 def _set_of(model: Model, order: int, low: Power, high: Power) -> Part | None:

@@ -1,22 +1,25 @@
 """Which given models have an admissible equivalent in another one: all, none, or some; each with
 its proof.
 
-ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`).
-NEVER: no case is left (`cases`). Points with and without equivalents in open sets around them are
-looked for with `robust`.
+ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`), or
+as many roots for all p as for one (`counts`). NEVER: no case is left (`cases`), or none that has a
+root. Points with and without equivalents in open sets around them are looked for with `robust`.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from disting.general.between import Path, odd_path, path, without_equations
+from disting.general.between import Path, by_count, odd_path, path, without_equations
 from disting.general.cases import Case, orders, searched
+from disting.general.counts import number_of_roots
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
 from disting.general.sections import Section, cover, held, sections
 from disting.model.question import Domain
+
+FEW = 5  # orders of the unknowns
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +47,8 @@ class Way:
         try:
             return next((p for case in self.parted.others if (p := tried(ring, case))), None)
         except TooMuch:
-            return None
+            pass
+        return next((p for case in self.parted.others if (p := by_count(ring, case))), None)
 
     @property
     def looked_at(self) -> int:
@@ -63,7 +67,10 @@ class Way:
 
     def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
         """An equivalent (rounded) of a point around which all have some, as far as is seen."""
-        return having(self.parted, self._point(values))
+        try:
+            return having(self.parted, self._point(values))
+        except TooMuch:
+            return None
 
     def lacking(self, values: dict[str, Fraction]) -> bool:
         """Whether no point around this one has an equivalent, as far as is seen."""
@@ -78,18 +85,42 @@ def way(given: AnyModel, other: AnyModel, domain: Domain) -> Way | None:
     degrees.
 
     Unknowns are solved for in several orders, until all cases are sections; else the order with
-    the fewest other cases is kept.
+    the fewest other cases is kept. After a few orders one equation in one unknown is good enough.
     """
     ring, best = Orthant(len(given.parameters), len(other.parameters), domain), list[Parted]()
-    for order in orders(ring.unknowns):
+    for count, order in enumerate(orders(ring.unknowns)):
         try:
             found = _parted(ring, given, other, order)
         except TooMuch:
             continue
         best = sorted([*best, found], key=_left)[:1]
-        if not best[0].others:
+        if not best[0].others or (count >= FEW and _has_single_roots(best[0])):
             break
-    return Way(given, other, best[0], _covering(best[0])) if best else None
+    if not best:
+        return None
+    left = _with_roots(best[0])
+    return Way(given, other, left, _covering(left))
+
+
+def _with_roots(parted: Parted) -> Parted:
+    """The same without cases that have no root."""
+    search, kept = parted.search, list[Case]()
+    for case in parted.others:
+        if number_of_roots(search.ring, case) == 0:
+            search.closed.append(
+                f"{case.equations[0]} = 0 with {' and '.join(f'{g} > 0' for g in case.positive)}"
+            )
+        else:
+            kept.append(case)
+    return replace(parted, others=tuple(kept))
+
+
+def _has_single_roots(parted: Parted) -> bool:
+    ring = parted.search.ring
+    return all(
+        len(c.equations) == len(ring.occurring((*c.equations, *c.positive))) == 1
+        for c in parted.others
+    )
 
 
 def _left(parted: Parted) -> tuple[int, int]:

@@ -58,6 +58,9 @@ KINDS = {
 }
 
 
+PHASE = "P"  # the letter of a constant phase element, whose exponent is a parameter
+
+
 @dataclass(frozen=True, slots=True)
 class Element:
     """One element: the name of its value (none of a compartment, whose contents are the state
@@ -86,7 +89,7 @@ class Element:
     exponent: str = ""
 
     def __post_init__(self) -> None:
-        if self.letter == "P" and not self.exponent and isinstance(self.value, str):
+        if self.letter == PHASE and not self.exponent and isinstance(self.value, str):
             object.__setattr__(self, "exponent", f"n{self.value[1:]}")
         for problem in _problems(self):
             raise InputError(problem)

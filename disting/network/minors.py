@@ -43,12 +43,11 @@ from functools import lru_cache
 from itertools import combinations, islice
 from math import comb
 
-from disting.network.element import Element
+from disting.network.element import PHASE, Element
 from disting.network.graph import edges, joined, parts
 from disting.network.network import Network
 
 Places = Mapping[int, int]
-PHASE = "P"
 SPECIAL = {"R": "0", "W": "1/2", "C": "1"}  # exponents with which a P is another element
 TRIED = 20_000  # places of a node, in all; ways to take elements away
 REMEMBERED = 512

@@ -44,10 +44,9 @@ of a goes to those with an outflow, or to the outflow of i.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 from disting.network.graph import joined
 from disting.network.network import Network
@@ -85,24 +84,6 @@ class NormalForm:
     nodes: tuple[tuple[int, object], ...]
 
 
-def same_parts(left: Network, right: Network) -> bool:
-    """Whether two networks give the same transfer functions for all positive values, special ones
-    aside, by the theorems above. False says nothing.
-
-    >>> from disting.network.notation import network_of
-    >>> same_parts(network_of("R0-p(R1,C1)-p(R2,C2)"), network_of("p(R1,R2-C1,R3-C2)"))
-    True
-    >>> same_parts(network_of("1~2~3~4; F1; S1"), network_of("1~2, 1~3, 3~4; F1; S1"))
-    True
-    """
-    if (left.sort, left.order, left.shape) != (right.sort, right.order, right.shape):
-        return False
-    one, other = normal_form(left), normal_form(right)
-    if one is None or other is None or _sketch(one) != _sketch(other):
-        return False
-    return any(_is_isomorphic(one, left, other, ports) for ports in _readings(right))
-
-
 @lru_cache(maxsize=REMEMBERED)
 def normal_form(network: Network) -> NormalForm | None:
     """What remains when parts and hanging trees are named by what they can be; None of a network
@@ -128,7 +109,7 @@ def _joined(form: str, parts: Iterable[Part]) -> Part:
     for part in parts:
         inside = part if part.form == form or len(part.single) == 1 == len(part.kinds) else None
         if inside is None and len(part.kinds) == 2:
-            inside = _turned(part)
+            inside = turned(part)
         if inside is None:
             others.append(part)
         else:
@@ -136,7 +117,7 @@ def _joined(form: str, parts: Iterable[Part]) -> Part:
             terms.update(dict(inside.terms))
             others += inside.others
     made = Part(form, tuple(sorted(single)), tuple(sorted(terms.items())), tuple(sorted(others)))
-    return _turned(made) if form == "P" and len(made.kinds) == 2 else _single(made)
+    return turned(made) if form == "P" and len(made.kinds) == 2 else _single(made)
 
 
 def _single(part: Part) -> Part:
@@ -144,7 +125,7 @@ def _single(part: Part) -> Part:
     return Part("S", part.single) if len(part.kinds) == 1 else part
 
 
-def _turned(part: Part) -> Part:
+def turned(part: Part) -> Part:
     """A part of two kinds from series to parallel, or back: K(n, c, z) is, of 1/(x F), the set
     K(n + c + z - 1, not c, not z). Of F the constant is the kind of the smaller power, of 1/(x F),
     whose terms are side by side, that of the larger one.
@@ -195,63 +176,3 @@ def _hangs(at: int, flows: set[tuple[int, int]]) -> bool:
     """Whether it has flows to and from one compartment only."""
     out, back = {j for i, j in flows if i == at}, {i for i, j in flows if j == at}
     return len(out) == 1 and out == back
-
-
-Ports = tuple[tuple[int, int], ...]
-"""Both ends of each."""
-
-
-def _readings(network: Network) -> Iterator[Ports]:
-    """Yield the ports as they are, with all signs changed, and of one force and one sensor of a
-    reciprocal network exchanged: the transfer functions are the same.
-    """
-    plain = tuple((p.plus, p.minus) for p in network.ports)
-    orders = [plain]
-    if network.shape == (1, 1) and not network.is_directed:
-        orders.append(plain[::-1])
-    for ports in orders:
-        yield ports
-        if not network.is_directed:
-            yield tuple((minus, plus) for plus, minus in ports)
-
-
-def _sketch(form: NormalForm) -> object:
-    """What isomorphic forms share."""
-    labels = Counter(label for *_, label in form.edges), Counter(label for _, label in form.nodes)
-    return labels
-
-
-def _is_isomorphic(one: NormalForm, left: Network, other: NormalForm, ports: Ports) -> bool:
-    """Whether one graph is the other, edges, nodes and ports included."""
-    import networkx  # late: it takes longer than most of what is asked
-
-    mine = tuple((p.plus, p.minus) for p in left.ports)
-    graphs = [_graph(form, ends, left.is_directed) for form, ends in ((one, mine), (other, ports))]
-
-    def alike(a: dict[str, object], b: dict[str, object]) -> bool:
-        """Labels of two nodes, or of two edges."""
-        return a["label"] == b["label"]
-
-    first, second = graphs
-    return bool(networkx.is_isomorphic(first, second, node_match=alike, edge_match=alike))
-
-
-def _graph(form: NormalForm, ports: Ports, is_directed: bool) -> Any:
-    """The graph with the ends of ports in the labels of its nodes; an outside, where flows enter
-    from, is no node.
-    """
-    import networkx
-
-    graph: networkx.DiGraph[int] = networkx.DiGraph()
-    for a, b, label in form.edges:
-        graph.add_edge(a, b, label=label)
-        if not is_directed:
-            graph.add_edge(b, a, label=label)
-    graph.add_nodes_from(i for port in ports for i in port[: 1 if is_directed else 2])
-    hanging = dict(form.nodes)
-    for i in graph.nodes:
-        ends = tuple(
-            (k, side) for k, port in enumerate(ports) for side, j in enumerate(port) if i == j
-        )
-        graph.nodes[i]["label"] = (hanging.get(i), ends)
-    return graph

@@ -5,6 +5,7 @@ formulas, its transfer function, what can be determined.
 from dataclasses import dataclass, replace
 
 from disting.equivalence.duplicates import duplicate
+from disting.general.any_model import measured
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.network.element import Sort
@@ -14,7 +15,7 @@ from disting.report.formulas import TransferFunction, Values, written_model, wri
 from disting.report.listing import Card, Listing
 from disting.report.model import told_apart
 from disting.report.words import plural
-from disting.verdict.meaning import shown as measured
+from disting.verdict.meaning import shown as shows
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -95,7 +96,8 @@ def _sort(network: Network | None) -> Sort:
 def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
     low, high = sorted((number, other))
     named = replace(verdict, left=shown.label(low), right=shown.label(high))
-    said = measured(named) or "Nothing here settles them over positive parameters."
+    both = [shown.found.family[n - 1] for n in (low, high)]
+    said = shows(named, measured(both)) or "Nothing here settles them over positive parameters."
     names = shown.cards[number - 1].model.name, shown.cards[other - 1].model.name
     command = ""
     if shown.numbered:

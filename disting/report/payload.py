@@ -20,7 +20,7 @@ from disting.model.question import Domain
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID
 from disting.report.words import VIEW_TITLES, Decided, raised
-from disting.verdict.meaning import shown
+from disting.verdict.meaning import RESPONSE, shown
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
 
@@ -78,14 +78,15 @@ def payload(
     decided: Decided,
     domains: Sequence[Over],
     views: Iterable[View] = VIEW_TITLES,
+    what: str = RESPONSE,
     **more: object,
 ) -> Markup:
     """JSON text that is safe inside a script element: the views, groups by domain, and what
-    else the script is to know.
+    else the script is to know; `what` is measured of the models.
     """
     texts, entries = Pool(), Pool()
     numbers = {
-        view.value: packed([entries.number(_entry(v)) for v in _triangle(decided, view)])
+        view.value: packed([entries.number(_entry(v, what)) for v in _triangle(decided, view)])
         for view in views
     }
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
@@ -135,7 +136,7 @@ def _triangle(decided: Decided, view: View) -> Iterable[Verdict]:
     return (decided.verdict(low, high, view) for high in numbers for low in range(1, high))
 
 
-def _entry(verdict: Verdict) -> Entry:
+def _entry(verdict: Verdict, what: str) -> Entry:
     evidence = verdict.evidence
     why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
     certainty = f"{capital(raised(verdict.sure))}." if evidence else ""
@@ -150,7 +151,7 @@ def _entry(verdict: Verdict) -> Entry:
         certainty,
         verdict.domain,
     )
-    sentence = shown(replace(verdict, left="{L}", right="{R}"))
+    sentence = shown(replace(verdict, left="{L}", right="{R}"), what)
     aside = ", special values aside" * verdict.has_exceptions
     return *graded, sentence, why, formula, verdict.rule, more, aside
 

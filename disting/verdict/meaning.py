@@ -12,6 +12,7 @@ from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion
 from disting.verdict.result import Relation, Verdict
 
+RESPONSE = "response"  # what is measured where nothing else is said
 DECADE = 20  # decibels that a power of s falls in a decade of frequency
 PARTS = {
     frozenset("a"): ("In its resonances and how they are damped", "In its poles"),
@@ -23,8 +24,9 @@ PARTS = {
 }  # of a machine, and of any other model
 
 
-def shown(verdict: Verdict) -> str:
-    """What a measurement of either model shows; "" where nothing is decided.
+def shown(verdict: Verdict, what: str = RESPONSE) -> str:
+    """What a measurement of either model shows; "" where nothing is decided. `what` is measured: a
+    response, of circuits an impedance.
 
     Of unequal ranks (conditions 4 and 5): the behaviours of the model of smaller rank lie in a
     variety of smaller dimension, so a generic behaviour of the other one is not there; the number
@@ -32,10 +34,10 @@ def shown(verdict: Verdict) -> str:
     """
     left, right, machines = verdict.left, verdict.right, all(verdict.premises)
     if verdict.relation is Relation.INDISTINGUISHABLE:
-        return _the_same(verdict)
+        return _the_same(verdict, what)
     if verdict.relation is Relation.SOMETIMES:
         return (
-            f"It depends on the values: some responses fit both {left} and {right}, others only one"
+            f"It depends on the values: some {what}s fit both {left} and {right}, others only one"
             " of them."
         )
     match verdict.evidence:
@@ -43,25 +45,30 @@ def shown(verdict: Verdict) -> str:
             if any(note.startswith(f"{COUNTED}v") for note in verdict.notes):
                 return f"The responses of {left} and {right} are made of other powers of s."
             halves = HALVES in verdict.notes
-            return _steeper(verdict.evidence, left, right, machines, halves)
+            return _steeper(verdict.evidence, left, right, machines, halves, what)
         case Ranks():
-            return _more_equations(verdict.evidence, left, right, machines)
+            return _more_equations(verdict.evidence, left, right, machines, what)
         case Forms():
-            return _varying(verdict.evidence, left, right)
+            return _varying(verdict.evidence, left, right, what)
         case DeadTime(left_given=given):
             delayed = left if given else right
             return f"Towards high frequencies the phase of {delayed} falls without an end."
         case None:
             return ""
         case _:
-            said = f"One of {left} and {right} has responses that the other never has"
+            said = f"One of {left} and {right} has {what}s that the other never has"
             # one that is a limit of the other comes as close as one likes
             if verdict.closure is not Inclusion.NEITHER:
                 return f"{said}."
             return (
-                f"{said}: fitted to such a response, the wrong one leaves an error however well it"
-                " is measured."
+                f"{said}: fitted to such a{_n(what)} {what}, the wrong one leaves an error however"
+                " well it is measured."
             )
+
+
+def _n(word: str) -> str:
+    """The end of an article before it."""
+    return "n" if word[0] in "aeiou" else ""
 
 
 def undetermined(name: str, rank: int, parameters: int) -> str:
@@ -85,17 +92,17 @@ def undetermined(name: str, rank: int, parameters: int) -> str:
     )
 
 
-def _the_same(verdict: Verdict) -> str:
+def _the_same(verdict: Verdict, what: str) -> str:
     left, right = verdict.left, verdict.right
     over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"
     aside = ", special values aside" * verdict.has_exceptions
     return (
-        f"For every {left} there is a {right}{over} with exactly the same response, and vice"
+        f"For every {left} there is a {right}{over} with exactly the same {what}, and vice"
         f" versa{aside}. What is measured here does not tell them apart."
     )
 
 
-def _steeper(found: Counts, left: str, right: str, machines: bool, halves: bool) -> str:
+def _steeper(found: Counts, left: str, right: str, machines: bool, halves: bool, what: str) -> str:
     """Degrees n over m: towards high frequencies |G| falls by 20 (m - n) dB in a decade, by half of
     it where powers are counted in halves.
     """
@@ -109,18 +116,18 @@ def _steeper(found: Counts, left: str, right: str, machines: bool, halves: bool)
         fall = DECADE * abs((m1 - n1) - (m2 - n2)) // (1 + halves)
         if halves:
             return (
-                f"Towards high frequencies the response of {steep} falls by {fall} dB a decade more"
+                f"Towards high frequencies the {what} of {steep} falls by {fall} dB a decade more"
                 f" than that of {flat}."
             )
         return (
-            f"Towards high frequencies the response of {steep} falls by {fall} dB a decade more"
+            f"Towards high frequencies the {what} of {steep} falls by {fall} dB a decade more"
             f" than that of {flat}"
             f"{_zeros(n2 - n1 if flat == right else n1 - n2, flat, machines)}."
         )
     more, poles = (left, m1 - m2) if m1 > m2 else (right, m2 - m1)
     if halves:
-        return f"The response of {more} has more coefficients in powers of s^(1/2)."
-    return f"The response of {more} has {poles} {'pole' if poles == 1 else 'poles'} more."
+        return f"The {what} of {more} has more coefficients in powers of s^(1/2)."
+    return f"The {what} of {more} has {poles} {'pole' if poles == 1 else 'poles'} more."
 
 
 def _zeros(more: int, flat: str, machines: bool) -> str:
@@ -131,7 +138,7 @@ def _zeros(more: int, flat: str, machines: bool) -> str:
     return f": {flat} has {zeros} more{pair}"
 
 
-def _more_equations(found: Ranks, left: str, right: str, machines: bool) -> str:
+def _more_equations(found: Ranks, left: str, right: str, machines: bool, what: str) -> str:
     fewer, more = (left, right) if found.left < found.right else (right, left)
     count = abs(found.left - found.right)
     equations = "an equation" if count == 1 else f"{count} equations"
@@ -140,17 +147,17 @@ def _more_equations(found: Ranks, left: str, right: str, machines: bool) -> str:
     where = of_machines if machines else of_others
     every = f"{where}, every" if where and not found.all_rows else "Every"
     return (
-        f"{every} {fewer} response satisfies {equations} that a {more} response satisfies only by"
+        f"{every} {fewer} {what} satisfies {equations} that a {more} {what} satisfies only by"
         " coincidence. That tells them apart."
     )
 
 
-def _varying(found: Forms, left: str, right: str) -> str:
+def _varying(found: Forms, left: str, right: str, what: str) -> str:
     if "Td" in (*found.only_left, *found.only_right):
         delayed = left if "Td" in found.only_left else right
         return f"Towards high frequencies the phase of {delayed} falls without an end."
     fixed, free = (left, right) if found.only_right else (right, left)
     return (
-        f"A coefficient of the response is one fixed number for every {fixed}; that of {free}"
+        f"A coefficient of the {what} is one fixed number for every {fixed}; that of {free}"
         " changes with its parameters."
     )

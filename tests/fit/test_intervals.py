@@ -164,7 +164,7 @@ def test_where_an_interval_ends_the_likelihood_has_fallen_as_far_as_it_says():
         start = np.log([values[n] for n in others])
         return minimize(cost, start, method="BFGS").fun
 
-    wide = [n for n, e in member.candidate.practical.relative_errors.items() if 0.02 < e < 0.3]
+    wide = [n for n, e in member.candidate.practical.relative_errors.items() if 0.05 < e < 0.3]
     assert wide
     for name in wide[:2]:
         for end in member.intervals[name]:

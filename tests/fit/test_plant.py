@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from disting.errors import InputError
 from disting.fit.search.plant import Plant
-from disting.model.chain import Chain
-from tests.fit.drives import CHAINS, OMEGA, dense_response, truth
+from disting.model.chain import Chain, Sensor
+from tests.fit.drives import CHAINS, OMEGA, dense_response, response, truth
 
 
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
@@ -67,3 +67,13 @@ def test_a_line_on_an_antiresonance_without_damping_is_no_division_by_zero():
         Chain(2, damped=False).structure, np.array([2.0])
     ).logarithmic_gradient(np.array([1.0, 1.0, 4.0]))
     assert np.all(np.abs(response) < 1e-12) and np.all(np.isfinite(gradient))
+
+
+@pytest.mark.parametrize("chain", [c for c in CHAINS if c.sensor is Sensor.ACCELERATION])
+def test_a_wrong_unit_of_frequency_makes_other_values_of_the_same_chain(chain):
+    """Hz taken for rad/s: no fit can tell, so that a grid alone can make it suspicious."""
+    c, values = 2 * np.pi, truth(chain, 3)
+    powers = {"m": 0, "d": -1, "b": -1, "k": -2, "T": 1}
+    other = {name: value * c ** powers[name[0]] for name, value in values.items()}
+    right, wrong = response(chain, values), response(chain, other, OMEGA / c)
+    np.testing.assert_allclose(wrong.G, right.G, rtol=1e-9)

@@ -10,8 +10,8 @@ import pytest
 from disting import Query, View, compare, verify
 from disting.network.families import family_of
 from disting.network.network import Network
-from disting.network.normal_form import same_parts
 from disting.network.notation import network_of
+from disting.network.simplest import same_parts
 from disting.verdict.verdict_file import verdict_file
 from tests.oracles.twins import twin
 

@@ -18,6 +18,12 @@ def said(command: str, status: int = 0) -> str:
 def test_a_circuit_has_an_impedance_and_no_nodes_or_machines():
     told = said("compare 'R0-p(R1,C1)-W1' 'R0-p(R1,C1)'")
     assert "Z(s) = " in told and "with a direct connection in place of W1" in told
+    assert "The impedance of R0-p(R1,C1)-W1 has more coefficients" in told
+    same = said("compare 'R0-p(R1,C1)' 'p(R0,R1-C1)'")
+    assert "exactly the same impedance, and vice versa" in same and "response" not in same
+    assert "exactly the same response" in said(
+        "compare '1<>2, 1>0; in 1; out 1' '1<>2, 2>0; in 1; out 1'"
+    )
     assert not {"node", "machine", "chain", "G(s)", "force", "sensor"} & set(told.split())
     told = said("compare 'R0-p(R1,C1)-p(R2,C2,C3-W1)-p(R3,C4)' R0-C1")
     assert "in powers of sqrt(s), in --json" in told

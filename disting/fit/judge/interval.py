@@ -25,19 +25,19 @@ from disting.fit.judge.exclusion import FELT, limit
 from disting.fit.judge.practical import covariance
 from disting.fit.noise.covariance import equal
 from disting.fit.noise.scatter import Scatter
-from disting.fit.search.descent import fine
+from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task
 from disting.fit.search.starts import natural, scale
 from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Real
 
 OUTSIDE = 0.05  # probability of a value outside
-STRAIGHT = 0.02  # relative standard error up to which Q is as good as a parabola
+STRAIGHT = 0.05  # relative standard error up to which Q is as good as a parabola
 MOST_LIKELY = 0.01  # of Q above its minimum
 ZERO = 1e-4  # share of its natural size at which an element is as good as not there
 STEP, STEPS = log(3.0), 20  # largest step of the search for an end in the logarithm, and how many
-PRECISE = 0.02  # of the length of an end, in standard errors
-GAIN = 1e-6  # of Q at which the search for the other parameters ends
+PRECISE = 0.03  # of the length of an end, in standard errors
+ITERATIONS = 30  # of the search for the other parameters
 
 Interval = tuple[float, float]
 
@@ -131,19 +131,19 @@ def _rise(about: _Likelihood, at: int, most: float) -> Callable[[float], float]:
         held = replace(task, fixed={**task.fixed, names[at]: exp(logarithm)})
         moved = np.exp(np.clip(along * (logarithm - before), -STEP, STEP))
         starts = _starts(about, held, point * moved)
-        found = [fine(plant, about.whitened, held.box(names), start, GAIN) for start in starts]
-        reached, cost = min(found, key=lambda one: one[1])
-        risen = max(cost - about.lowest, 0.0) / size
+        points, costs = rough(plant, about.whitened, held.box(names), starts, ITERATIONS)
+        risen = max(float(costs.min()) - about.lowest, 0.0) / size
         if risen <= most:  # what has left the valley leads no further
-            point, before = reached, logarithm
+            point, before = points[np.argmin(costs)], logarithm
         return risen
 
     return rise
 
 
-def _starts(about: _Likelihood, held: Task, point: Real) -> list[Real]:
-    """A point and, where some of its parameters have no effect, one where they have as much as the
-    data scatter: what has gone to zero or infinity does not come back by steps of its logarithm.
+def _starts(about: _Likelihood, held: Task, point: Real) -> Real:
+    """A point, shape (1, n_p), and, where some of its parameters have no effect, one where they
+    have as much as the data scatter: what has gone to zero or infinity does not come back by steps
+    of its logarithm.
     """
     box = held.box(held.names(about.candidate.chain))
     point = box.clipped(point)
@@ -152,7 +152,8 @@ def _starts(about: _Likelihood, held: Task, point: Real) -> list[Real]:
     usual = np.array([about.usual.get(n, 1.0) for n in held.names(about.candidate.chain)])
     lifted = point * np.where(point > usual, effect, 1 / effect)
     unfelt = box.free & (effect < FELT) & np.isfinite(lifted)
-    return [point, box.clipped(np.where(unfelt, lifted, point))][: 1 + bool(unfelt.any())]
+    both = np.stack([point, box.clipped(np.where(unfelt, lifted, point))])
+    return both if unfelt.any() else both[:1]
 
 
 def _end(rise: Callable[[float], float], start: float, step: float, most: float) -> float:

@@ -50,6 +50,11 @@ class Case(IntEnum):
 class SquaredCost(ABC):
     """J = |residual|^2, of one response or of several."""
 
+    @property
+    @abstractmethod
+    def n_residuals(self) -> int:
+        """N_y."""
+
     @abstractmethod
     def residual(self, response: Complex) -> Real:
         """Weighted residuals, shape (..., 2 n_f), of responses of shape (..., n_f)."""

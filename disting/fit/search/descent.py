@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from disting.fit.search.cost import SquaredCost
-from disting.fit.search.joint import AnyCost
 from disting.fit.search.plant import Differentiable
 from disting.measurement.arrays import Real
 
@@ -58,7 +57,7 @@ class Box:
 
 
 def rough(
-    plant: Differentiable, cost: AnyCost, box: Box, starts: Real, iterations: int
+    plant: Differentiable, cost: SquaredCost, box: Box, starts: Real, iterations: int
 ) -> tuple[Real, Real]:
     """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each
     start.
@@ -100,7 +99,7 @@ def _batches(active: Indices, batch: int) -> list[Indices]:
 
 
 def _normal(
-    plant: Differentiable, cost: AnyCost, box: Box, points: Real
+    plant: Differentiable, cost: SquaredCost, box: Box, points: Real
 ) -> tuple[Real, Real, Real]:
     """Cost J = r'r, shape (n_s,), with S'S and S'r of the free logarithms, shapes (n_s, n_p,
     n_p) and (n_s, n_p).

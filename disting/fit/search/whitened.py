@@ -26,6 +26,11 @@ class Whitened(SquaredCost):
     cost: AnyCost
     known: Scatter
 
+    @property
+    def n_residuals(self) -> int:
+        """Those of the cost."""
+        return self.cost.n_residuals
+
     def residual(self, response: Complex) -> Real:
         """e, shape (..., 2 n_f), of stacked responses, shape (..., n_f)."""
         parts = [

@@ -1,0 +1,100 @@
+"""How many equivalents there are in a case with one equation and one unknown, where it is the same
+number for all parameters.
+
+THEOREM. Let h, g_1, g_2, .. be polynomials in p and x. Let no positive p be such that (1) the first
+or the last coefficient of h in x is zero, (2) h and its derivative by x have a common zero x > 0,
+(3) h and a g_k have a common zero x > 0. Then the number of x > 0 with h = 0 and all g_k > 0 is the
+same for all positive p. Proof. The positive p are connected, so it is enough to see that the number
+is the same near by. By (1) the positive zeros of h stay within some [a, b], 0 < a < b, for all p
+near by; by (2) they are simple, so they move continuously, and as many as before; by (3) no g_k
+changes its sign at them.
+
+So the number at one rational p is that of all. That there are no common zeros is seen from the
+signs of the factors of resultants, or from the search for cases (see `cases`), in which all of p
+and x are unknown then.
+"""
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from flint import ctx, fmpz_mpoly, fmpz_poly
+
+from disting.algebra.symbols import factored
+from disting.general.cases import Case, cases_of
+from disting.general.orthant import Orthant, TooMuch, value_at
+from disting.model.question import Domain
+
+SIZE = 60_000  # of resultants: terms and degrees of both
+BITS = 8192  # with which a sign is looked for at most
+POINT = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43)
+
+
+def number_of_roots(ring: Orthant, case: Case) -> int | None:
+    """How many values of the only unknown solve the only equation with all inequalities in which it
+    is, the same number for all positive p; None where that is not shown.
+    """
+    free = ring.occurring((*case.equations, *case.positive))
+    if ring.domain is not Domain.POSITIVE or len(case.equations) != 1 or len(free) != 1:
+        return None
+    (at,), (equation,) = free, case.equations
+    asked = [g for g in case.positive if g.degrees()[at]]
+    try:
+        ends = ring.coefficients(equation, at)
+        if not (ring.sign(ends[0]) and ring.sign(ends[-1])):
+            return None
+        walls = (equation.derivative(at), *asked)
+        if all(_are_apart(ring, equation, wall, at) for wall in walls):
+            return _counted(ring, equation, asked, at)
+    except TooMuch:
+        pass
+    return None
+
+
+def _are_apart(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly, at: int) -> bool:
+    """Whether no positive p and x are zeros of both; False where that is not seen."""
+    degrees = int(one.degrees()[at]) * int(other.degrees()[at])
+    if not degrees:
+        return bool(ring.sign(other))
+    if len(one) * len(other) * degrees**2 < SIZE:
+        resultant = one.resultant(other, at)
+        if resultant and all(map(ring.sign, (f for f, _ in factored(resultant)[1]))):
+            return True
+    everything = Orthant(0, ring.n_given + 1, Domain.POSITIVE)
+    pair = tuple(_moved(ring, everything, e, at) for e in (one, other))
+    try:
+        return not cases_of(everything, Case(pair), tuple(everything.unknowns)).cases
+    except TooMuch:
+        return False
+
+
+def _moved(ring: Orthant, into: Orthant, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
+    """The same with p and x as unknowns."""
+    kept = (*range(ring.n_given), at)
+    terms = polynomial.to_dict().items()
+    return into.context.from_dict({(*(e[i] for i in kept), 0): c for e, c in terms})
+
+
+def _counted(ring: Orthant, equation: fmpz_mpoly, asked: list[fmpz_mpoly], at: int) -> int | None:
+    """The number at one point, every sign certified."""
+    plain, *others = (fmpz_poly(list(_at_point(ring, e, at))) for e in (equation, *asked))
+    bits = 128
+    while bits <= BITS:
+        with ctx.workprec(bits):
+            isolated: list[Any] = plain.complex_roots()
+            real = [root.real for root, _ in isolated if root.imag.is_zero()]
+            signs = [[_sign(x), *(_sign(g(x)) for g in others)] for x in real]
+        if all(all(row) for row in signs):
+            return sum(min(row) > 0 for row in signs)
+        bits *= 4
+    return None
+
+
+def _at_point(ring: Orthant, polynomial: fmpz_mpoly, at: int) -> Iterator[int]:
+    """Coefficients of the powers of x at the point."""
+    point = {i: Fraction(POINT[i % len(POINT)]) for i in range(ring.n_given)}
+    return (int(value_at(c, point)) for c in ring.coefficients(polynomial, at))
+
+
+def _sign(ball: Any) -> int:
+    return 1 if ball > 0 else -1 if ball < 0 else 0

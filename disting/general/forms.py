@@ -1,0 +1,98 @@
+"""Two networks by those that stand for them: the simplest ones that give the same transfer
+functions, or, of one-ports of two kinds of elements, all functions of the set K(n, c, z) in which
+theirs are (see `replacement`).
+
+Values special to a network are of measure zero among its functions, which are those of the other
+one but for such. So what is said of generic functions of the simplest networks is true of the given
+ones: all have equivalents, none has, or open sets of either kind exist. Of a network that gives
+more functions, but no more of larger dimension (as many as the rank of the given one), one thing
+follows only: where none of them has an equivalent, special ones aside, those of the given network
+have none. What is special is of measure zero among functions of that dimension, so it is so among
+those of the given network.
+"""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from disting.behaviour.sample import Representation
+from disting.conditions.finding import Finding, Outcome
+from disting.errors import InputError
+from disting.evidence.decision import Theorem
+from disting.evidence.general import Explicit, NoEquivalent, Replaced, Witnesses
+from disting.evidence.seen import seen
+from disting.general.admissible import admissible_finding
+from disting.general.any_model import of_network, on_one_variable, unnamed
+from disting.general.behaviour import GeneralModel
+from disting.general.matrix_model import AnyModel
+from disting.general.replacement import simplest_network
+from disting.model.question import Domain
+from disting.network.network import Network
+from disting.network.simplest import same_drawing
+
+REMEMBERED = 1024  # pairs of simplest networks: others of a family have the same ones
+
+
+@dataclass(frozen=True, slots=True)
+class Forms:
+    """The networks that stand for two others; those that are `larger` may give more."""
+
+    models: tuple[AnyModel, AnyModel]
+    larger: tuple[bool, bool]
+
+    def evidence(self, inner: Explicit | NoEquivalent | Witnesses | Theorem) -> Replaced:
+        """What evidence on them says of the others."""
+        left, right = (model.name for model in self.models)
+        return Replaced(left, right, *self.larger, inner)
+
+
+def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
+    """What the simplest networks tell over positive parameters; None if nothing."""
+    for larger in (False, True):
+        forms = forms_of(left, right, larger)
+        if forms is None:
+            continue
+        found = _answered(*forms.models, seed)
+        if larger and found.outcome is not Outcome.FAILS:
+            continue
+        if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem):
+            return replace(found, evidence=forms.evidence(found.evidence))
+    return None
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _answered(left: AnyModel, right: AnyModel, seed: str) -> Finding:
+    return admissible_finding(left, right, Domain.POSITIVE, seed)
+
+
+def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
+    """None where nothing is replaced, or nothing by what is larger; exponents are not matched
+    here.
+    """
+    if any(m.powers.weights for m in (left, right)):
+        return None
+    found = [(m.network, simplest_network(m), simplest_network(m, larger)) for m in (left, right)]
+    more = [whole != same for _, same, whole in found]
+    known = [(own, whole) for own, _, whole in found if own is not None and whole is not None]
+    if len(known) < len(found) or any(more) != larger or all(same_drawing(*x) for x in known):
+        return None
+    spread = zip((left, right), known, more, strict=True)
+    if any(larger_ and _rank(m) < len(whole.parameters) for m, (_, whole), larger_ in spread):
+        return None
+    try:
+        models = [_with_network(of_network(whole), whole) for _, whole in known]
+    except InputError:
+        return None
+    one, other = on_one_variable(models)
+    return Forms((one, other), (more[0], more[1]))
+
+
+def _rank(model: AnyModel) -> int:
+    """At least so large is the dimension of its functions: a rank modulo a prime."""
+    return seen(GeneralModel(model)).rank(Representation.TF)
+
+
+def _with_network(model: AnyModel, network: Network) -> AnyModel:
+    """Its transfer functions alone, also where they are those of a chain."""
+    plain = unnamed(model, network.name)
+    object.__setattr__(plain, "network", network)
+    return plain
