@@ -16,7 +16,7 @@ from disting.report import write_family
 from disting.report.formulas import written_model
 from disting.report.listed_model import listed_model_page
 from disting.report.listing import Listing, judged
-from disting.report.model_list import model_list_page, page_name, write_model_list
+from disting.report.model_list import lists_beside, model_list_page, page_name, write_model_list
 from tests.cli.process import called
 from tests.report.outline import Outline
 
@@ -314,3 +314,21 @@ def test_what_is_no_family_is_refused(
     with pytest.raises(InputError, match=cause):
         write_family(models, title, tmp_path / "none")  # type: ignore[arg-type]
     assert not (tmp_path / "none").exists()
+
+
+def test_what_lies_beside_and_is_no_list_is_passed_over(tmp_path: Path) -> None:
+    """Damaged or foreign files of such names."""
+    write_family(["R0-p(R1,C1)", "p(R0,R1-C1)"], "Two & more", tmp_path)
+    (tmp_path / "list-broken.html").write_bytes(b"<h1>\xff\x00</h1>")
+    (tmp_path / "list-broken-models.csv").write_bytes(b"\xff,../../x\n1,2\n" + b"7,x,,,,,,,\n")
+    (tmp_path / "list-alone.html").write_text("<h1>No table</h1>")
+    (tmp_path / "list-bare.html").write_text("nothing")
+    found = dict(lists_beside(tmp_path))
+    titles = {link[0]: link[1] for link in found}
+    assert titles["list-two-more.html"] == "Two & more" and "list-alone.html" not in titles
+    models = {link[0]: of for link, of in found.items()}
+    assert [m[:2] for m in models["list-two-more.html"]] == [
+        ("models/list-two-more/1.html", "R0-p(R1,C1)"),
+        ("models/list-two-more/2.html", "p(R0,R1-C1)"),
+    ]
+    assert models["list-broken.html"] == []
