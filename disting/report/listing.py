@@ -16,7 +16,7 @@ from disting.general.model_files import ModelList
 from disting.model.presentation import plural
 from disting.network.notation import network_of, notations_of
 from disting.report.domains import VIEWS, Over, over
-from disting.report.network_drawing import scene_of
+from disting.report.network_drawing import draw_network, scene_of
 from disting.report.page_drawing import Drawing
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
@@ -138,7 +138,8 @@ class Listing:
 
     def _card(self, number: int) -> Card:
         model, label = self.found.family[number - 1], self.label(number)
-        scene = scene_of(model)
+        # drawings of a family are of one style, whichever of its networks are chains
+        scene = draw_network(model.network) if self.numbered and model.network else scene_of(model)
         groups = tuple(
             next((k for k, g in enumerate(of.groups, 1) if number in g), 0) for of in self.domains
         )

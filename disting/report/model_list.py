@@ -158,12 +158,17 @@ def lists_beside(out: Path) -> Iterator[tuple[Link, list[Link]]]:
     """Yield the pages of lists that lie in a folder, each with those of its models."""
     for page in sorted(out.glob("list-*.html")):
         name, table = page.stem, page.with_name(f"{page.stem}-models.csv")
-        heading = HEADING.search(page.read_text(encoding="utf-8"))
+        heading = HEADING.search(page.read_text(encoding="utf-8", errors="replace"))
         if heading is None or not table.is_file():
             continue
         title = unescape(heading[1])
-        with table.open(encoding="utf-8", newline="") as rows:
-            numbered = [(row[0], row[1]) for row in csv.reader(rows) if row and row[0].isdecimal()]
+        with table.open(encoding="utf-8", newline="", errors="replace") as rows:
+            read = [row[:2] for row in csv.reader(rows) if len(row) == len(COLUMNS)]
+        numbered = [
+            (number, called)
+            for number, called in read
+            if (out / f"models/{name}/{number}.html").is_file()
+        ]
         models = [
             (f"models/{name}/{number}.html", called, f"A{number} of {title}")
             for number, called in numbered

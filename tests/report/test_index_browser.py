@@ -340,7 +340,9 @@ def test_no_all_clear_is_given_of_a_machine_that_is_not_shipped(visit) -> None: 
 def test_the_address_holds_all_of_it(visit) -> None:  # type: ignore[no-untyped-def]
     tab = _opened(visit("index.html"))
     text = _more(tab, masses="4", joined_4="2", second="0,4", friction_3=True, delay=True)
-    tab.wait_for_url(re.compile(r"machine=4,damped,0,0,1,0,1/.*second=0,4$"))
+    tab.wait_for_url(
+        re.compile(r"machine=4,damped,0,0,1,0,1/friction-3=1/delay=1/joined-4=2/second=0,4$")
+    )
     address = tab.url[tab.url.index("index.html") :]
     again = visit("guide/index.html")
     again = visit(address)

@@ -16,7 +16,7 @@ from disting.report import write_family
 from disting.report.formulas import written_model
 from disting.report.listed_model import listed_model_page
 from disting.report.listing import Listing, judged
-from disting.report.model_list import model_list_page, page_name, write_model_list
+from disting.report.model_list import lists_beside, model_list_page, page_name, write_model_list
 from tests.cli.process import called
 from tests.report.outline import Outline
 
@@ -250,31 +250,31 @@ def test_hostile_names_are_told_and_not_obeyed(visit) -> None:  # type: ignore[n
     assert "{R} and {L} a numerator" in tab.inner_text("#detail .why")
 
 
-def gantries():
-    """Two motors that drive one beam, without and with a belt between them: a family of one's
+def drives():
+    """A motor with two loads, in a row or side by side, and a sensor anywhere: a family of one's
     own.
     """
-    for belt in ("", ", 1~3"):
+    for second in ("2~3", "1~3"):
         for sensor in (1, 2, 3):
-            yield f"1~2, 2~3{belt}; F1; S{sensor}"
+            yield f"1~2, {second}; F1; S{sensor}"
 
 
 @pytest.fixture(scope="module")
 def own(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    return write_family(gantries(), "Gantries", tmp_path_factory.mktemp("own"))
+    return write_family(drives(), "Two loads", tmp_path_factory.mktemp("own"))
 
 
 def test_a_family_of_ones_own_has_the_same_pages(own: list[Path]) -> None:
     assert [p.name for p in own[:4]] == [
-        "list-gantries.html", "list-gantries.csv", "list-gantries.json", "list-gantries-models.csv",
+        "list-two-loads.html", "list-two-loads.csv", "list-two-loads.json", "list-two-loads-models.csv",
     ]  # fmt: skip
     page = Outline(own[0].read_text("utf-8"))
-    texts = list(gantries())
-    assert page.texts["h1"] == ["Gantries"] and page.count("svg", role="img") >= len(texts)
+    texts = list(drives())
+    assert page.texts["h1"] == ["Two loads"] and page.count("svg", role="img") >= len(texts)
     assert data(own[0].read_text("utf-8"))["names"] == texts
     for number, text in enumerate(texts, 1):
-        model = Outline((own[0].parent / f"models/list-gantries/{number}.html").read_text("utf-8"))
-        assert f"A{number}: {text} \u2013 Gantries" in model.text
+        model = Outline((own[0].parent / f"models/list-two-loads/{number}.html").read_text("utf-8"))
+        assert f"A{number}: {text} \u2013 Two loads" in model.text
         assert model.count("svg", role="img") >= 1 and "Transfer function" in model.text
 
 
@@ -314,3 +314,21 @@ def test_what_is_no_family_is_refused(
     with pytest.raises(InputError, match=cause):
         write_family(models, title, tmp_path / "none")  # type: ignore[arg-type]
     assert not (tmp_path / "none").exists()
+
+
+def test_what_lies_beside_and_is_no_list_is_passed_over(tmp_path: Path) -> None:
+    """Damaged or foreign files of such names."""
+    write_family(["R0-p(R1,C1)", "p(R0,R1-C1)"], "Two & more", tmp_path)
+    (tmp_path / "list-broken.html").write_bytes(b"<h1>\xff\x00</h1>")
+    (tmp_path / "list-broken-models.csv").write_bytes(b"\xff,../../x\n1,2\n" + b"7,x,,,,,,,\n")
+    (tmp_path / "list-alone.html").write_text("<h1>No table</h1>")
+    (tmp_path / "list-bare.html").write_text("nothing")
+    found = dict(lists_beside(tmp_path))
+    titles = {link[0]: link[1] for link in found}
+    assert titles["list-two-more.html"] == "Two & more" and "list-alone.html" not in titles
+    models = {link[0]: of for link, of in found.items()}
+    assert [m[:2] for m in models["list-two-more.html"]] == [
+        ("models/list-two-more/1.html", "R0-p(R1,C1)"),
+        ("models/list-two-more/2.html", "p(R0,R1-C1)"),
+    ]
+    assert models["list-broken.html"] == []
