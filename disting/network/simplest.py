@@ -233,12 +233,15 @@ def _tree(part: Part, kinds: dict[int, str]) -> Tree:
 
 def _ladder(part: Part, kinds: dict[int, str]) -> Tree:
     """F = [r_0] + 1/(c_1 x + 1/(r_1 + 1/(c_2 x + ..))), which ends with r_n, or with c_n x where F
-    has a pole at x = 0.
+    has a pole at x = 0. In 1/x F is of the same form, with the other kind for r: r is a resistor
+    where there is one.
     """
     if len(part.kinds) == 1:
         return kinds[part.single[0]]
     low, high = sorted(part.kinds)
     terms = dict(part.terms).get((low, high), 0)
+    if kinds[high] == "R":
+        low, high = high, low
     found: Tree | None = kinds[high] if high in part.single else None
     for _ in range(terms):
         inner: Tree = ("S", (kinds[low], found)) if found else kinds[low]
