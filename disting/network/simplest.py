@@ -20,6 +20,7 @@ from disting.network.normal_form import NormalForm, Part, Power, normal_form, tu
 
 REMEMBERED = 4096
 TWO = 2
+RESISTOR: Power = (0, "")  # its power of s; a spring has the same, and the lowest of a machine
 MOST_ORDERS = 720  # of nodes that look alike
 Drawn = tuple[list[tuple[int, int]], list[tuple[tuple[int, int], Any]], list[tuple[int, Any]]]
 """Ports, edges with what is there, nodes with what hangs there."""
@@ -239,12 +240,15 @@ def _tree(part: Part) -> Tree:
 
 def _ladder(part: Part) -> Tree:
     """F = [r_0] + 1/(c_1 x + 1/(r_1 + 1/(c_2 x + ..))), which ends with r_n, or with c_n x where F
-    has a pole at x = 0.
+    has a pole at x = 0. In 1/x F is of the same form, with the other kind for r: r is a resistor
+    where there is one.
     """
     if len(part.kinds) == 1:
         return part.single[0]
     low, high = sorted(part.kinds)
     terms = dict(part.terms).get((low, high), 0)
+    if high == RESISTOR:
+        low, high = high, low
     found: Tree | None = high if high in part.single else None
     for _ in range(terms):
         inner: Tree = ("S", (low, found)) if found else low

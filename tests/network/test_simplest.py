@@ -10,10 +10,13 @@ import pytest
 
 from disting import compare, network_of, verify
 from disting.errors import InputError
+from disting.general.any_model import of_network, on_one_variable
+from disting.general.replacement import simplest_network
 from disting.network.families import family_of
 from disting.network.normal_form import normal_form
 from disting.network.simplest import same_drawing, same_parts, simplest
 from disting.verdict.verdict_file import verdict_file
+from tests.network.pairs import changed
 from tests.oracles.twins import twin
 
 FAMILIES = ["circuits-4", "machines-2", "compartments-2"]
@@ -91,6 +94,33 @@ def test_numbers_of_nodes_do_not_matter():
             str(order[int(x)]) if x.isdigit() else x for x in network.name.replace("#", "0")
         ).replace("0", "#")
         assert simplest(network_of(text)) == simplest(network), text
+
+
+@pytest.mark.parametrize("name", [*FAMILIES, "machines-3", "circuits-5", "cells-4"])
+def test_damaged_networks_have_one_with_the_same_coefficients(name):
+    """With elements too many, hanging, elsewhere, gears, ports turned: no error, no other order."""
+    draw, seen = random.Random(name), 0
+    for _ in range(25):
+        network = draw.choice(family_of(name).networks)
+        try:
+            for _ in range(draw.randint(1, 3)):
+                network = changed(network, draw)
+            model = of_network(network)
+            form = simplest_network(model)
+            there = form and of_network(form)
+        except InputError:
+            continue
+        if there:
+            seen += 1
+            assert pattern(*on_one_variable([there, model])) == pattern(
+                *on_one_variable([model, there])
+            )
+    assert seen > 5
+
+
+def pattern(model, _):
+    """Which coefficients are not zero for all values."""
+    return [list(map(bool, side)) for side in (model.numerator_terms, model.denominator_terms)]
 
 
 @pytest.mark.parametrize(("left", "right", "relation"), DECIDED)
