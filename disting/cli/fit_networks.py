@@ -44,12 +44,13 @@ def run(options: argparse.Namespace) -> int:
     networks = _networks(options.models)
     keep_apart(network.name for network in networks)
     measured = _measured(options, networks)
+    first = measured[0]
     with engine_for(options) as (engine, _, progress):
         found = fit_networks(measured, networks, engine=engine, progress=progress)
     if options.json:
         emitted(options.json, json.dumps(found.to_dict(), indent=1, ensure_ascii=False) + "\n")
     if options.json != "-":
-        print("\n".join(_told(found, measured)))
+        print("\n".join(_told(found, first)))
     return 0 if found.left else 1
 
 
@@ -72,18 +73,24 @@ def _networks(texts: Sequence[str]) -> list[Network]:
     return found
 
 
-def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> FrequencyResponse:
-    """The response; of circuits an impedance."""
+def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[FrequencyResponse]:
+    """The responses of all sensors to all inputs, row by row; of circuits impedances."""
+    outputs, inputs = networks[0].shape
+    options.sensor = ",".join(str(k) for k in range(1, outputs * inputs + 1))
     circuits = {network.sort is Sort.CIRCUIT for network in networks}
     if len(circuits) > 1:
         raise InputError("circuits show an impedance, machines a motion: fit them apart")
-    if circuits == {False}:
-        return data(options).train
-    options.quantity = options.quantity or Sensor.POSITION.value  # an impedance has none
-    found = as_impedance(data(options).train)
-    if TURNED in found.notes:
+    is_circuit = circuits == {True}
+    if is_circuit:
+        options.quantity = options.quantity or Sensor.POSITION.value  # an impedance has none
+    read = data(options)
+    found = [read.train, *(further.measured for further in read.further)]
+    if not is_circuit:
+        return found
+    turned = [as_impedance(one) for one in found]
+    if any(TURNED in one.notes for one in turned):
         complain(TURNED)
-    return found
+    return turned
 
 
 def _told(found: NetworkSelection, measured: FrequencyResponse) -> Iterator[str]:

@@ -75,19 +75,22 @@ def point_of(model: Chain | Network, values: Mapping[str, Value]) -> dict[str, f
     >>> point_of(Chain(1, damped=False), {"m1": 0.1})
     {'m1': 1/10}
     """
-    called = name_of(model) if isinstance(model, Chain) else model.name
-    names = ", ".join(model.parameters)
-    unknown = [str(name) for name in values if name not in model.parameters]
+    if isinstance(model, Chain):
+        called, wanted = name_of(model), model.parameters
+    else:
+        called, wanted = model.name, (*model.parameters, *model.exponents)
+    names = ", ".join(wanted)
+    unknown = [str(name) for name in values if name not in wanted]
     if unknown:
         raise InputError(
             f"{', '.join(unknown)}: no parameter of {called}; its parameters are {names}"
         )
-    missing = [name for name in model.parameters if name not in values]
+    missing = [name for name in wanted if name not in values]
     if missing:
         raise InputError(
             f"the value of {', '.join(missing)} is missing; the parameters of {called} are {names}"
         )
-    found = {name: _fraction(name, values[name]) for name in model.parameters}
+    found = {name: _fraction(name, values[name]) for name in wanted}
     for name, value in found.items():
         if value <= 0:
             raise InputError(f"{name} = {values[name]}: {_why_positive(model, name, value == 0)}")

@@ -13,14 +13,23 @@ import numpy as np
 
 from disting.errors import InputError, listed
 from disting.fit.judge.exclusion import basis_of, limit, statistic
-from disting.fit.judge.explanation import FEW_CLEAR, Miss, explanation
+from disting.fit.judge.explanation import FEW_CLEAR, Miss
 from disting.fit.judge.practical import Seen
-from disting.fit.noise.covariance import expected, noise
-from disting.fit.noise.scatter import Scatter, scatter
+from disting.fit.judge.responses import explained, noises, scatters, together
+from disting.fit.noise.covariance import expected
+from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
-from disting.fit.search.network_plant import NetworkPlant, measured_as, random_starts
+from disting.fit.search.joint import AnyCost, JointCost
+from disting.fit.search.network_plant import (
+    AnyNetworkPlant,
+    NetworkPlant,
+    NetworkPlants,
+    measured_as,
+    random_starts,
+)
+from disting.fit.search.setup import Setup
 from disting.fit.search.whitened import Whitened
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse
@@ -110,12 +119,12 @@ class FittedNetwork:
 @dataclass(frozen=True, slots=True, eq=False)
 class NetworkSelection(Shown):
     """What was found: `fits`, the selected one first, then by chi2; all candidates (`networks`);
-    the data (`measured`), and `scatter` of the lines.
+    the responses (`measured`), and `scatter` of the lines.
     """
 
     fits: tuple[FittedNetwork, ...]
     networks: tuple[Network, ...]
-    measured: FrequencyResponse = field(repr=False)
+    measured: tuple[FrequencyResponse, ...] = field(repr=False)
     scatter: Scatter
     decisions: Decisions = field(repr=False)
 
@@ -148,16 +157,16 @@ class NetworkSelection(Shown):
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""
-        chosen = self.selected
+        chosen, (first, *_) = self.selected, self.measured
         return {
             "format": Format.NETWORK_FIT.value,
             "sentence": self.sentence,
             "selected": chosen.network.name if chosen else None,
             "scatter": self.scatter.typical,
             "frequencies": {
-                "low": float(self.measured.frequency[0]),
-                "high": float(self.measured.frequency[-1]),
-                "lines": len(self.measured),
+                "low": float(first.frequency[0]),
+                "high": float(first.frequency[-1]),
+                "lines": len(first),
             },
             "networks": [{"name": n.name, **entry_of(n)} for n in self.networks],
             "fits": [fit.to_dict() for fit in self.fits],
@@ -165,14 +174,15 @@ class NetworkSelection(Shown):
 
 
 def fit_networks(
-    measured: FrequencyResponse,
+    measured: FrequencyResponse | Sequence[FrequencyResponse],
     networks: Sequence[Network],
     *,
     engine: Engine | None = None,
     progress: Progress = silent,
 ) -> NetworkSelection:
-    """Fit networks with one input and one output to a measured response; `measured.sensor` says
-    what sensors of machines show, an impedance is that of circuits. Raises InputError.
+    """Fit networks to a measured response, or to several: those of the first sensor to all inputs,
+    then those of the next one, as a `MatrixModel` has its rows. `measured.sensor` says what sensors
+    of machines show, an impedance is that of circuits. Raises InputError.
 
     >>> import numpy as np
     >>> from disting.network import network_of
@@ -183,24 +193,20 @@ def fit_networks(
     >>> fit_networks(cell, candidates).sentence
     'R0-p(R1,C1) is the simplest that explains the data, which cannot be told from p(R0,R1-C1).'
     """
-    asked = [measured_as(network, measured) for network in networks]
-    for network in asked:
-        if network.shape != (1, 1):
-            raise InputError(f"{network.name} has several inputs or outputs: fit one of each")
-    if not asked:
-        raise InputError("name at least one network to fit")
+    data = [measured] if isinstance(measured, FrequencyResponse) else list(measured)
+    asked = _asked(data, networks)
     engine = engine or Engine()
     subjects = engine.general_subjects([of_network(network) for network in asked])
     decided = engine.decisions(subjects, Query(View.POSITIVE, inclusion=False))
     first = _first_of_same(decided, len(asked))
-    cost, found = Cost(measured, Case.LOGARITHM), list[tuple[NetworkPlant, Real]]()
+    cost, found = _cost(data), list[tuple[AnyNetworkPlant, Real]]()
     chosen = [i for i, k in enumerate(first) if i == k]
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
-        plant = NetworkPlant(asked[i], measured.omega)
-        starts = random_starts(plant, measured, STARTS, np.random.default_rng((SEED, i)))
+        plant = _plant(asked[i], data)
+        starts = random_starts(plant, data[0], STARTS, np.random.default_rng((SEED, i)))
         found.append((plant, searched(plant, cost, starts).p))
-    known = scatter(measured, [plant.response(p) for plant, p in found])
+    known = together(scatters(cost, [plant.response(p) for plant, p in found]))
     fits = [
         replace(
             _judged(plant, p, cost, known, subjects[i].rank),
@@ -210,9 +216,44 @@ def fit_networks(
     ]
     fits = [replace(f, excluded_by=_excluding(f, fits, known)) for f in fits]
     ordered = tuple(sorted(fits, key=lambda f: f.chi2))
-    whole = NetworkSelection(ordered, tuple(asked), measured, known, decided)
+    whole = NetworkSelection(ordered, tuple(asked), tuple(data), known, decided)
     order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left, f.chi2))
     return replace(whole, fits=tuple(order))
+
+
+def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> list[Network]:
+    """The networks with sensors that show what was measured; raises InputError."""
+    if not networks or not data:
+        raise InputError("name at least one network to fit, and a measured response")
+    asked = [measured_as(network, data[0]) for network in networks]
+    for network in asked:
+        outputs, inputs = network.shape
+        if network.shape != asked[0].shape:
+            raise InputError(
+                f"{network.name} has {outputs} x {inputs} outputs and inputs, {asked[0].name} has"
+                f" {' x '.join(map(str, asked[0].shape))}: fit them apart"
+            )
+        if outputs * inputs != len(data):
+            raise InputError(
+                f"{network.name} has {outputs} x {inputs} outputs and inputs: give as many measured"
+                f" responses, not {len(data)}"
+            )
+    if len({one.sensor for one in data}) > 1:
+        raise InputError("sensors of a network show one quantity: give the responses in one")
+    return asked
+
+
+def _cost(data: Sequence[FrequencyResponse]) -> AnyCost:
+    costs = tuple(Cost(one, Case.LOGARITHM) for one in data)
+    if len(costs) == 1:
+        return costs[0]
+    return JointCost(costs, tuple(Setup(sensor=str(k)) for k in range(1, len(costs) + 1)))
+
+
+def _plant(network: Network, data: Sequence[FrequencyResponse]) -> AnyNetworkPlant:
+    if len(data) == 1:
+        return NetworkPlant(network, data[0].omega)
+    return NetworkPlants(network, tuple(one.omega for one in data))
 
 
 def _first_of_same(decided: Decisions, count: int) -> list[int]:
@@ -226,7 +267,7 @@ def _first_of_same(decided: Decisions, count: int) -> list[int]:
     return first
 
 
-def searched(plant: NetworkPlant, cost: Cost, starts: Real) -> BestFit:
+def searched(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
     """The best values found from starts, shape (n_s, n_p)."""
     box = Box(np.zeros(len(plant.parameters)), plant.highest)
     with np.errstate(all="ignore"):  # far from the data responses may overflow
@@ -237,7 +278,7 @@ def searched(plant: NetworkPlant, cost: Cost, starts: Real) -> BestFit:
 
 
 def _judged(
-    plant: NetworkPlant, start: Real, cost: Cost, known: Scatter, rank: int
+    plant: AnyNetworkPlant, start: Real, cost: AnyCost, known: Scatter, rank: int
 ) -> FittedNetwork:
     """Brought to the last digit in units of the scatter, and seen beside it."""
     whitened = Whitened(cost, known)
@@ -245,7 +286,7 @@ def _judged(
     residual, columns = whitened.of(plant, p)
     ones = np.ones(len(residual))
     missed = expected(columns, ones)
-    seen = explanation(residual, missed, cost, known)
+    seen = explained(cost, residual, missed, known)
     level = seen.chi2
     return FittedNetwork(
         network=plant.network,
@@ -255,7 +296,7 @@ def _judged(
         chi2=level,
         residual=residual,
         basis=basis_of(columns),
-        noise=noise(residual, ones, missed),
+        noise=noises(cost, residual, ones, missed),
         explains=seen.explains,
         misses=seen.misses,
     )

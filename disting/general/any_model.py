@@ -69,8 +69,8 @@ def on_one_variable(models: Sequence[M]) -> list[M]:
         return [m if m.powers.halves == halves else in_powers(m, Powers(halves)) for m in models]
     cells = [_doubled(cell, m.powers.halves < halves) for m in models for cell in cells_of(m)]
     size = len(wide.powers.weights)
-    padded = [_padded(cell, size) for cell in cells]
-    return [in_powers(m, weighted(padded, halves, wide.powers.exponents)) for m in models]
+    powers = weighted([_padded(cell, size) for cell in cells], halves, wide.powers.exponents)
+    return [in_powers(m, powers) for m in models]
 
 
 @overload

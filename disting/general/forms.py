@@ -5,19 +5,24 @@ theirs are (see `replacement`).
 Values special to a network are of measure zero among its functions, which are those of the other
 one but for such. So what is said of generic functions of the simplest networks is true of the given
 ones: all have equivalents, none has, or open sets of either kind exist. Of a network that gives
-more functions one thing follows only: where none of them has an equivalent, those of the given
-network have none.
+more functions, but no more of larger dimension (as many as the rank of the given one), one thing
+follows only: where none of them has an equivalent, special ones aside, those of the given network
+have none. What is special is of measure zero among functions of that dimension, so it is so among
+those of the given network.
 """
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Explicit, NoEquivalent, Replaced, Witnesses
+from disting.evidence.seen import seen
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed
+from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.general.replacement import simplest_network
 from disting.model.question import Domain
@@ -70,12 +75,20 @@ def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
     known = [(own, whole) for own, _, whole in found if own is not None and whole is not None]
     if len(known) < len(found) or any(more) != larger or all(same_drawing(*x) for x in known):
         return None
+    spread = zip((left, right), known, more, strict=True)
+    if any(larger_ and _rank(m) < len(whole.parameters) for m, (_, whole), larger_ in spread):
+        return None
     try:
         models = [_with_network(of_network(whole), whole) for _, whole in known]
     except InputError:
         return None
     one, other = on_one_variable(models)
     return Forms((one, other), (more[0], more[1]))
+
+
+def _rank(model: AnyModel) -> int:
+    """At least so large is the dimension of its functions: a rank modulo a prime."""
+    return seen(GeneralModel(model)).rank(Representation.TF)
 
 
 def _with_network(model: AnyModel, network: Network) -> AnyModel:

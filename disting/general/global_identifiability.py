@@ -51,6 +51,7 @@ class GlobalIdentifiability(Shown):
     is_infinite: bool
     unique: tuple[str, ...]
     combinations: tuple[str, ...]
+    exponents: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return summary(self, self.sentence)
@@ -58,6 +59,13 @@ class GlobalIdentifiability(Shown):
     @property
     def sentence(self) -> str:
         """The finding in plain English."""
+        told = self._of_values
+        if self.exponents:
+            return f"{', '.join(self.exponents)} given: {told[0].lower()}{told[1:]}"
+        return told
+
+    @property
+    def _of_values(self) -> str:
         n, rank = len(self.local.parameters), self.local.rank
         if rank < n:
             return f"{n} parameters, only {rank} determinable: {', '.join(self.combinations)}."
@@ -99,6 +107,7 @@ def global_identifiability(
         is_infinite=infinite,
         unique=unique,
         combinations=_combinations(ring, model, local.rank, unique),
+        exponents=model.powers.exponents,
     )
 
 
@@ -121,6 +130,7 @@ def _decoded(text: str) -> GlobalIdentifiability:
         is_infinite=data["is_infinite"],
         unique=tuple(data["unique"]),
         combinations=tuple(data["combinations"]),
+        exponents=tuple(data["exponents"]),
     )
 
 

@@ -53,7 +53,7 @@ KINDS = {
 }  # by the key that a model of this kind always has: all its keys
 FORMS = (
     'a state space "A", "B", "C", "D", a transfer function "num" and "den" or "G", a "chain"'
-    ' such as "3:1+b2", or a "circuit", "machine", "network", "flows" or "elements"'
+    ' such as "3:1+b2", or a "circuit", "machine", "network", "flows", "elements" or "components"'
 )
 
 
@@ -178,7 +178,11 @@ def read_entry(entry: Mapping[str, object]) -> AnyModel:
 
 
 def models_of(data: object) -> ModelList:
-    """The models of what a file holds; raises InputError."""
+    """The models of what a file holds: a drive train of openTorsion alone, or a list; raises
+    InputError.
+    """
+    if isinstance(data, dict) and "components" in data:
+        data = {"models": [data]}
     whole = object_of(data, ("format", "title", "s", "models"), "the file")
     _refuse_format(text_of(whole, "format", Format.MODELS.value))
     entries = whole.get("models")

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE, EXACT
@@ -21,6 +21,7 @@ from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import REPLACEMENT, Theorem
 from disting.evidence.general import Constants, Replaced, Witnesses
+from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
@@ -39,7 +40,7 @@ from disting.general.model_inclusions import (
 from disting.general.readings import readings, told
 from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
-from disting.model.question import Domain, Question, Settings
+from disting.model.question import Domain, Question, Relation, Settings
 from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
@@ -156,12 +157,25 @@ class ComparedModel(Side[AnyModel]):
         if one.rank == 0:
             return _constants(self.subject, other.subject)
         found = self.answerer(EXACTLY, _models(self, other), self.settings)
-        if found.outcome is not Outcome.HOLDS and self.has_other_readings:
-            return Finding(EXACT, Outcome.ABANDONED, note=OTHER_ORDER)
-        return resting_on_ranks(found, one, there)
+        return self._in_every_order(other, resting_on_ranks(found, one, there))
+
+    def _in_every_order(self, other: "ComparedModel", found: Finding) -> Finding:
+        """What is found with the exponents in one order, of all of them: a difference is none where
+        another order is no symmetry, and as sure as the profiles by which others are left out.
+        """
+        if found.outcome not in (Outcome.FAILS, Outcome.SOMETIMES) or not readings(self.subject):
+            return found
+        if self.has_other_readings:
+            return Finding(found.rule, Outcome.ABANDONED, note=OTHER_ORDER)
+        safeties = [s.transfer_profile.safety for s in (self, other)]
+        safety = joint_safety([*safeties, *[found.safety] * bool(found.safety)])
+        return replace(found, certainty=Certainty.BOUNDED, safety=safety)
 
     def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both."""
+        one_order = Carrier.CONDITION not in evidence.claim.carriers and self.has_other_readings
+        if one_order and not any(evidence.shows(d) is Relation.INDISTINGUISHABLE for d in Domain):
+            return False
         if evidence == Theorem(REPLACEMENT):
             return _replaceable(self, other)
         if isinstance(evidence, Replaced):
@@ -184,8 +198,10 @@ class ComparedModel(Side[AnyModel]):
         if not comparable(self, other):
             return None
         found = model_evidence.exact_again(evidence, *_models(self, other), self.settings)
+        if found is None:
+            return None
         profiles = self.transfer_profile, other.transfer_profile
-        return None if found is None else resting_on_ranks(found, *profiles)
+        return self._in_every_order(other, resting_on_ranks(found, *profiles))
 
     def admissible(
         self, other: "ComparedModel", domain: Domain, why: Evidence | None = None
@@ -200,8 +216,7 @@ class ComparedModel(Side[AnyModel]):
                 ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(REPLACEMENT)
             )
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
-        if found.outcome is not Outcome.HOLDS and self.has_other_readings:
-            return Finding(ADMISSIBLE, Outcome.ABANDONED, note=OTHER_ORDER)
+        found = self._in_every_order(other, found)
         names = {LEFT: self.name, RIGHT: other.name}
         note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
         return replace(found, note=note)

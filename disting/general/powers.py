@@ -11,7 +11,7 @@ then is a power of v, which is cancelled and remembered, or the weights are chos
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import count, permutations
+from itertools import permutations
 
 from flint import fmpz_mpoly, nmod_poly
 
@@ -23,6 +23,7 @@ from disting.errors import InputError
 from disting.network.network import Network
 
 MOST_EXPONENTS = 4
+MOST_TRIED = 64  # weights: one lot in thousands makes a common factor
 Terms = tuple[tuple[tuple[int, ...], int], ...]
 """A polynomial in the parameters: exponents and coefficient of each term, in falling
 lexicographic order.
@@ -154,7 +155,7 @@ def weighted(cells: Sequence[Cell], halves: bool, names: Sequence[str]) -> Power
     without a common factor but v.
     """
     tops = [2 * _degree(cells, j) + 1 for j in range(len(names) + 1)]
-    for more in count():
+    for more in range(MOST_TRIED):
         weights, size = list[tuple[str, int]](), 1
         for name, top in zip(names, tops, strict=False):
             size *= top + more
@@ -162,7 +163,7 @@ def weighted(cells: Sequence[Cell], halves: bool, names: Sequence[str]) -> Power
         found = Powers(halves, tuple(weights))
         if all(_is_coprime(cell, found) for cell in cells):
             return found
-    raise AssertionError("there are always such weights")
+    raise InputError("the functions have a common factor for all weights of their exponents")
 
 
 def cell_in(ratio: RationalFunction, exponents: Sequence[str], size: int) -> Cell:

@@ -17,8 +17,8 @@ from disting.model.chain import Chain
 from disting.model.constraints import Indices, violated
 from disting.report.domains import one_sided
 from disting.report.drawing import draw
+from disting.report.graph_drawing import hatched
 from disting.report.model import folder_of
-from disting.report.network_drawing import hatched
 from disting.report.network_symbols import Track, drawn, gear
 from disting.report.page_drawing import Part, ground_dampers, height_with_dampers
 from disting.report.scene import Layer

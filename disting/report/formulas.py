@@ -52,7 +52,7 @@ from disting.report.words import LARGEST_SPELLED_OUT
 CAUER_UP_TO = 3
 MOST_TERMS = 300  # of a general model whose coefficients are written out
 LONGEST_BRACKET = 9  # letters of a sum in parentheses; a browser cannot break it
-G_OF_S = '<mi>G</mi><mo stretchy="false">(</mo><mi>s</mi><mo stretchy="false">)</mo>'
+OF_S = '<mo stretchy="false">(</mo><mi>s</mi><mo stretchy="false">)</mo>'
 Coefficient = tuple[int, Polynomial]
 """Power of s and its coefficient."""
 Side = tuple[str, Sequence[Coefficient]]
@@ -97,21 +97,27 @@ def written(chain: Chain) -> TransferFunction:
     return _transfer(sides, stiffness=stiffness)
 
 
-def written_model(model: Model) -> TransferFunction:
-    """The transfer function of a general model; of a large one the head alone."""
+def written_model(model: Model, letter: str = "G") -> TransferFunction:
+    """The transfer function of a general model, called by a letter; of a large one the head
+    alone.
+    """
     sides = [
         (letter, [(power, p) for power, p in enumerate(side) if not p.is_zero()])
         for letter, side in (("b", model.numerator), ("a", model.denominator))
     ]
     size = sum(len(p) for _, found in sides for _, p in found)
-    return _transfer(sides, spelled_out=size <= MOST_TERMS)
+    return _transfer(sides, spelled_out=size <= MOST_TERMS, called=letter)
 
 
 def _transfer(
-    sides: Sequence[Side], *, stiffness: bool = False, spelled_out: bool = True
+    sides: Sequence[Side],
+    *,
+    stiffness: bool = False,
+    spelled_out: bool = True,
+    called: str = "G",
 ) -> TransferFunction:
     """Numerator and denominator as a quotient and, spelled out, by their coefficients."""
-    head = equation(G_OF_S, fraction(*(_in_s(*side) for side in sides)))
+    head = equation(symbol(called) + OF_S, fraction(*(_in_s(*side) for side in sides)))
     flat = [
         (f"{letter}{power}", _shown(content(p)))
         for letter, coefficients in sides
@@ -121,7 +127,7 @@ def _transfer(
         (math(f"{symbol(label)}<mo>=</mo>"), _typeset(parts, stiffness))
         for label, (parts, _) in flat
     )
-    text = _latex(sides, [(label, of) for label, (_, of) in flat])
+    text = _latex(sides, [(label, of) for label, (_, of) in flat], called)
     return TransferFunction(
         head, lines, text.replace("k_{", r"\kappa_{") if stiffness else text, stiffness
     )
@@ -227,9 +233,9 @@ def _in_s(letter: str, found: Sequence[Coefficient]) -> str:
     )
 
 
-def _latex(sides: Sequence[Side], flat: Sequence[tuple[str, str]]) -> str:
+def _latex(sides: Sequence[Side], flat: Sequence[tuple[str, str]], called: str) -> str:
     top, bottom = (_latex_in_s(letter, tuple(n for n, _ in found)) for letter, found in sides)
-    rows = [rf"G(s) &= \frac{{{top}}}{{{bottom}}}"] + [
+    rows = [rf"{called}(s) &= \frac{{{top}}}{{{bottom}}}"] + [
         f"{latex_symbol(label)} &= {of}" for label, of in flat
     ]
     return "\\begin{align}\n  " + " \\\\\n  ".join(rows) + "\n\\end{align}"

@@ -2,7 +2,6 @@
 formulas, its transfer function, what can be determined.
 """
 
-from collections import Counter
 from dataclasses import dataclass, replace
 
 from disting.equivalence.duplicates import duplicate
@@ -14,14 +13,15 @@ from disting.network.network import Network
 from disting.report.environment import render
 from disting.report.formulas import TransferFunction, Values, written_model, written_values
 from disting.report.listing import Card, Listing
-from disting.report.words import plural, rule_in_words
+from disting.report.model import told_apart
+from disting.report.words import plural
 from disting.verdict.meaning import shown as shows
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
 MOST_VALUES = 6  # parameters of a model whose values are written as formulas of another's
 MOST_TWINS = 12  # of which formulas are written
-FUNCTIONS = {Sort.CIRCUIT: "impedance"}
+FUNCTIONS, LETTERS = {Sort.CIRCUIT: "impedance"}, {Sort.CIRCUIT: "Z"}
 SEEN = {
     Sort.MACHINE: "experiment with this force and sensor",
     Sort.CIRCUIT: "measurement at this port",
@@ -58,9 +58,6 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
         for other, v in verdicts.items()
         if v.relation is not Relation.DISTINGUISHABLE
     ]
-    apart = Counter(
-        v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE
-    )
     complex_same = [
         shown.cards[o - 1]
         for o in verdicts
@@ -69,18 +66,19 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
     ]
     drawn = [c.drawing for c in (card, *(t.card for t in twins)) if c.drawing]
     network = card.model.network
+    sort = _sort(network)
     return render(
         "listed-model.html",
         shown=shown,
         card=card,
         twins=twins,
         complex_same=complex_same,
-        told_apart=[(rule_in_words(rule), count) for rule, count in apart.most_common()],
+        told_apart=told_apart(verdicts),
         drawings=drawn,
-        transfers=_transfers(card.model),
+        transfers=_transfers(card.model, LETTERS.get(sort, "G")),
         unseen=network.unseen if network else (),
-        function=FUNCTIONS.get(_sort(network), "transfer function"),
-        seen=SEEN.get(_sort(network), "experiment with this input and output"),
+        function=FUNCTIONS.get(sort, "transfer function"),
+        seen=SEEN[sort],
         last=len(shown.cards),
         site=site,
         plural=plural,
@@ -127,12 +125,12 @@ def _values(shown: Listing, number: int, other: int) -> tuple[Values, ...]:
     return tuple(map(written_values, known.formulas))
 
 
-def _transfers(model: AnyModel) -> list[tuple[str, TransferFunction]]:
+def _transfers(model: AnyModel, letter: str) -> list[tuple[str, TransferFunction]]:
     """The transfer functions that are not zero, each with what it leads from and to."""
     if isinstance(model, Model):
-        return [("", written_model(model))]
+        return [("", written_model(model, letter))]
     return [
-        (f"from input {k} to output {i}", written_model(entry))
+        (f"from input {k} to output {i}", written_model(entry, letter))
         for i, row in enumerate(model.rows, 1)
         for k, entry in enumerate(row, 1)
         if entry is not None

@@ -39,26 +39,24 @@ COLUMNS = (
 
 def write_model_list(shown: Listing, out: Path, *, site: bool = False) -> list[Path]:
     """Write the page of the list, a page for each model, the verdicts over positive parameters as
-    CSV and JSON, and the models as CSV, into a folder; `site`: the pages around it, which are
-    written too, stand beside it. Where all are machines of masses, springs and dampers, also the
-    page on which two of them move. Returns the paths.
+    CSV and JSON, the models as CSV, and the page on which two of them move, into a folder; `site`:
+    the pages around it, which are written too, stand beside it. Returns the paths.
     """
     out.mkdir(parents=True, exist_ok=True)
     site, guide = (site or (out / page).is_file() for page in ("index.html", "guide/index.html"))
-    motion = page_of_motion(shown.found, shown.name)
     decided = shown.found.decisions[View.POSITIVE]
     texts = {
-        f"{shown.name}.html": model_list_page(shown, site=site, guide=guide, motion=motion),
+        f"{shown.name}.html": model_list_page(shown, site=site, guide=guide),
         f"{shown.name}.csv": decisions_csv(decided),
         f"{shown.name}.json": decisions_json(decided),
         f"{shown.name}-models.csv": models_csv(shown),
         "models/style.css": "".join(map(source, ("style.css", "model.css", "next.css"))),
     }
+    if page_of_motion(shown):
+        texts[page_of_motion(shown)] = motion_page_of(shown, site=site and guide)
     for card in shown.cards:
         page = listed_model_page(shown, card.number, site=site and guide)
         texts[f"{shown.folder}/{card.number}.html"] = page
-    if motion:
-        texts[motion] = motion_page_of(shown.found, shown.title, shown.name, site=site and guide)
     (out / shown.folder).mkdir(parents=True, exist_ok=True)
     return [write_whole(out / name, [text]) for name, text in texts.items()]
 
@@ -99,12 +97,8 @@ def page_name(path: Path) -> str:
     return f"list-{name}"
 
 
-def model_list_page(
-    shown: Listing, *, site: bool = False, guide: bool = False, motion: str = ""
-) -> str:
-    """HTML of the page; `site`, `guide`: whether these pages stand beside it; `motion`: the page on
-    which two of the models move.
-    """
+def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) -> str:
+    """HTML of the page; `site`, `guide`: whether these pages stand beside it."""
     found, count = shown.found, len(shown.cards)
     n_pairs = count * (count - 1) // 2
     data = payload(
@@ -127,7 +121,7 @@ def model_list_page(
         payload=data,
         site=site,
         guide=guide,
-        motion=motion,
+        motion=page_of_motion(shown),
         plural=plural,
     )
 

@@ -19,7 +19,7 @@ from disting.network.graph import edges
 from disting.network.network import Network
 from disting.report.domains import one_sided
 from disting.report.environment import render
-from disting.report.listing import JudgedList
+from disting.report.listing import JudgedList, Listing
 from disting.report.motion import START
 from disting.report.payload import script_json
 from disting.verdict.query import View
@@ -37,14 +37,14 @@ Place = tuple[float, float]
 Line = tuple[Place, Place]
 
 
-def page_of_motion(found: JudgedList, name: str) -> str:
+def page_of_motion(shown: Listing) -> str:
     """Name of the page of a list, "" where there is none: for fewer than two machines, for models
     that are none, for machines of different numbers of masses or quantities of the sensor.
     """
-    machines = list(map(machine_of, found.family))
+    machines = list(map(machine_of, shown.found.family))
     sizes = {(len(m.nodes), m.order) for m in machines if m is not None}
     has = None not in machines and len(sizes) == 1 and 2 <= len(machines) <= MOST
-    return f"{name}-motion.html" if has else ""
+    return f"{shown.name}-motion.html" if has else ""
 
 
 def machine_of(model: AnyModel) -> Network | None:
@@ -60,16 +60,17 @@ def machine_of(model: AnyModel) -> Network | None:
     return network if plain and len(masses) == len(network.nodes) else None
 
 
-def motion_page_of(found: JudgedList, title: str, name: str, *, site: bool = False) -> str:
+def motion_page_of(shown: Listing, *, site: bool = False) -> str:
     """HTML of the page; `site`: whether start page and guide stand beside it."""
-    groups = found.classes(View.POSITIVE)
+    found, groups = shown.found, shown.found.classes(View.POSITIVE)
     machines = [m for m in map(machine_of, found.family) if m is not None]
-    drawn = list(map(drawing_of, machines))
     payload = {
+        "folder": shown.folder,
         "masses": len(machines[0].nodes),
         "damped": any(e.letter == "d" for m in machines for e in m.elements),
-        "names": [model.name for model in found.family],
-        "machines": drawn,
+        "names": [card.label for card in shown.cards],
+        "hints": [card.name for card in shown.cards],
+        "machines": list(map(drawing_of, machines)),
         "values": [start_values_of(m) for m in machines],
         "first": groups[0][:2] if groups else (1, 2),
         "groups": groups,
@@ -83,10 +84,10 @@ def motion_page_of(found: JudgedList, title: str, name: str, *, site: bool = Fal
     }
     return render(
         "motion.html",
-        family=title,
-        back=f"{name}.html",
+        family=shown.title,
+        back=f"{shown.name}.html",
         site=site,
-        members=[tuple(found.family[i - 1].name for i in group) for group in groups],
+        members=[tuple(shown.label(i) for i in group) for group in groups],
         parts="",
         payload=script_json(payload),
     )

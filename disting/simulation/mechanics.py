@@ -1,8 +1,8 @@
 """A model as numbers: its matrices and its frequency response.
 
 An element of value p adds p s^r u v' to P(s) = sum_r P_r s^r (1/p of a resistor, an inductor, a
-Warburg element). The response of a sensor of order n = 0, 1, 2 (position, velocity, acceleration;
-0 of a circuit or compartments) is
+Warburg element; r of a constant phase element is a parameter). The response of a sensor of order
+n = 0, 1, 2 (position, velocity, acceleration; 0 of a circuit or compartments) is
 
     G(s) = s^n exp(-s Td) / (1 + s T1) c' P(s)^-1 b.
 
@@ -74,7 +74,7 @@ class Form:
                 for side in (e.pulls, e.feels)
             )
             term = (1 / size if e.kind.divides else size) * np.outer(u, v)
-            power = e.kind.halves / 2
+            power = values[e.exponent] if e.exponent else e.kind.halves / 2
             found[power] = found[power] + term if power in found else term
         return found
 
@@ -97,7 +97,8 @@ def form_of(model: AnyModel) -> Form:
             )
         plain = model.grounded if model.sort is Sort.CIRCUIT else model
         force, sensor = plain.ports
-        return Form(model.parameters, plain.elements, plain.nodes, force, sensor, model.order)
+        parameters = (*model.parameters, *model.exponents)
+        return Form(parameters, plain.elements, plain.nodes, force, sensor, model.order)
     structure = model.structure if isinstance(model, Chain) else model
     nodes = tuple(range(1, structure.n_masses + 1))
     elements, ports = elements_of(structure), ports_of(structure)
@@ -105,8 +106,8 @@ def form_of(model: AnyModel) -> Form:
 
 
 def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
-    """The values of all parameters; raises InputError for missing, unknown or negative ones,
-    and for masses, ratios and what divides that are zero.
+    """The values of all parameters; raises InputError for missing, unknown or negative ones, for
+    masses, ratios, exponents and what divides that are zero, and for exponents above 1.
     """
     form = form_of(model)
     if set(form.parameters) != set(values):
@@ -114,7 +115,10 @@ def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
             f"parameters {listed(form.parameters)} are needed, given are {listed(values) or 'none'}"
         )
     positive = {e.value for e in form.elements if e.letter == "m" or e.kind.divides}
-    positive |= {e.ratio for e in form.elements}
+    positive |= {name for e in form.elements for name in (e.ratio, e.exponent)}
+    above = [e.exponent for e in form.elements if e.exponent and values[e.exponent] > 1]
+    if above:
+        raise InputError(f"{above[0]} = {values[above[0]]} is no exponent: it is at most 1")
     for name, value in values.items():
         if not 0 <= value < np.inf or (name in positive and value == 0):
             kind = "positive" if name in positive else "non-negative"

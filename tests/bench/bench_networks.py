@@ -186,7 +186,7 @@ def test_beside_singular(benchmark) -> None:
             found = compare(left, right, query=Query(View.EXACT, inclusion=False)).relation
             ours += time.perf_counter() - start
             start = time.perf_counter()
-            networks = (plain(m.network, left.halves) for m in (left, right))
+            networks = (plain(m.network, left.powers.halves) for m in (left, right))
             true = truth(*networks, random.Random(1), 10.0)
             theirs += time.perf_counter() - start
             late += true is None

@@ -179,6 +179,8 @@ def test_damaged_files_are_refused(fit_file, tmp_path, change, words):
         ("plan R0-C1 R0-C1 --set R0=1,C1=1 --noise 0.1 --band 1..2", "no rival of itself"),
         ("plan R0-C1 R0-L1 --set R0=1,C1=1 --noise 0.1", "--band 5..300"),
         ("simulate R0-C1", "the value of C1, R0 is missing; the parameters of R0-C1 are C1, R0"),
+        ("simulate R0-P1 --set R0=1,P1=1", "the value of n1 is missing"),
+        ("simulate R0-P1 --set R0=1,P1=1,n1=2", "n1 = 2.0 is no exponent"),
         ("simulate R0-C1 --set R0=1,C1=0", "values of elements are positive"),
         ("simulate R0-C1 --set R0=1,C1=1,L1=1", "L1: no parameter of R0-C1"),
         ("simulate R0-C1 --set R0=1,C1=1 --quantity velocity", "--quantity belongs to machines"),

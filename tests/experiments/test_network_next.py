@@ -194,6 +194,14 @@ def test_compartments_and_machines(capsys):
     assert all("mass" in item for item in told["menu"])
 
 
+def test_networks_with_two_sensors_and_with_constant_phase_elements(capsys):
+    assert main(["next", "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"]) == 0
+    told = capsys.readouterr().out
+    assert "what tells all of them apart: a sensor at any further mass" in told
+    assert main(["next", "R0-p(R1,P1)", "p(R0,R1-P2)"]) == 0
+    assert "the voltage at any further node measured (cost 1)" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("texts", "sentence"),
     [

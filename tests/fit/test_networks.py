@@ -11,9 +11,9 @@ import pytest
 from disting import InputError, Sensor
 from disting.fit.networks import fit_networks
 from disting.fit.noise.covariance import expected
-from disting.fit.search.network_plant import NetworkPlant
+from disting.fit.search.network_plant import NetworkPlant, NetworkPlants
 from disting.general.any_model import of_network
-from disting.measurement import FrequencyResponse, read
+from disting.measurement import FrequencyResponse, read, write_csv
 from disting.network import Network, network_of
 from disting.network.families import family_of
 
@@ -60,6 +60,70 @@ def test_response_and_gradient_are_those_of_the_transfer_function(text):
             np.testing.assert_allclose(
                 gradient[k, j], moved / (2e-6 * values[j]), rtol=1e-3, atol=1e-6
             )
+
+
+def test_stacked_responses_have_the_gradients_of_each():
+    network = network_of("1=2*i, 2~#; F1 F2; S1 S2:1")
+    omegas = tuple(np.logspace(0, 1, n) for n in (3, 4, 5, 6))
+    plant = NetworkPlants(network, omegas)
+    p = np.exp(np.random.default_rng(1).normal(size=(2, len(plant.parameters))))
+    response, gradient = plant.logarithmic_gradient(p)
+    assert response.shape == (2, 18)
+    np.testing.assert_allclose(plant.response(p), response)
+    model = of_network(network)
+    for k, (row, column) in enumerate([(0, 0), (0, 1), (1, 0), (1, 1)]):
+        s = 1j * omegas[k]
+        values = dict(zip(plant.parameters, p[0], strict=True))
+        one = lambdify(str(model.rows[row][column]).removeprefix("G(s) = "), values)
+        np.testing.assert_allclose(np.split(response[0], [3, 7, 12])[k], one(s), rtol=1e-9)
+    for j in range(p.shape[1]):
+        step = 1e-6 * p * np.eye(p.shape[1])[j]
+        moved = np.log(plant.response(p + step) / plant.response(p - step)) / (2e-6 * p[:, [j]])
+        np.testing.assert_allclose(gradient[:, j], moved, rtol=1e-3, atol=1e-6)
+
+
+def lambdify(text, values):
+    import sympy as sp
+
+    return sp.lambdify(sp.Symbol("s"), sp.sympify(text, values))
+
+
+def test_two_sensors_are_fitted_together(tmp_path):
+    omega, draw = np.logspace(-0.7, 1, 80), np.random.default_rng(3)
+    texts = ["1=2=3; F1; S1 S3", "1=2, 1=3; F1; S1 S3", "1=2; F1; S1 S2"]
+    plant = NetworkPlants(network_of(texts[1], quantity=Sensor.POSITION), (omega, omega))
+    values = {"d12": 0.2, "d13": 0.3, "k12": 3.0, "k13": 7.0, "m1": 1.0, "m2": 2.0, "m3": 0.5}
+    assert plant.parameters == tuple(values)
+    clean = np.split(plant.response(np.array(list(values.values()))), 2)
+    noisy = [c * (1 + 2e-3 * draw.normal(size=(80, 2)) @ [1, 1j]) for c in clean]
+    data = [FrequencyResponse(omega, g, sensor=Sensor.POSITION) for g in noisy]
+    found = fit_networks(data, list(map(network_of, texts)))
+    assert [f.network.name for f in found.left] == [texts[1]]
+    assert found.left[0].values == pytest.approx(values, rel=0.02)
+    for name, one in zip("ab", data, strict=True):
+        write_csv(one, tmp_path / f"{name}.csv")
+    command = ["fit", "a.csv", "b.csv", "--quantity", "position"]
+    for text in texts:
+        command += ["--models", text]
+    done = subprocess.run(
+        [sys.executable, "-m", "disting", *command], capture_output=True, text=True, cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert f"{texts[1]} is the simplest that explains the data." in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("texts", "count", "said"),
+    [
+        (["1~2; F1; S1 S2"], 1, "give as many measured responses, not 1"),
+        (["1~2; F1; S1 S2", "1~2; F1; S1"], 2, "fit them apart"),
+        ([], 1, "name at least one network"),
+    ],
+)
+def test_responses_and_networks_that_do_not_fit_each_other(texts, count, said):
+    one = FrequencyResponse(np.logspace(0, 1, 20), np.ones(20) + 0j, sensor=Sensor.POSITION)
+    with pytest.raises(InputError, match=said):
+        fit_networks([one] * count, list(map(network_of, texts)))
 
 
 def test_a_sensor_between_two_masses_that_move_alike_keeps_its_digits():
@@ -131,6 +195,29 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
     assert (low, high) == pytest.approx((1e-3, 1e-2), rel=0.05)
 
 
+def test_an_exponent_is_found_and_a_capacitor_excluded():
+    texts = ["R0-p(R1,C1)", "R0-p(R1,P1)", "p(R0,R1-P1)", "R0-p(R1,W1)"]
+    plant = NetworkPlant(network_of(texts[1]), np.logspace(0, 5, 60))
+    assert plant.parameters == ("P1", "R0", "R1", "n1")
+    noise = 2e-3 * np.random.default_rng(5).normal(size=(60, 2)) @ [1, 1j]
+    measured = plant.response(np.array([1e-4, 10.0, 50.0, 0.83])) * (1 + noise)
+    data = FrequencyResponse(plant.omega, measured, sensor="position")
+    found = fit_networks(data, list(map(network_of, texts)))
+    assert [f.network.name for f in found.left] == [texts[1]]
+    best = found.left[0]
+    assert (best.same, best.rank) == ((texts[2],), 4)
+    assert best.values["n1"] == pytest.approx(0.83, abs=5e-3)
+    assert best.relative["n1"] == pytest.approx(2e-3, rel=2)
+
+
+@needs_data
+def test_a_capacitor_is_a_constant_phase_element_of_exponent_one():
+    """A dummy cell of resistors and a capacitor: 150 and 502 ohm, published."""
+    (fit,) = fit_networks(read(DATA / "Circuit2_EIS_1.z"), [network_of("R0-p(R1,CPE1)")]).fits
+    assert fit.values["n1"] == pytest.approx(1, abs=5e-3)
+    assert (fit.values["R0"], fit.values["R1"]) == pytest.approx((150, 502), rel=5e-3)
+
+
 @needs_data
 @pytest.mark.parametrize(
     ("file", "published"),
@@ -198,9 +285,3 @@ def test_bad_input_is_one_sentence(tmp_path, words, said):
     file.write_text("\n".join(f"{k},{1 / k},0.1" for k in range(1, 20)))
     done = run(str(file), *words)
     assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
-
-
-def test_several_outputs_are_refused():
-    data = FrequencyResponse(np.arange(1.0, 20.0), np.ones(19) + 0j)
-    with pytest.raises(InputError, match="several inputs or outputs"):
-        fit_networks(data, [network_of("1=2; F1; S1 S2")])

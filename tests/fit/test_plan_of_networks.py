@@ -76,6 +76,15 @@ def test_a_chain_is_planned_alike_as_a_network():
         assert other.rival.parameters[name] == pytest.approx(value, rel=1e-2)
 
 
+def test_an_exponent_is_a_parameter_of_the_rival():
+    values = {"R1": 1.0, "P1": 0.01, "n1": 0.7}
+    model, rival = network_of("p(R1,P1)"), network_of("R0-p(R1,C1)")
+    found = plan(model, values, rival, OMEGA, alike(0.1)).rival
+    assert found.trust is Trust.AGREED and found.noncentrality > 1
+    back = plan(rival, found.parameters, model, OMEGA, alike(0.1)).rival
+    assert 0 < back.parameters["n1"] <= 1 and back.noncentrality > 0
+
+
 def test_same_networks_are_not_even_fitted():
     found = plan(RIVAL, VALUES, network_of("p(R0,R1-C1)"), OMEGA, alike(0.1))
     assert found.answer is Answer.IMPOSSIBLE and found.rival is None

@@ -1,5 +1,5 @@
 """Random networks of up to five nodes for hypothesis: machines with masses, inerters, dampers,
-springs and gears, circuits with Warburg elements, compartments; several ports; parts that float,
+springs and gears, circuits with Warburg and constant phase elements, compartments; several ports; parts that float,
 hang, or are not held at all.
 """
 
@@ -9,7 +9,8 @@ from disting.errors import InputError
 from disting.network import Element, Network, Port
 
 RATIOS = st.sampled_from(["", "", "", "g", "g2", "3", "2/3", "1", "0.5"])
-LETTERS = ["mmjdk", "RLCW", "RLC", "a"]
+LETTERS = ["mmjdk", "RLCW", "RLC", "RLCPPW", "a"]
+EXPONENTS = st.sampled_from(["na", "nb"])  # elements share them
 
 
 @st.composite
@@ -24,7 +25,8 @@ def descriptions(draw, most_nodes=5, most_elements=9, most_ports=2):
         ends = (draw(node),) if letter == "m" else (draw(node), draw(ground))
         ratio = draw(RATIOS) if letter in "jdk" and 0 not in ends and top > 1 else ""
         if len(set(ends)) == len(ends):
-            elements.append(Element(f"{letter}{k}", letter, ends, ratio))
+            exponent = draw(EXPONENTS) if letter == "P" else ""
+            elements.append(Element(f"{letter}{k}", letter, ends, ratio, exponent))
     if letters == "a":
         elements += [Element("", "v", (i,)) for i in range(1, top + 1)]
     ports = st.lists(st.builds(Port, node, ground), min_size=1, max_size=most_ports)

@@ -4,6 +4,7 @@ terms, and the same networks without any.
 
 import random
 from fractions import Fraction
+from math import prod
 
 import pytest
 from hypothesis import assume, given, settings
@@ -24,7 +25,10 @@ def is_as_the_laws_say(description, seed):
     assume(not isinstance(network, str) and network.parameters)
     draw = random.Random(seed)
     points = [
-        ({p: draw.randrange(1, 10**9) for p in network.parameters}, draw.randrange(1, 10**9))
+        (
+            {p: draw.randrange(1, 10**9) for p in (*network.parameters, *network.exponents)},
+            draw.randrange(1, 10**9),
+        )
         for _ in range(POINTS)
     ]
     expected = [response(network, values, root) for values, root in points]
@@ -42,14 +46,19 @@ def is_as_the_laws_say(description, seed):
 
 
 def value(model, values, root):
-    """G at these values and this root of s."""
-    s = root if model.powers.halves else root**2
+    """G at these values, this root of s, and values of s^n by the name of n."""
+    bases = [root if model.powers.halves else root**2]
+    bases += [values[name] for name in model.powers.exponents]
     point = [values[p] for p in model.parameters]
     top, bottom = (
-        sum(polynomial(terms, point) * s**i for i, terms in enumerate(side))
+        sum(polynomial(c, point) * power(bases, model.powers.parts(i)) for i, c in enumerate(side))
         for side in (model.numerator_terms, model.denominator_terms)
     )
     return Fraction(top, bottom)
+
+
+def power(bases, parts):
+    return prod(base**part for base, part in zip(bases, parts, strict=True))
 
 
 def polynomial(terms, point):

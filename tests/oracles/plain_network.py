@@ -67,10 +67,10 @@ def _ratio(text, value):
 
 
 def response(network, values, root):
-    """The matrix of transfer functions at these numbers and this root of s; None for an entry that
-    the equations contradict or leave open.
+    """The matrix of transfer functions at these numbers, s^n among them by the name of n, and this
+    root of s; None for an entry that the equations contradict or leave open.
     """
-    sides = equations(network, values.__getitem__, root**2, root)
+    sides = equations(network, values.__getitem__, root**2, root, values)
     a, b, c = ([[_exact(x) for x in row] for row in side] for side in sides)
     derived = root ** (2 * network.order)
     return [[_solved(a, entering, sensor, derived) for entering in b] for sensor in c]

@@ -28,6 +28,8 @@ CHEAP = tuple(
         "models 3",
         "models vessels",
         "models decay",
+        "models mill",
+        "compare mill",
         "next",
         'plan "',
         "schema",

@@ -337,12 +337,6 @@ def test_no_all_clear_is_given_of_a_machine_that_is_not_shipped(visit) -> None: 
         assert ("Nothing is said here about what else looks like this machine" in said) != clear
 
 
-def test_what_cannot_be_determined_is_said_first(visit) -> None:  # type: ignore[no-untyped-def]
-    slots = visit("index.html").locator("#machine [role=status] p")
-    texts = slots.evaluate_all("all => all.map((p) => p.dataset.slot)")
-    assert texts.index("known") < texts.index("twins")
-
-
 def test_the_address_holds_all_of_it(visit) -> None:  # type: ignore[no-untyped-def]
     tab = _opened(visit("index.html"))
     text = _more(tab, masses="4", joined_4="2", second="0,4", friction_3=True, delay=True)

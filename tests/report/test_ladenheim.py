@@ -13,9 +13,11 @@ from disting.general.any_model import of_network
 from disting.general.identifiability import local_identifiability
 from disting.network.families import FAMILIES
 from disting.report.ladenheim import classes, is_canonical, ladenheim_page
+from disting.report.listed_model import listed_model_page
 from disting.report.listing import Listing, judged
-from disting.report.model_list import write_model_list
+from disting.report.model_list import model_list_page, write_model_list
 from tests.report.outline import Outline
+from tests.report.test_hard_words import unexplained
 
 
 def test_108_of_148_circuits_determine_their_values() -> None:
@@ -63,6 +65,13 @@ def test_the_page_tells_it(visit, four: Listing) -> None:  # type: ignore[no-unt
     assert tab.inner_text("h1").startswith("Model A17")
     page = Outline(ladenheim_page(four))
     assert not [a for _, a in page.elements if a.get("href") == "index.html"]
+
+
+def test_pages_of_a_family_use_no_word_of_the_trade_unexplained(four: Listing) -> None:
+    """The sentences of evidence aside, which are in a box of algebra."""
+    assert unexplained(ladenheim_page(four)) == set()
+    assert unexplained(listed_model_page(four, 11)) == set()
+    assert unexplained(model_list_page(four)) == set()
 
 
 @pytest.mark.slow

@@ -18,7 +18,8 @@ from disting.model.chain import Chain
 from disting.network.families import FAMILIES
 from disting.report import network_png, network_svg
 from disting.report.circuit_drawing import Part, series_parallel
-from disting.report.network_drawing import RADIUS, describe_network, draw_network, scene_of
+from disting.report.graph_drawing import RADIUS
+from disting.report.network_drawing import describe_network, draw_network, scene_of
 from disting.report.scene import Ink, Path, Text, extent
 from tests.cli.process import called
 from tests.network.drawn import built, descriptions

@@ -42,9 +42,8 @@ PAGE = "list-loops-motion.html"
 
 
 def listed(texts):
-    return judged(
-        ModelList(tuple(of_network(network_of(t, name=n)) for n, t in texts.items())), Engine()
-    )
+    models = tuple(of_network(network_of(t, name=n)) for n, t in texts.items())
+    return Listing(judged(ModelList(models), Engine()), "Loops", "list-loops")
 
 
 @pytest.fixture(scope="module")
@@ -55,8 +54,8 @@ def found():
 @pytest.fixture(scope="module")
 def site(found, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("motion")
-    written = write_model_list(Listing(found, "Loops", "list-loops"), folder)
-    assert PAGE in [path.name for path in written]
+    assert folder / PAGE in write_model_list(found, folder)
+    assert f'href="{PAGE}"' in (folder / "list-loops.html").read_text(encoding="utf-8")
     return folder
 
 
@@ -74,7 +73,7 @@ def drawn(machine, values):
 def test_frequency_responses_are_those_of_python(visit, found) -> None:
     rng, omega = np.random.default_rng(1), np.geomspace(0.5, 80, 9)
     every = [m for name in FAMILIES for m in family_of(name).networks[::7]]
-    every += [machine_of(model) for model in found.family]
+    every += [machine_of(model) for model in found.found.family]
 
     asked = []
     for machine in every:
@@ -102,9 +101,9 @@ MOVED = """([given, values, force, dt]) => {
 
 @pytest.mark.parametrize("name", ["loop", "held"])
 def test_the_motion_is_that_of_the_state_space(visit, found, name) -> None:
-    data = data_of(motion_page_of(found, "Loops", "list"))
+    data = data_of(motion_page_of(found))
     at = list(TEXTS).index(name)
-    machine = machine_of(found.family[at])
+    machine = machine_of(found.found.family[at])
     values = data["values"][at]
     m, (act, meas) = matrices(machine, drawn(machine, values)), port_vectors(machine)
     n, dt = len(m.M), 0.02
@@ -124,9 +123,9 @@ def test_the_motion_is_that_of_the_state_space(visit, found, name) -> None:
 
 
 def test_the_page_knows_every_verdict(found) -> None:
-    data = data_of(motion_page_of(found, "Loops", "list-loops"))
+    data = data_of(motion_page_of(found))
     assert data["names"] == list(TEXTS) and data["masses"] == 3 and data["damped"]
-    assert data["groups"] == [list(group) for group in found.classes(View.POSITIVE)]
+    assert data["groups"] == [list(group) for group in found.found.classes(View.POSITIVE)]
     assert [m["order"] for m in data["machines"]] == [Sensor.ACCELERATION.order] * 4
 
 
@@ -206,5 +205,14 @@ def test_wrong_addresses_say_what_there_is(visit) -> None:
         {"a": "1-2; F1; S1", "b": "1=2; F1; S1"},
     ],
 )
-def test_other_lists_have_no_page(texts) -> None:
-    assert page_of_motion(listed(texts), "list") == ""
+def test_other_lists_have_no_page(texts, tmp_path) -> None:
+    assert page_of_motion(listed(texts)) == ""
+    assert not any("motion" in path.name for path in write_model_list(listed(texts), tmp_path))
+
+
+def test_machines_that_are_named_by_their_text_are_numbered(tmp_path) -> None:
+    texts = ["1~2; F1; S1", "#~1~2; F1; S1"]
+    found = listed(dict(zip(texts, texts, strict=True)))
+    data = data_of(motion_page_of(found))
+    assert data["names"] == ["A1", "A2"] and data["hints"] == texts
+    assert data["folder"] == "models/list-loops"

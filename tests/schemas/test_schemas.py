@@ -55,6 +55,15 @@ MODELS = {
         {"name": "rough", "elements": [["P1", 1, 2, "n"], ["P2", 2, 0, "n"]], "port": [1, 0]},
         {"name": "dose", "flows": [[1, 0]], "output": 1, "x0": {"1": "c"}, "known": []},
         {"name": "decay", "A": [["-k"]], "C": [1], "x0": ["c"]},
+        {
+            "name": "train",
+            "components": [
+                {"name": "A", "elements": [{"name": "B", "type": "Disk", "inertia": 2}]}
+            ],
+            "structure": [],
+            "force": "A.B",
+            "sensor": "A.B",
+        },
         {"name": "a", "A": [["-k12-k01", 0], ["k12", "-k02"]], "B": [1, 0], "C": [0, 1]},
         {"name": "b", "num": ["k"], "den": ["T", 1]},
         {"name": "c", "G": "(s**2 + w**2)/(s**2 + 2*z*w*s + w**2)"},

@@ -34,8 +34,8 @@ from disting.fit.plan.search import (
     AnyPlant,
     AnyStructure,
     Search,
+    box_of,
     name_of,
-    open_box,
     response_of,
     search,
     sensor_of,
@@ -217,6 +217,6 @@ class _Left:
 
 
 def _left(plant: AnyPlant, cost: Cost, start: Real) -> _Left:
-    p, _ = fine(plant, cost, open_box(len(start)), start)
+    p, _ = fine(plant, cost, box_of(plant), start)
     residual, columns = cost.of(plant, p)
     return _Left(residual, basis_of(columns), Noise(np.ones(len(residual))))

@@ -151,13 +151,14 @@ def _of_networks(model: Network, values: Mapping[str, float], rival: Network, co
 
 def _better(found: BestFit, plant: AnyPlant, cost: Cost, starts: Real) -> BestFit:
     """The best fit, or a better one to which further starts lead."""
-    box = open_box(len(found.p))
+    box = box_of(plant)
     with np.errstate(all="ignore"):  # far from the data responses may overflow
         ends = [fine(plant, cost, box, start) for start in starts]
     p, j = min([(found.p, found.j), *ends], key=lambda end: end[1])
     return BestFit(p, j, tuple(sorted([*found.costs, *(end[1] for end in ends)])))
 
 
-def open_box(size: int) -> Box:
-    """No bounds."""
-    return Box(np.zeros(size), np.full(size, np.inf))
+def box_of(plant: AnyPlant) -> Box:
+    """No bounds, but of exponents."""
+    size = len(plant.parameters)
+    return Box(np.zeros(size), np.full(size, np.inf) if isinstance(plant, Plant) else plant.highest)

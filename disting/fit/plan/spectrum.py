@@ -25,7 +25,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 from disting.fit.plan.rival import Rival, apart
-from disting.fit.plan.search import open_box
+from disting.fit.plan.search import box_of
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
 from disting.measurement.arrays import Real
@@ -93,7 +93,7 @@ class Adversary:
         """lambda, from the nearest fits so far."""
         plant, cost = self.rival.plant, self._cost(shares)
         sizes = np.array([cut @ shares for cut in self.cuts])
-        box = open_box(len(plant.parameters))
+        box = box_of(plant)
         ends = [fine(plant, cost, box, self.points[i], ENOUGH) for i in _distinct(sizes)]
         self.add(min(ends, key=lambda end: end[1])[0])
         return self.bound(shares)

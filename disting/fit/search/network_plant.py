@@ -14,6 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -162,6 +163,56 @@ class NetworkPlant:
         return found
 
 
+@dataclass(frozen=True, eq=False)
+class NetworkPlants:
+    """A network with several inputs and outputs: all its responses, one behind the other, row by
+    row, each at its own angular frequencies [rad/s].
+    """
+
+    network: Network
+    omegas: tuple[Real, ...]
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        """Those that enter any response, as in `NetworkPlant`."""
+        return NetworkPlant(self.network, self.omegas[0]).parameters
+
+    @cached_property
+    def highest(self) -> Real:
+        """Upper bounds of the parameters."""
+        return NetworkPlant(self.network, self.omegas[0]).highest
+
+    def response(self, p: Real) -> Complex:
+        """Stacked responses, shape (..., n_f)."""
+        return np.concatenate([part.response(p[..., at]) for part, at in self._parts], axis=-1)
+
+    def logarithmic_gradient(self, p: Real) -> tuple[Complex, Complex]:
+        """Stacked G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
+        responses, gradients = list[Complex](), list[Complex]()
+        for part, at in self._parts:
+            response, gradient = part.logarithmic_gradient(p[..., at])
+            whole = np.zeros((*p.shape, len(part.omega)), dtype=np.complex128)
+            whole[..., at, :] = gradient
+            responses.append(response)
+            gradients.append(whole)
+        return np.concatenate(responses, axis=-1), np.concatenate(gradients, axis=-1)
+
+    @cached_property
+    def _parts(self) -> list[tuple[NetworkPlant, NDArray[np.intp]]]:
+        """The plant of each response, and where its parameters stand."""
+        found = []
+        for (sensor, force), omega in zip(
+            product(self.network.outputs, self.network.inputs), self.omegas, strict=True
+        ):
+            part = NetworkPlant(replace(self.network, inputs=(force,), outputs=(sensor,)), omega)
+            at = [self.parameters.index(name) for name in part.parameters]
+            found.append((part, np.array(at, dtype=np.intp)))
+        return found
+
+
+AnyNetworkPlant = NetworkPlant | NetworkPlants
+
+
 def _solved(matrix: Complex, side: Complex) -> Complex:
     """Solutions, shape (..., n_f, n); a matrix that is singular, as without damping at a resonance,
     is moved by a rounding error.
@@ -182,7 +233,7 @@ def measured_as(network: Network, measured: FrequencyResponse) -> Network:
 
 
 def random_starts(
-    plant: NetworkPlant, measured: FrequencyResponse, count: int, draw: np.random.Generator
+    plant: AnyNetworkPlant, measured: FrequencyResponse, count: int, draw: np.random.Generator
 ) -> NDArray[np.float64]:
     """Values, shape (count, n_p), with which each element alone would have the size of the response
     at a random frequency of the band, within a factor of three; exponents from 1/2 to 1.

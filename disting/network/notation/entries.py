@@ -4,6 +4,7 @@
     {"flows": [[1, 2], [2, 1], [1, 0]], "input": 1, "output": 1}
     {"elements": [["m1", 1], ["k12", 1, 2], ["d12", 1, 2, "i"]], "force": [1, 0], "sensor": [2, 0]}
     {"elements": [["R1", 0, 1], ["L1", 0, 2]], "port": [1, 0]}
+    {"components": [..], "structure": [..], "force": "Motor.Rotor", "sensor": ..} of openTorsion
 
 The first letter of a name says the kind of an element, a text behind its nodes the ratio of its
 gear, or the exponent of a constant phase element (two may share one); a compartment is ["v", 1];
@@ -19,6 +20,7 @@ from disting.network.element import KINDS, Element, Port, Sort, kind_of
 from disting.network.network import Network
 from disting.network.notation import DIALECTS, NOTATIONS, network_of
 from disting.network.notation.compartments import of_flows
+from disting.network.notation.torsion import drive_train
 
 FORMS = {
     "circuit": ("circuit", "notation"),
@@ -26,6 +28,7 @@ FORMS = {
     "network": ("network", "notation", "quantity"),
     "flows": ("flows", "input", "output"),
     "elements": ("elements", "force", "sensor", "port", "quantity"),
+    "components": ("components", "structure", "force", "sensor", "quantity", "date"),
 }  # by the key that an entry of this form always has: all its keys
 Entry = Mapping[str, Any]
 
@@ -41,6 +44,8 @@ def network_of_entry(entry: Entry, name: str) -> Network:
             if key == "circuit" and found.sort is not Sort.CIRCUIT:
                 raise InputError(f'{shown(text)} is no circuit: write it as "network"')
             return found
+    if "components" in entry:
+        return drive_train(entry, name).network
     return _of_flows(entry, name) if "flows" in entry else _of_elements(entry, name, quantity)
 
 

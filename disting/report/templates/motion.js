@@ -159,13 +159,14 @@
     });
   };
   const offer = () => {
-    byId("left").replaceChildren(...numbers.map((i) => new Option(nameOf(i), i)));
+    const chosen = (i) => new Option(data.hints?.[i - 1] ? `${nameOf(i)}: ${data.hints[i - 1]}` : nameOf(i), i);
+    byId("left").replaceChildren(...numbers.map(chosen));
     byId("left").value = pair[0];
     const titles = { always: "Not told apart", "always-there": "Does all that it does", sometimes: "Depends on the values", open: "Not known", apart: "Told apart", never: "Told apart" };
     const groups = RANK.map((kind) => [titles[kind], numbers.filter((i) => i !== pair[0] && kindOf(pair[0], i) === kind)]).filter(([, of]) => of.length);
     byId("right").replaceChildren(...groups.map(([label, of]) => {
       const group = Object.assign(document.createElement("optgroup"), { label });
-      group.append(...of.map((i) => new Option(nameOf(i), i)));
+      group.append(...of.map(chosen));
       return group;
     }));
     byId("right").value = pair[1];

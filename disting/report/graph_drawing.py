@@ -1,0 +1,332 @@
+"""A network as a graph: nodes with what joins them, ground, forces and sensors.
+
+Nodes stand in columns by their distance from the force (the port, the input), so that no joint
+passes a node of a column between its ends; a column in which a joint passes a third node is bent.
+What hangs at one node, a joint to the ground, a force or a sensor, and every name takes the place
+round its node or joint where it meets least of what is drawn before it.
+"""
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations, pairwise
+from math import cos, pi, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.network.element import Element, Sort
+from disting.network.graph import edges
+from disting.network.network import Network
+from disting.report.network_symbols import Track, drawn, gear
+from disting.report.scene import (
+    Anchor,
+    Circle,
+    Ink,
+    Layer,
+    Path,
+    Point,
+    Rect,
+    Shape,
+    Text,
+    arrow,
+    extent,
+)
+
+COLUMN, ROW = 112.0, 84.0  # from one node to the next; more where joints are parallel
+RADIUS = {Sort.MACHINE: 17.0, Sort.CIRCUIT: 3.0, Sort.COMPARTMENTS: 18.0}  # of a node
+ASIDE = 20.0  # between parallel joints
+ARM = 62.0  # length of what hangs at a node, from its rim
+DIRECTIONS = 16
+LETTERS = 11.0
+STEP = 4.0  # between the points by which what is drawn is remembered
+
+
+def port_signs(network: Network) -> tuple[list[str], list[str]]:
+    """What the inputs and outputs are called: F, or F1 and F2."""
+    names = {
+        Sort.MACHINE: ("F", "y"),
+        Sort.CIRCUIT: ("i", "v"),
+        Sort.COMPARTMENTS: ("in", "out"),
+    }[network.sort]
+    sides = network.inputs, network.outputs
+    return tuple(
+        [name + str(k) * (len(side) > 1) for k in range(1, len(side) + 1)]
+        for name, side in zip(names, sides, strict=True)
+    )  # type: ignore[return-value]
+
+
+@dataclass(slots=True)
+class _Sheet:
+    """What is drawn so far, as layers and as a cloud of points that covers it."""
+
+    layers: list[Layer] = field(default_factory=list)
+    clouds: list[NDArray[np.float64]] = field(default_factory=list)
+
+    def add(self, name: str, shapes: Iterable[Shape]) -> None:
+        """Draw something."""
+        found = tuple(shapes)
+        self.layers.append(Layer(name, found))
+        self.clouds += [_cloud(shape) for shape in found]
+
+    def crowd(self, track: Track, half: float) -> int:
+        """How many points lie within a distance of a track."""
+        points = np.concatenate(self.clouds) - np.array(track.start)
+        ux, uy = track.direction
+        along, aside = points @ (ux, uy), points @ (-uy, ux)
+        inside = (along > 0) & (along < track.length) & (abs(aside) < half)
+        return int(inside.sum())
+
+    def crowd_of(self, text: Text) -> int:
+        """How many points lie where a text is to stand."""
+        left, top, right, bottom = extent(text)
+        return self.crowd(
+            Track((left, (top + bottom) / 2), (right + 0.1, (top + bottom) / 2)),
+            (bottom - top) / 2 + 2,
+        )
+
+    def clearest(self, texts: Sequence[Text]) -> Text:
+        """The first of the texts that meet least."""
+        return min(texts, key=self.crowd_of)
+
+
+def _cloud(shape: Shape) -> NDArray[np.float64]:
+    """Points on a shape: on a line every few pixels, in a box or a text a raster of them."""
+    if isinstance(shape, Path):
+        pieces = [
+            np.linspace(a, b, 2 + int(max(abs(a[0] - b[0]), abs(a[1] - b[1])) / STEP))
+            for a, b in pairwise(shape.points)
+        ]
+        return np.concatenate(pieces)
+    left, top, right, bottom = extent(shape)
+    xs, ys = (np.arange(low, high + STEP, STEP) for low, high in ((left, right), (top, bottom)))
+    return np.stack(np.meshgrid(xs, ys), -1).reshape(-1, 2)
+
+
+def graph_layers(network: Network) -> list[Layer]:
+    """Layers of the drawing as a graph."""
+    places = _places(network)
+    radius = RADIUS[network.sort]
+    sheet = _Sheet()
+    for i, place in places.items():
+        sheet.add(f"node-{i}", _node(network, i, place))
+    nodes, sheet.layers = sheet.layers, []
+    joints, hanging = _joints(network, places)
+    names = list[tuple[Element, Track, float]]()
+    for ends, found in joints.items():
+        whole = Track(*(places[i] for i in ends))
+        for e, aside in zip(found, _asides(len(found)), strict=True):
+            track = whole.shifted(aside, radius)
+            turned = Track(track.end, track.start) if e.nodes[0] != ends[0] else track
+            sheet.add(e.value, (*_fan(whole, aside, radius), *_element(e, turned)))
+            names.append((e, track, aside))
+    for e, track, aside in names:
+        sheet.add(f"name-{e.value}", (sheet.clearest(list(_names(e, track, aside))),))
+    for place, kind, sign in _ends_of_ports(network, places):
+        _arm_of_port(sheet, Track(place, place), kind, sign, radius)
+    for i, found in hanging.items():
+        _arm_to_ground(sheet, places[i], found, radius, network.sort)
+    # nodes lie above the ends of what leads to them
+    return [*sheet.layers, *nodes]
+
+
+def _places(network: Network) -> dict[int, Point]:
+    """Where the nodes stand: column after column by their distance from the first input, a part
+    that is not connected with it behind it.
+    """
+    kept = network.nodes if network.sort is not Sort.CIRCUIT else (*network.nodes, 0)
+    there = {i for e in network.elements for i in e.nodes} | {
+        i for p in network.ports for i in (p.plus, p.minus)
+    }
+    left = [i for i in kept if i in there]
+    near = defaultdict[int, list[int]](list)
+    for a, b in (edge for e in network.elements for edge in edges(e)[:1]):
+        if {a, b} <= set(left):
+            near[a].append(b)
+            near[b].append(a)
+    starts = [i for p in network.ports for i in (p.plus, p.minus)]
+    places, x = dict[int, Point](), 0.0
+    most = max(Counter(frozenset(e.nodes) for e in network.elements).values())
+    row, width = ROW + 1.4 * ASIDE * most, COLUMN + 12 * (most - 1)
+    while left:
+        start = next((i for i in starts if i in left), left[0])
+        for column in _columns(start, near):
+            bent = len(column) > 2 and any(
+                j in near[i] and abs(column.index(i) - column.index(j)) > 1
+                for i, j in combinations(column, 2)
+            )
+            middle = (len(column) - 1) / 2
+            for k, i in enumerate(column):
+                bow = (1 - ((k - middle) / max(middle, 1)) ** 2) * 0.7 * width * bent
+                places[i] = x + bow, (k - middle) * row
+            x += width * (1 + 0.7 * bent)
+            left = [i for i in left if i not in column]
+    return places
+
+
+def _columns(start: int, near: dict[int, list[int]]) -> Iterator[list[int]]:
+    """The nodes that are 0, 1, 2, .. joints away, each column in the order of the one before."""
+    seen, column = {start}, [start]
+    while column:
+        yield column
+        column = list(dict.fromkeys(j for i in column for j in near[i] if j not in seen))
+        seen |= set(column)
+
+
+def _node(network: Network, i: int, place: Point) -> tuple[Shape, ...]:
+    x, y = place
+    radius = RADIUS[network.sort]
+    if network.sort is Sort.CIRCUIT:
+        return (Circle(x, y, radius, Ink.LINE),)
+    if network.sort is Sort.COMPARTMENTS:
+        return Circle(x, y, radius, Ink.BODY, Ink.LINE), Text(x, y, str(i), 13, bold=True)
+    mass = next((e.value for e in network.elements if e.letter == "m" and e.nodes == (i,)), "")
+    if not mass:
+        return (Circle(x, y, 4, Ink.LINE),)
+    box = Rect(x - radius, y - radius, 2 * radius, 2 * radius, Ink.BODY, Ink.LINE, radius=3)
+    return box, Text(x, y, mass, 13 if len(mass) < 4 else 9, bold=True)
+
+
+Joints = dict[tuple[int, int], list[Element]]
+
+
+def _joints(network: Network, places: dict[int, Point]) -> tuple[Joints, dict[int, list[Element]]]:
+    """The elements between two nodes, and those that hang at one, to the ground or the outside."""
+    joints, hanging = Joints(), dict[int, list[Element]]()
+    for e in network.elements:
+        if e.kind.ends == 1:
+            continue
+        a, b = e.nodes
+        if {a, b} <= set(places):
+            joints.setdefault((min(a, b), max(a, b)), []).append(e)
+        else:
+            hanging.setdefault(a or b, []).append(e)
+    return joints, hanging
+
+
+def _asides(count: int) -> list[float]:
+    """How far to the right of the straight way parallel joints lie."""
+    return [(k - (count - 1) / 2) * ASIDE for k in range(count)]
+
+
+def _fan(whole: Track, aside: float, radius: float) -> Iterator[Path]:
+    """From the nodes to the ends of a joint that lies aside."""
+    if abs(aside) > 0.75 * radius:
+        for along in (radius, whole.length - radius):
+            yield Path((whole.at(along), whole.at(along, aside)))
+
+
+def _element(e: Element, track: Track) -> tuple[Shape, ...]:
+    return *drawn(e.letter, track), *(gear(track) if e.ratio else ())
+
+
+def _names(e: Element, track: Track, aside: float) -> Iterator[Text]:
+    """Where the name of an element can stand: outside first, beside its middle, then elsewhere."""
+    said = f"{e.value} *{e.ratio}" if e.ratio else e.value
+    outer = -1.0 if aside <= 0 else 1.0
+    for shift in (0.0, -0.1, 0.1, -0.2, 0.2, -0.3, 0.3):
+        for side in (outer, -outer):
+            for away in (15.0, 19.0):
+                yield _beside(said, track, track.length * (0.5 + shift), side, away)
+
+
+def _beside(said: str, track: Track, along: float, side: float, away: float) -> Text:
+    """A text beside a track, which begins or ends there unless the track is nearly level."""
+    x, y = track.at(along, side * away)
+    x0, _ = track.at(along)
+    _, uy = track.direction
+    if abs(uy) < 0.3:
+        return Text(x, y, said, LETTERS, Ink.LABEL)
+    anchor = Anchor.START if x > x0 else Anchor.END
+    return Text(x - (3 if x > x0 else -3), y, said, LETTERS, Ink.LABEL, anchor)
+
+
+def _arms(place: Point, radius: float, first: float, length: float = ARM) -> Iterator[Track]:
+    """Ways from a node outwards, the first direction (in turns, 0 to the right, 1/4 down) and its
+    neighbours before others.
+    """
+    x, y = place
+    turns = sorted(range(DIRECTIONS), key=lambda k: (min(k, DIRECTIONS - k), k))
+    for k in turns:
+        angle = 2 * pi * (first + k / DIRECTIONS)
+        ux, uy = cos(angle), sin(angle)
+        yield Track(
+            (x + radius * ux, y + radius * uy),
+            (x + (radius + length) * ux, y + (radius + length) * uy),
+        )
+
+
+def _ends_of_ports(network: Network, places: dict[int, Point]) -> Iterator[tuple[Point, str, str]]:
+    """Place, "force" or "sensor" (of a circuit both: "port"), and sign of each end of a port
+    that is no ground.
+    """
+    both = network.sort is Sort.CIRCUIT and network.inputs == network.outputs
+    sides = zip(
+        ("force", "sensor"), (network.inputs, network.outputs), port_signs(network), strict=True
+    )
+    for kind, ports, signs in sides:
+        for p, sign in zip(ports, signs, strict=True):
+            for i, minus in ((p.plus, ""), (p.minus, "-")):
+                if i in places and not (both and kind == "sensor"):
+                    said = (minus or "+") if both else minus + sign
+                    yield places[i], "port" if both else kind, said
+
+
+def _arm_of_port(sheet: _Sheet, at: Track, kind: str, sign: str, radius: float) -> None:
+    """An arrow to a node for a force, a line with a dot and a box for a sensor, a terminal."""
+    ink = {"force": Ink.FORCE, "sensor": Ink.SENSOR, "port": Ink.LINE}[kind]
+    first = 0.5 if kind == "force" or sign == "+" else 0.0
+    length = 26.0
+    arms = list(_arms(at.start, radius, first, length))
+    arm = min(arms, key=lambda t: sheet.crowd(Track(t.at(2), t.at(length + 22)), 11))
+    half = 5.0 + 4 * max(len(sign), 1)
+    x, y = arm.at(length + 8)
+    x += (half - 9) * arm.direction[0]
+    text = Text(x, y, sign, 12, ink, bold=True)
+    lines: tuple[Shape, ...]
+    if kind == "force":
+        lines = (
+            *arrow(arm.end, arm.start, ink),
+            Rect(x - half, y - 9, 2 * half, 18, Ink.PAPER, ink, radius=9),
+        )
+    elif kind == "sensor":
+        dot = Circle(*arm.at(3), 4, Ink.SENSOR if sign[0] != "-" else Ink.PAPER, ink)
+        lines = (
+            Path((arm.start, arm.end), ink, line=2),
+            dot,
+            Rect(x - half, y - 9, 2 * half, 18, Ink.PAPER, ink),
+        )
+    else:
+        lines = Path((arm.start, arm.end)), Circle(*arm.end, 3.5, Ink.PAPER, ink)
+    sheet.add(f"{kind}{sign}", (*lines, text))
+
+
+def _arm_to_ground(
+    sheet: _Sheet, place: Point, found: Sequence[Element], radius: float, sort: Sort
+) -> None:
+    """Joints of one node to the ground, side by side, with the piece of ground; flows outside."""
+    half = 13.0 + ASIDE / 2 * (len(found) - 1)
+    arms = list(_arms(place, radius, 0.25))
+    arm = min(arms, key=lambda t: sheet.crowd(Track(t.at(2), t.at(ARM + 8)), half))
+    for e, aside in zip(found, _asides(len(found)), strict=True):
+        track = arm.shifted(aside, 0)
+        sheet.add(e.value, (*_fan_at(arm, aside, radius), *_element(e, track)))
+    if sort is Sort.MACHINE:
+        sheet.add("ground", hatched(arm, half))
+    for e, aside in zip(found, _asides(len(found)), strict=True):
+        names = list(_names(e, arm.shifted(aside, 0), aside))
+        sheet.add(f"name-{e.value}", (sheet.clearest(names),))
+
+
+def _fan_at(arm: Track, aside: float, radius: float) -> Iterator[Path]:
+    if abs(aside) > 0.75 * radius:
+        yield Path((arm.start, arm.at(0, aside)))
+
+
+def hatched(arm: Track, half: float) -> Iterator[Path]:
+    """A piece of ground at the end of an arm."""
+    n = arm.length
+    yield Path((arm.at(n, -half), arm.at(n, half)), line=2)
+    for k in range(int(2 * half // 6)):
+        aside = -half + 6 * k + 4
+        yield Path((arm.at(n, aside), arm.at(n + 5, aside - 4)), Ink.MUTED, line=1)
