@@ -171,11 +171,21 @@ def determinable(
     left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
 ) -> tuple[tuple[str, int, int], ...]:
     """Of both models, as `compare` names them: how many functions of the parameters are determined,
-    and how many parameters there are.
+    and how many parameters there are, exponents among them.
+
+    >>> from disting import Family
+    >>> determinable(*(Family(2)[i] for i in (1, 2)), Engine())
+    (('2:1', 4, 4), ('2:2', 3, 4))
     """
-    return tuple(
-        (side.name, side.rank, len(side.subject.parameters)) for side in _sides(left, right, engine)
-    )
+    sides = _sides(left, right, engine)
+    return tuple((side.name, side.rank, _n_parameters(side.subject)) for side in sides)
+
+
+def _n_parameters(model: Chain | AnyModel | MeasuredChain) -> int:
+    if isinstance(model, MeasuredChain):
+        return len(model.chain.parameters)
+    exponents = () if isinstance(model, Chain) else model.powers.weights
+    return len(model.parameters) + len(exponents)
 
 
 def both_places(

@@ -43,7 +43,7 @@ def shown(verdict: Verdict, what: str = RESPONSE) -> str:
     match verdict.evidence:
         case Counts():
             if any(note.startswith(f"{COUNTED}v") for note in verdict.notes):
-                return f"The responses of {left} and {right} are made of other powers of s."
+                return f"The {what}s of {left} and {right} are made of other powers of s."
             halves = HALVES in verdict.notes
             return _steeper(verdict.evidence, left, right, machines, halves, what)
         case Ranks():

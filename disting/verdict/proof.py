@@ -96,6 +96,7 @@ def _claim(verdict: Verdict, left: AnySide, right: AnySide) -> Claim | None:
     elif isinstance(smaller, ComparedModel):
         # single invariants of several transfer functions, or before G0
         several = any("[" in row or "-" in row for row in rows)
+        several = several or bool(smaller.subject.powers.weights)  # exponents were drawn at random
         model = smaller.subject
     else:
         return None

@@ -70,6 +70,7 @@ def test_what_cannot_be_determined_is_said_before_the_reason():
         ("2:1", "2:2", "2:2", 3, 4),
         ("2:1+b1", "2:2+lag", "2:2+lag", 4, 5),
         ("R0-p(R1,C1)-R2", "R0-C1", "R0-p(R1,C1)-R2", 3, 4),
+        ("R0-p(R1,P1)-R2", "R0-p(R1,C1)", "R0-p(R1,P1)-R2", 4, 5),
     ):
         lines = called("compare", left, right).stdout.split("\n")
         place = lines.index(said.format(name, rank, count))

@@ -142,7 +142,7 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     assert beginning in said and (others, more) == (0, 7)
     assert "7 larger ones contain it, with parts that these data do not show." in said
     order = (
-        "misfit 0.9",
+        f"misfit {readable(selection.explanation.chi2)}",
         "structures left 8 of 24",
         "resonance 1 58",
         "The rule: Of",
