@@ -261,7 +261,7 @@ def test_values_of_the_other_circuit_have_the_same_impedance_at_any_exponent():
 def test_a_value_of_an_exponent_lies_between_0_and_1(wrong):
     values = {"R0": 1, "R1": 2, "P1": 3, "n1": wrong}
     with pytest.raises(InputError, match="n1 is an exponent: a number up to 1"):
-        network_equivalents(network_of("R0-p(R1,P1)"), [network_of("p(R0,R1-P1)")], values)
+        model_equivalents(network_of("R0-p(R1,P1)"), [network_of("p(R0,R1-P1)")], values)
 
 
 def test_equivalents_do_not_mix_powers_of_s_and_of_its_root():
