@@ -10,9 +10,9 @@ work is that of its price:
    dampers contained in another of equal rank on the same chain gives the same closure (8), two
    such sets with a union of equal rank as well (9); equal fingerprints of colours are looked at
    for a renaming (6).
-3. What was settled of two forms before is taken over.
-4. One representative a class: ranks of the Markov parameters of 1/G, then every pair of a bucket
-   that is still together is asked: `quick` first, then whatever questions are added.
+3. One representative a class: ranks of the Markov parameters of 1/G, then every pair of a bucket
+   that is still together is asked: `quick` first; what was settled of two forms before is taken
+   over; then whatever questions are added.
 
 Certainty: every step is a theorem, proven, or bounded by 2^-LEAST_SAFETY at most; the relation of
 a pair rests on as many steps as link its two models to their representatives, and one more, so its
@@ -89,9 +89,10 @@ def classes(
         len(NECESSARY),
     )
     work.rename()
-    work.take_over(settled or {})
     _invert(work, executor, progress)
-    for question in (QUICKLY, *more):
+    _decide(work, QUICKLY, executor, progress)
+    work.take_over(settled or {})
+    for question in more:
         _decide(work, question, executor, progress)
     return work.finished(chains)
 
