@@ -14,6 +14,7 @@ from scipy.ndimage import median_filter
 from disting.fit.judge.admissible import FROM_ZERO, KNOWN, UNDETERMINED
 from disting.fit.judge.explanation import allowed
 from disting.fit.judge.members import NOTHING, Disagreement
+from disting.fit.judge.modes import between_lines
 from disting.fit.judge.reading import bad_lines, outside
 from disting.fit.judge.responses import correlations, partners
 from disting.fit.noise.scatter import CLEAR, changed, scatter
@@ -57,6 +58,7 @@ def suspicions(found: Selection) -> tuple[str, ...]:
         *_hanging(found),
         *_weak(found),
         *outside(found.described, found.task.cost.measured),
+        *_unseen(found),
         *_doubled(found),
         *_bad(found),
         *_doubts(found),
@@ -64,6 +66,18 @@ def suspicions(found: Selection) -> tuple[str, ...]:
         *learned(found),
     ]
     return tuple(dict.fromkeys(said))
+
+
+def _unseen(found: Selection) -> Iterator[str]:
+    """Resonances of the described candidate of which the lines show flanks at most."""
+    chain, values = found.described.chain, found.described.estimate.parameters
+    for pole, zero in between_lines(chain.structure, values, found.task.cost.measured.frequency):
+        yield (
+            f"{reference(chain)} has a resonance at {pole:.5g} Hz and an antiresonance at"
+            f" {zero:.5g} Hz, both between two lines and narrower than these are apart: they rest"
+            " on a flank at one or two lines; measure closer together there before you trust the"
+            " values that make them"
+        )
 
 
 def renamed(found: Selection) -> str:

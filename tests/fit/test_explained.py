@@ -309,3 +309,14 @@ def test_what_is_not_determined_has_no_percentage():
     errors = replace(found.selected.practical, relative_errors={"m1": 92.0, "b1": 0.5})
     badly = replace(found, selected=replace(found.selected, practical=errors), members=())
     assert "known badly: m1 not at all, b1 to ± 50 %" in suspicions(badly)
+
+
+@pytest.mark.parametrize(("step", "said"), [(1.0, True), (0.002, False)])
+def test_a_resonance_between_two_lines_is_named(step, said):
+    """A small mass beside a large one: its resonance and antiresonance are 0.02 Hz apart."""
+    drive = Chain(2)
+    values = {"m1": 1.0, "m2": 1e-3, "k12": 36.0, "d12": 1e-5}
+    hertz = 30.2 + step * np.arange(-12.3, 13)
+    found = select(response(drive, values, 2 * np.pi * hertz, noise=1e-5), [drive])
+    named = [line for line in suspicions(found) if "both between two lines" in line]
+    assert bool(named) == said, suspicions(found)

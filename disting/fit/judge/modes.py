@@ -2,7 +2,9 @@
 them.
 """
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import product
 from math import pi
 
 import numpy as np
@@ -135,3 +137,28 @@ def oscillating(roots: Complex) -> list[complex]:
     return sorted(
         (complex(r) for r in roots if r.imag > 1e-9 * abs(r) and abs(r) > STILL * fastest), key=abs
     )
+
+
+def between_lines(
+    structure: Structure, values: Mapping[str, float], grid: Real
+) -> Iterator[tuple[float, float]]:
+    """Yield resonance and antiresonance [Hz] that lie between the same two of the measured lines
+    `grid` [Hz], both narrower than these are apart: nearly the same response without both.
+
+    >>> from disting import Chain
+    >>> added = {"m1": 1.0, "m2": 1e-6, "k12": 0.04, "d12": 1e-9}
+    >>> [*between_lines(Chain(2).structure, added, np.arange(1.0, 60.0))][0][0].round(2)
+    np.float64(31.83)
+    >>> [*between_lines(Chain(2).structure, {**added, "m2": 0.5}, np.arange(1.0, 60.0))]
+    []
+    """
+    p = np.array([values[name] for name in structure.parameters])
+    found = [oscillating(roots(structure, p)) for roots in (poles, zeros)]
+    for pole, zero in product(*found):
+        hertz = np.array([pole.imag, zero.imag]) / (2 * pi)
+        before, other = np.searchsorted(grid, hertz)
+        if before == other and 0 < before < len(grid):
+            # the width at half power is twice the real part
+            width = 2 * max(abs(pole.real), abs(zero.real)) / (2 * pi)
+            if width < grid[before] - grid[before - 1]:
+                yield hertz[0], hertz[1]
