@@ -77,7 +77,7 @@ def test_pages_of_a_family_use_no_word_of_the_trade_unexplained(four: Listing) -
 @pytest.mark.slow
 def test_all_of_them() -> None:
     """108 is the number of Morelli and Smith. Their 62 classes are of exact sets: 54 classes for
-    almost all values make 60 where degrees fall; two more differences are not of degree.
+    almost all values make 60 where degrees fall; the other two are not found here.
     """
     engine = Engine()
     recall("circuits-5", engine)
