@@ -94,7 +94,7 @@ def global_identifiability(
     local = local_identifiability(model, settings)
     ring = Orthant(len(model.parameters), len(model.parameters), Domain.COMPLEX)
     search = _best(ring, model, tries)
-    vectors = [v for case in search.cases if (v := _vector(ring, model, case))] if search else []
+    vectors = _vectors(ring, model, search.cases) if search else []
     count, infinite = _counted(ring, search.cases if search else (), vectors)
     unique = tuple(
         name
@@ -166,6 +166,14 @@ def _best(ring: Orthant, model: AnyModel, tries: int) -> Search | None:
     return min(
         found, key=lambda s: sum(len(ring.occurring(c.equations)) for c in s.cases), default=None
     )
+
+
+def _vectors(ring: Orthant, model: AnyModel, cases: Sequence[Case]) -> list[_Vector]:
+    """Those of all cases; none where they grow too large to be written down."""
+    try:
+        return [v for case in cases if (v := _vector(ring, model, case))]
+    except TooMuch:
+        return []
 
 
 def _vector(ring: Orthant, model: AnyModel, case: Case) -> _Vector | None:
