@@ -151,7 +151,7 @@ def taken_away(part: Network, whole: Network) -> tuple[Names, Names] | None:
 
     >>> from disting.network import network_of
     >>> taken_away(network_of("p(R1,C1)-R0"), network_of("R0-p(R1,C1)-p(R2,C2)"))
-    (('R1',), ('C1',))
+    (('R2',), ('C2',))
     """
     one, other = ((n.sort, n.order, n.sign_of_one_port) for n in (part, whole))
     if one != other or not part.sign_of_one_port:
@@ -163,7 +163,8 @@ def taken_away(part: Network, whole: Network) -> tuple[Names, Names] | None:
 @lru_cache(maxsize=REMEMBERED)
 def _rests(whole: Network, size: int) -> dict[Branch, tuple[Names, Names]]:
     """How to come to each one-port of so many elements."""
-    elements, found = whole.elements, dict[Branch, tuple[Names, Names]]()
+    # the last ones are taken away first
+    elements, found = whole.elements[::-1], dict[Branch, tuple[Names, Names]]()
     less = len(elements) - size
     if less < 1 or comb(len(elements), size) << less > TRIED:
         return found

@@ -55,6 +55,7 @@ COMMANDS = [
         "--lines",
         "20",
     ],
+    ["draw", "R0-p(R1,C1)", "--svg", "circuit ø.svg"],
     ["report", "1", "--out", "pages å"],
     ["catalog", "build", "1", "--out", "catalogues ø"],
     ["catalog", "verify", "1", "--catalog", "catalogues ø"],

@@ -74,7 +74,9 @@ def test_pipes_and_streams_are_written_to(tmp_path: Path, command: str) -> None:
 @POSIX
 def test_a_stream_that_is_a_file_keeps_what_stands_in_it(tmp_path: Path) -> None:
     """It is written to at its end, and is still the file that the shell opened."""
-    done = shell(f"echo before > log; $D {PAIR} --json /dev/fd/3 3>> log; cat log", tmp_path)
+    done = shell(
+        f"echo before > log; $D {PAIR} --json /dev/fd/3 3>> log > words; cat log", tmp_path
+    )
     first, _, rest = done.stdout.partition(b"\n")
     assert first == b"before" and json.loads(rest)["left"] == "3:1"
 

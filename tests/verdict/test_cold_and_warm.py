@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
 from disting.evidence.decision import THEOREMS, Theorem
+from disting.evidence.general import Replaced
 from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import Empirical, Excluded, PositiveEvidence, PositiveFinding, Share
@@ -184,7 +185,12 @@ KINDS = sorted(
 
 
 EVIDENCE_OF_SHARES = sorted(get_args(PositiveEvidence), key=lambda kind: kind.kind)
-known = {Theorem: {"name": st.sampled_from(sorted(THEOREMS))}, Excluded: {"name": st.just("decay")}}
+theorems = st.sampled_from(sorted(THEOREMS))
+known = {
+    Theorem: {"name": theorems},
+    Excluded: {"name": st.just("decay")},
+    Replaced: {"inner": st.builds(Theorem, name=theorems)},
+}
 
 
 def made_of(kind):
