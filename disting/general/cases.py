@@ -59,7 +59,7 @@ from disting.model.question import Domain
 
 PAIR = 2  # equations of which an unknown is eliminated
 CASES = 300  # that are opened before the search is given up
-ORDERS = 12  # in which five unknowns and more are solved for
+ORDERS = 24  # in which five unknowns and more are solved for
 ALL_ORDERS = 4  # unknowns: these have 24 orders
 RESULTANTS = 24  # sum of total degrees: resultants stay a matter of milliseconds
 

@@ -117,3 +117,9 @@ def agree_with_twins(pairs, tried, record_property):
             wrong += [f"{left.name} | {right.name}: {pair}" for pair in refuted if pair[1]]
     record_property("oracle", f"{counts}")
     assert not wrong, "\n".join(wrong)
+
+
+def test_formulas_in_six_unknowns_are_found_in_one_of_many_orders():
+    """With half as many orders the pair stays open."""
+    verdict = compare("#=1, 1=2; F1; S1", "#=1, 1=2; F2:1; S2:1")
+    assert (verdict.relation, verdict.evidence.kind) == ("indistinguishable", "explicit")
