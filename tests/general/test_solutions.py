@@ -5,8 +5,10 @@ random point.
 import pytest
 import sympy as sp
 
+from disting.general.any_model import of_network
 from disting.general.global_identifiability import global_identifiability
 from disting.general.model import Model
+from disting.network import network_of
 
 TF = Model.from_transfer_function
 MODELS = [
@@ -76,3 +78,10 @@ def test_a_vector_presupposes_its_denominators():
     """c = a/(d - 1)^2 at d = 1 is none: five values of d are left, (b - d^3)(d - 1)^2 = a^2."""
     found = global_identifiability(TF(["c*(d-1)**2"], ["1", "c**2*(d-1)**2+d**3"]))
     assert (found.count, found.unique, found.is_infinite) == (5, (), False)
+
+
+def test_a_solution_that_is_too_large_to_write_down_is_not_counted():
+    bridge = of_network(network_of("C1 1 2; R1 1 3; C2 2 3; R2 2 0; R3 3 0"))
+    found = global_identifiability(bridge)
+    assert (found.count, found.is_infinite, found.unique) == (None, False, ())
+    assert "how many sets of them fit is not known" in found.sentence
