@@ -119,9 +119,9 @@ def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
     values = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08}
     scatter = 1 + 0.01 * np.random.default_rng(0).normal(size=(2, 60)).T @ [1, 1j]
 
-    def response(sensor: int, **changed: float) -> np.ndarray:
+    def response(sensor: int, force: int = 1, **changed: float) -> np.ndarray:
         brakes = tuple(int(name[1:]) for name in changed if name[0] == "b")
-        chain = Chain(2, meas_plus=sensor, damped=True, ground_dampers=brakes)
+        chain = Chain(2, act_plus=force, meas_plus=sensor, ground_dampers=brakes)
         return np.asarray(predicted(chain, values | changed, 2 * np.pi * hertz) * scatter)
 
     motor, load = response(1), response(2)
@@ -131,6 +131,8 @@ def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "locked": response(1, m2=1e6),
         "disc": response(1, m1=0.5045),
         "braked": response(1, b2=0.3),
+        "hammer": response(1, force=2),
+        "turned": -load,
     }.items():
         write_csv(from_arrays(hertz, G), folder / f"{name}.csv")
     columns = np.column_stack([hertz, motor.real, motor.imag, load.real, load.imag])
@@ -139,6 +141,8 @@ def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
     left = ("--masses", "2", "--json", folder / "fit.json")
     done = called("fit", folder / "motor.csv", *left)
     assert done.returncode == 0, done.stderr
+    (folder / "page").mkdir()
+    (folder / "page" / "fit.json").write_bytes((folder / "fit.json").read_bytes())
     return folder
 
 
@@ -151,8 +155,9 @@ def test_commands_that_stand_alone_end_well(
     page: str, command: str, responses: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(responses)
-    fewer = ["--masses", "2"] if command.startswith("disting fit") else []
-    done = called(*shlex.split(command)[1:], *fewer)
+    fits = command.startswith("disting fit") and "--left" not in command
+    turned = command.replace("load.csv", "turned.csv") if "--sign=+,-" in command else command
+    done = called(*shlex.split(turned)[1:], *["--masses", "2"] * fits)
     assert done.returncode == 0, (page, done.stderr)
 
 
