@@ -87,16 +87,7 @@ def run(options: argparse.Namespace) -> int:
     for gap in sorted({chain.gap for chain in family}):
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         print(f"parameters, gap {gap}: {' '.join(parameters)}")
-    print("force, sensor: what it acts or looks on, and against (0 the ground)")
-    said = f"; {NOT_ASKED} not asked (--ranks asks)" * (not profiles)
-    print("n/m degrees of (25), free non-constant coefficients, par parameters,")
-    print(f"rank determinable parameters{said}")
-    said = (
-        "1 identifiable, ∞ not, ? not known"
-        + f", {NOT_ASKED} not asked (--identifiability asks)" * (not known)
-    )
-    where = " in all experiments" if also else ""
-    print(f"sets parameter sets, real or complex, with the same behaviour{where}:\n     {said}")
+    _explain(bool(profiles), bool(known), bool(also))
     print(LEGEND)
     for number, experiment in enumerate([Experiment(), *also], 1) if also else ():
         print(f"experiment {number}  {experiment.text}")
@@ -104,6 +95,20 @@ def run(options: argparse.Namespace) -> int:
         for number, found in enumerate(known, 1):
             print(f"A{number}: {found.sentence}")
     return 0
+
+
+def _explain(has_profiles: bool, has_sets: bool, several: bool) -> None:
+    """What the columns mean."""
+    print("force, sensor: what it acts or looks on, and against (0 the ground)")
+    said = f"; {NOT_ASKED} not asked (--ranks asks)" * (not has_profiles)
+    print("n/m degrees of (25), free non-constant coefficients, par parameters,")
+    print(f"rank determinable parameters{said}")
+    said = (
+        "1 identifiable, ∞ not, ? not known"
+        + f", {NOT_ASKED} not asked (--identifiability asks)" * (not has_sets)
+    )
+    where = " in all experiments" if several else ""
+    print(f"sets parameter sets, real or complex, with the same behaviour{where}:\n     {said}")
 
 
 def _of_list(source: Listed, options: argparse.Namespace) -> int:

@@ -74,8 +74,8 @@ def _unseen(found: Selection) -> Iterator[str]:
     for pole, zero in between_lines(chain.structure, values, found.task.cost.measured.frequency):
         yield (
             f"{reference(chain)} has a resonance at {pole:.5g} Hz and an antiresonance at"
-            f" {zero:.5g} Hz, both between two lines and narrower than these are apart: they rest"
-            " on a flank at one or two lines; measure closer together there before you trust the"
+            f" {zero:.5g} Hz, both between two lines and narrower than these are apart: the"
+            " lines show their flanks only; measure closer together there before you trust the"
             " values that make them"
         )
 

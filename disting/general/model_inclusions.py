@@ -16,15 +16,8 @@ from disting.evidence.limits import Minor
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.model.question import Settings
-from disting.network.minors import (
-    Places,
-    branches,
-    is_minor,
-    left_out,
-    minors,
-    rest_of,
-    taken_away,
-)
+from disting.network.branches import branches, rest_of, taken_away
+from disting.network.minors import Places, is_minor, left_out, minors
 from disting.network.network import Network
 from disting.questions.inclusion.profiles import by_profiles, inside, ordered
 

@@ -24,11 +24,6 @@ whole. All other flows are e. For e = 0 the matrix P falls apart into that of th
 compartments which no flow connects with it, s for each, and the transfer functions are those of the
 part, as they are continuous in e.
 
-One-ports. What is seen at two nodes is a quotient of sums over spanning trees, with and without an
-edge between them, so branches in series may change places: a one-port made of series and parallel
-branches is known by its kinds alone (`branches`), and so is what is left of another one, whatever
-the order in which both are drawn.
-
 Gears of which a ratio is known are elements like others if both have the same ratio; an unknown
 ratio of the whole stands for one ratio of the part. Neither is contracted.
 
@@ -37,32 +32,16 @@ element then is a resistor, a Warburg element or a capacitor, P(s) being continu
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from functools import lru_cache
-from itertools import combinations, islice
-from math import comb
+from collections.abc import Iterator, Mapping
+from itertools import islice
 
 from disting.network.element import PHASE, Element
-from disting.network.graph import edges, joined, parts
+from disting.network.graph import parts
 from disting.network.network import Network
 
 Places = Mapping[int, int]
 SPECIAL = {"R": "0", "W": "1/2", "C": "1"}  # exponents with which a P is another element
-TRIED = 20_000  # places of a node, in all; ways to take elements away
-REMEMBERED = 512
-Names = tuple[str, ...]
-Join = Callable[[Iterable["Branch"]], "Branch"]
-
-
-@dataclass(frozen=True, slots=True, order=True)
-class Branch:
-    """Branches in series ("S") or parallel ("P"), sorted, or an element, by the letter of its
-    kind.
-    """
-
-    form: str
-    inside: tuple["Branch", ...] = ()
+TRIED = 20_000  # places of a node, in all
 
 
 def is_minor(part: Network, whole: Network, places: Places) -> bool:
@@ -121,95 +100,6 @@ def minors(part: Network, whole: Network) -> Iterator[dict[int, int]]:
         for places in islice(_grown(part, whole, start, order), TRIED):
             if is_minor(part, whole, places):
                 yield places
-
-
-def branches(network: Network) -> Branch | None:
-    """What is seen of a one-port, as branches in series and parallel in no order; None of what is
-    not made of such. Equal branches give equal transfer functions, but for the sign of the sensor
-    and its derivative, if values are exchanged.
-
-    >>> from disting.network import network_of
-    >>> branches(network_of("R0-p(R1,C1)")) == branches(network_of("p(C1,R1)-R0"))
-    True
-    """
-    return _branches(network.grounded.elements, network.grounded, ())
-
-
-def rest_of(whole: Network, missing: Iterable[str], rigid: Iterable[str]) -> Branch | None:
-    """The branches of what is left of a one-port."""
-    plain, gone = whole.grounded, {*missing, *rigid}
-    by_name = {e.value: e for e in plain.elements}
-    if not gone <= by_name.keys():
-        return None
-    kept = [e for e in plain.elements if e.value not in gone]
-    return _branches(kept, plain, [by_name[name] for name in rigid])
-
-
-def taken_away(part: Network, whole: Network) -> tuple[Names, Names] | None:
-    """Values of a one-port, missing and rigid, without which it is the part, whatever the order of
-    branches in series; None where none are found with bounded work.
-
-    >>> from disting.network import network_of
-    >>> taken_away(network_of("p(R1,C1)-R0"), network_of("R0-p(R1,C1)-p(R2,C2)"))
-    (('R2',), ('C2',))
-    """
-    one, other = ((n.sort, n.order, n.sign_of_one_port) for n in (part, whole))
-    if one != other or not part.sign_of_one_port:
-        return None
-    form, size = branches(part), len(part.grounded.elements)
-    return None if form is None else _rests(whole.grounded, size).get(form)
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _rests(whole: Network, size: int) -> dict[Branch, tuple[Names, Names]]:
-    """How to come to each one-port of so many elements."""
-    # the last ones are taken away first
-    elements, found = whole.elements[::-1], dict[Branch, tuple[Names, Names]]()
-    less = len(elements) - size
-    if less < 1 or comb(len(elements), size) << less > TRIED:
-        return found
-    for gone in combinations([e for e in elements if e.value], less):
-        kept = [e for e in elements if e not in gone]
-        for count in range(less + 1):
-            for rigid in combinations(gone, count):
-                form = _branches(kept, whole, rigid)
-                missing = (e.value for e in gone if e not in rigid)
-                if form is not None:
-                    found.setdefault(
-                        form, (tuple(sorted(missing)), tuple(sorted(e.value for e in rigid)))
-                    )
-    return found
-
-
-def _branches(
-    elements: Iterable[Element], network: Network, rigid: Iterable[Element]
-) -> Branch | None:
-    """The branches of these elements between the ends of the force, others being rigid; None where
-    it is open or shorted, an element is not seen, or two constant phase elements share an exponent.
-    """
-    elements = tuple(elements)
-    shared = Counter(e.exponent for e in elements if e.exponent)
-    if any(count > 1 for count in shared.values()):
-        return None
-    roots = parts({0, *network.nodes}, [edge for e in rigid for edge in edges(e)])
-    force = network.inputs[0]
-    port = frozenset(roots[i] for i in (force.plus, force.minus))
-    labelled = [(tuple(roots[i] for i in (*e.nodes, 0)[:2]), Branch(e.letter)) for e in elements]
-    if len(port) < 2 or any(i == j for (i, j), _ in labelled):
-        return None
-    left = joined(labelled, port, _in("S"), _in("P"))
-    return left[port] if left.keys() == {port} else None
-
-
-def _in(form: str) -> Join:
-    """Branches joined in this form; those inside that are of it already are taken apart."""
-
-    def made(given: Iterable[Branch]) -> Branch:
-        """One of them, or all together."""
-        flat = [b for g in given for b in (g.inside if g.form == form else (g,))]
-        return flat[0] if len(flat) == 1 else Branch(form, tuple(sorted(flat)))
-
-    return made
 
 
 def _port_places(part: Network, whole: Network) -> Iterator[dict[int, int]]:

@@ -11,8 +11,9 @@ from disting.evidence.limits import Minor
 from disting.general.any_model import of_network
 from disting.general.model_inclusions import confirms_inclusion
 from disting.network import Port, network_of
+from disting.network.branches import branches, rest_of, taken_away
 from disting.network.families import family_of
-from disting.network.minors import branches, minors, rest_of, taken_away
+from disting.network.minors import minors
 from tests.oracles.plain_network import response
 
 ROOT = Fraction(7, 5)

@@ -127,6 +127,7 @@ def _rise(about: _Likelihood, at: int, most: float) -> Callable[[float], float]:
     point, before = about.best, log(max(about.best[at], np.finfo(float).tiny))
 
     def rise(logarithm: float) -> float:
+        """The rise at this logarithm, the other parameters fitted again."""
         nonlocal point, before
         held = replace(task, fixed={**task.fixed, names[at]: exp(logarithm)})
         moved = np.exp(np.clip(along * (logarithm - before), -STEP, STEP))
