@@ -26,10 +26,10 @@ from disting.fit.search.candidates import chosen_ports, whole_family
 from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.search.swarm import by_swarm
 from disting.fit.select import MOST_LINES, Selection, select
-from disting.fit.selection_json import selection_to_dict
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.report.fit.selection_json import selection_to_dict
 
 WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`

@@ -13,19 +13,13 @@ from disting.fit.judge.modes import Result, physical
 from disting.fit.judge.reading import read_in_words
 from disting.fit.judge.responses import explanations
 from disting.fit.select import Selection
-from disting.fit.sentences import (
-    commands,
-    first_lines,
-    learned,
-    limits_in_words,
-    renamed,
-    suspicions,
-    which_mass,
-)
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.report.fit.doubts import limits_in_words
+from disting.report.fit.onward import commands, renamed
 from disting.report.fit.responses import fits_of
+from disting.report.fit.sentences import first_lines, learned, suspicions, which_mass
 from disting.report.fit.words import fit_in_words, percent, result_unit, with_error
 from disting.report.fit.words import name as name_of
 from disting.verdict.result import Relation

@@ -30,7 +30,8 @@ It goes to a file for programs, and comes back:
 >>> import json
 >>> from pathlib import Path
 >>> from tempfile import TemporaryDirectory
->>> from disting.fit import read_model, selection_to_dict
+>>> from disting.fit import read_model
+>>> from disting.report.fit import selection_to_dict
 >>> with TemporaryDirectory() as folder:
 ...     file = Path(folder, "fit.json")
 ...     _ = file.write_text(json.dumps(selection_to_dict(found)))
@@ -100,6 +101,7 @@ from disting.fit.results.export import zero_pole as zero_pole
 from disting.fit.results.loop import Controller as Controller
 from disting.fit.results.loop import Margins as Margins
 from disting.fit.results.loop import margins as margins
+from disting.fit.results.model_file import read_model as read_model
 from disting.fit.results.reliance import Statement as Statement
 from disting.fit.results.sweep import Profile as Profile
 from disting.fit.results.sweep import Sweep as Sweep
@@ -123,8 +125,6 @@ from disting.fit.search.plant import Plant as Plant
 from disting.fit.search.setup import Setup as Setup
 from disting.fit.select import Selection as Selection
 from disting.fit.select import select as select
-from disting.fit.selection_json import read_model as read_model
-from disting.fit.selection_json import selection_to_dict as selection_to_dict
 from disting.model.presentation import offered as _offered
 
 

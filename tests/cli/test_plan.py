@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disting.fit import select, selection_to_dict
+from disting.fit import select
 from disting.fit.plan.power import plan
 from disting.fit.results.export import predicted
 from disting.measurement import FrequencyResponse, read, write_csv
 from disting.model.chain import Chain
+from disting.report.fit import selection_to_dict
 from tests.cli.process import called
 from tests.fit.drives import response
 from tests.fit.monte_carlo import drive, measured, offered, truth

@@ -15,11 +15,11 @@ from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost
 from disting.fit.search.whitened import Whitened
 from disting.fit.select import select
-from disting.fit.selection_json import selection_to_dict
-from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.model.chain import Chain, Sensor
+from disting.report.fit.selection_json import selection_to_dict
+from disting.report.fit.sentences import first_lines, suspicions
 from disting.simulation import Bench, Friction, simulate
 from tests.fit.drives import OMEGA, bench, response, truth
 

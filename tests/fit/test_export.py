@@ -17,9 +17,10 @@ from disting.fit.results.export import (
     write_mat,
     zero_pole,
 )
+from disting.fit.results.model_file import model_from_dict, read_model
 from disting.fit.select import select
-from disting.fit.selection_json import candidate_to_dict, model_from_dict, read_model
 from disting.model.chain import Chain
+from disting.report.fit.selection_json import candidate_to_dict
 from tests.fit.drives import CHAINS, OMEGA, response, truth
 
 

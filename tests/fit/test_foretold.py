@@ -13,10 +13,10 @@ from disting.fit.plan.further import MOVES, STILL, Bench, bench_of, foretold, sh
 from disting.fit.plan.power import power
 from disting.fit.plan.relations import Standing, stood
 from disting.fit.results.export import predicted
-from disting.fit.selection_json import _named
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR
+from disting.report.fit.selection_json import _named
 from disting.verdict.engine import Engine
 from tests.fit.drives import dense_response, truth
 

@@ -10,10 +10,10 @@ import pytest
 from disting.fit import select
 from disting.fit.judge.reading import outside, read_in_words
 from disting.fit.search.candidates import chosen_ports
-from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import read
 from disting.model.chain import Chain
 from disting.report.fit import fit_page, waterfall
+from disting.report.fit.sentences import first_lines, suspicions
 from tests.cli.process import called
 from tests.fit.drives import OMEGA, response
 from tests.measurement.bench_data import measured_data

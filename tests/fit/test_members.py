@@ -18,12 +18,13 @@ from disting.fit.judge.practical import Thresholds
 from disting.fit.results.export import predicted
 from disting.fit.search.candidates import as_listed, reference
 from disting.fit.select import select
-from disting.fit.selection_json import selection_to_dict
-from disting.fit.sentences import commands, first_lines, renamed
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.model.symmetry import forms
+from disting.report.fit.onward import commands, renamed
+from disting.report.fit.selection_json import selection_to_dict
+from disting.report.fit.sentences import first_lines
 from tests.fit.drives import OMEGA, response
 
 ROW = Chain(3, damped=True)

@@ -24,10 +24,11 @@ from disting.fit.noise.line_variance import coefficients
 from disting.fit.noise.scatter import changed, scatter
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.whitened import Whitened
-from disting.fit.sentences import commands, suspicions
 from disting.measurement import FrequencyResponse, TimeSeries, mean_of
 from disting.model.chain import Chain
 from disting.model.question import Settings
+from disting.report.fit.onward import commands
+from disting.report.fit.sentences import suspicions
 from tests.cli.process import called
 from tests.fit.monte_carlo import (
     BENCH,

@@ -11,8 +11,8 @@ from disting.fit.results.reliance import BETWEEN, FAMILY, WITHIN, Kind, Statemen
 from disting.fit.results.samples import Drawn, drawn, draws, with_twins
 from disting.fit.search.plant import Plant
 from disting.fit.select import select
-from disting.fit.selection_json import selection_to_dict
 from disting.model.chain import Chain
+from disting.report.fit.selection_json import selection_to_dict
 from tests.fit.drives import response
 
 ROW = Chain(3, damped=True)

@@ -13,12 +13,13 @@ from disting.fit.judge.admissible import Rule
 from disting.fit.judge.modes import oscillating, physical, poles, zeros
 from disting.fit.judge.practical import Thresholds
 from disting.fit.results.export import predicted
+from disting.fit.results.model_file import model_from_dict
 from disting.fit.results.sweep import CRITERIA, profile, sweep
 from disting.fit.search.candidates import figure_1, variants
 from disting.fit.search.cost import lines_by_deviation
 from disting.fit.select import select
-from disting.fit.selection_json import model_from_dict, selection_to_dict
 from disting.model.chain import Chain
+from disting.report.fit.selection_json import selection_to_dict
 from disting.verdict.result import Relation
 from tests.fit.drives import OMEGA, bench, response
 

@@ -14,8 +14,8 @@ from typing import Any
 
 from disting.errors import InputError
 from disting.files import read_json
+from disting.fit.results.model_file import FIT_FILE, chain_from_dict, model_from_dict, number_of
 from disting.fit.search.candidates import as_listed, reference
-from disting.fit.selection_json import FIT_FILE, chain_from_dict, model_from_dict, number_of
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of

@@ -1,11 +1,12 @@
-"""A fit as a page and figures. This package renders what `disting.fit` found, and asks it for
-what a figure needs.
+"""A fit in sentences, as a page, as figures, and as plain data for a file. This package renders
+what `disting.fit` found, and asks it for what a figure needs.
 """
 
 from disting.report.fit.bode import bode as bode
 from disting.report.fit.convergence import profile_panels as profile_panels
 from disting.report.fit.convergence import waterfall as waterfall
 from disting.report.fit.residuals import residuals as residuals
+from disting.report.fit.selection_json import selection_to_dict as selection_to_dict
 from disting.report.fit.selection_page import fit_page as fit_page
 from disting.report.fit.sensitivity import collinearity_dots as collinearity_dots
 from disting.report.fit.sensitivity import importance_bars as importance_bars

@@ -2,7 +2,7 @@
 each structure.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from os import fsencode
 from os.path import relpath
@@ -11,10 +11,9 @@ from urllib.parse import quote
 
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import name_of as catalog_name
-from disting.fit.judge.members import Member, Twin
+from disting.fit.judge.members import NOTHING, Member, Twin
 from disting.fit.search.candidates import as_listed, reference
 from disting.fit.select import Selection
-from disting.fit.sentences import commands
 from disting.model.chain import Chain
 from disting.model.names import damping_option
 
@@ -97,6 +96,46 @@ def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
         dampers = "".join(f"+b{i}" for i in chain.ground_dampers)
         yield name + dampers, f"{damper_name(*kind)}.html", f"#{number}{dampers}"
     yield name, f"models/{catalog_name(*kind).removeprefix('chains-')}/{number}.html", ""
+
+
+def renamed(found: Selection) -> str:
+    """What the parameters of the described candidate are called in the structure that it is
+    named after; "" for the same.
+    """
+    form = as_listed(found.described.chain)
+    other = ", ".join(f"{old} is {new} there" for old, new in form.renaming.items() if old != new)
+    exchanged = "" if other else "force and sensor are exchanged there"
+    said = (
+        f"{reference(found.described.chain)} is the structure of the catalogue that behaves the"
+        " same"
+    )
+    return "" if form.chain == found.described.chain else f"{said}: {other or exchanged}"
+
+
+def commands(found: Selection) -> tuple[str, ...]:
+    """Ready command lines for the next steps."""
+    first = found.described
+    rest = [m.name for m in found.members[1:]]
+    damped = damping_option(first.chain.damped)
+    steps = [f"disting compare {reference(first.chain)} {rest[0]} {damped}"] if rest else []
+    chain, fitted = _without_zeros(first.chain, first.estimate.parameters)
+    form, damped = as_listed(chain), damping_option(chain.damped)
+    values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in fitted.items())
+    there = f'--to "{chain.n_masses}+b*" --set {values}'
+    return (*steps, f"disting equivalents {reference(chain)} {damped} {there}")
+
+
+def _without_zeros(chain: Chain, values: Mapping[str, float]) -> tuple[Chain, dict[str, float]]:
+    """The chain without dampers that are zero, as far as it has a name, and its values; beside one
+    of several springs a damper that is as good as zero.
+    """
+    springs = [name for name in chain.parameters if name[0] == "d"]
+    there = replace(
+        chain,
+        damped=chain.damped and (not springs or any(values[name] for name in springs)),
+        ground_dampers=tuple(i for i in chain.ground_dampers if values[f"b{i}"]),
+    )
+    return there, {name: max(values[name], NOTHING) for name in there.parameters}
 
 
 def next_steps(selection: Selection) -> list[Step]:

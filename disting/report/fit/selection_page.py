@@ -12,7 +12,6 @@ from disting.fit.judge.explanation import allowed
 from disting.fit.judge.modes import Result
 from disting.fit.judge.reading import read_in_words
 from disting.fit.select import Selection
-from disting.fit.sentences import first_lines, suspicions
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
 from disting.report.fit.answer import answer
@@ -21,6 +20,7 @@ from disting.report.fit.criteria import limits, nearest, weakest
 from disting.report.fit.not_excluded import shown_set
 from disting.report.fit.onward import Site, next_steps
 from disting.report.fit.responses import drawing, seen_together, shown_responses
+from disting.report.fit.sentences import first_lines, suspicions
 from disting.report.fit.style import Drawn
 from disting.report.fit.table_rows import parameter_rows, result_row
 from disting.report.fit.words import (

@@ -14,7 +14,6 @@ from disting.fit.results.export import Exported
 from disting.fit.results.sweep import Profile, profile
 from disting.fit.search.candidates import reference as name_of
 from disting.fit.select import Selection
-from disting.fit.selection_json import candidate_to_dict, selection_to_dict
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
@@ -22,6 +21,7 @@ from disting.report.fit.left_figure import left_figure
 from disting.report.fit.onward import Site, beside
 from disting.report.fit.residuals import residuals
 from disting.report.fit.responses import responses
+from disting.report.fit.selection_json import candidate_to_dict, selection_to_dict
 from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn

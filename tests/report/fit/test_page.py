@@ -13,9 +13,9 @@ from disting.errors import InputError
 from disting.files import __version__
 from disting.fit.judge.modes import physical
 from disting.fit.judge.practical import Thresholds
+from disting.fit.results.model_file import read_model
 from disting.fit.search.candidates import chosen_ports
 from disting.fit.select import Selection, select
-from disting.fit.selection_json import read_model, selection_to_dict
 from disting.measurement import FrequencyResponse
 from disting.model.names import name_of
 from disting.report.fit import (
@@ -26,6 +26,7 @@ from disting.report.fit import (
     write_fit_report,
 )
 from disting.report.fit.criteria import limits, nearest, weakest
+from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.selection_page import reasoning
 from disting.report.fit.style import Drawn
 from disting.report.fit.thresholds import parameters_by_threshold

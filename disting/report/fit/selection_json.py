@@ -1,14 +1,11 @@
-"""A selection as plain data, ready for JSON, and the models in it, read back bit-equal."""
+"""A selection as plain data, ready for JSON. `disting.fit.read_model` reads its model back."""
 
 from dataclasses import asdict
 from math import isfinite
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError, shown
-from disting.files import read_json
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.members import Member
@@ -18,13 +15,10 @@ from disting.fit.results.confidence import fit_percent
 from disting.fit.results.reliance import Statement
 from disting.fit.search.candidates import as_listed, reference
 from disting.fit.select import Selection
-from disting.fit.sentences import places, suspicions
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.report.fit.sentences import places, suspicions
 from disting.schemas import Format
-
-HUGE = 1e100  # more is no value of an element, and squares of it are no numbers any more
-FIT_FILE = "a file of 'disting fit --json'"
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:
@@ -222,59 +216,6 @@ def _named(chain: Chain) -> dict[str, Any]:
         "quantity": chain.sensor.value,
         "damped": chain.damped,
     } | ({"renamed": form.renaming} if form.chain != chain else {})
-
-
-def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
-    """Chain and parameters of a candidate's plain data, bit-equal; raises InputError for what
-    is none.
-    """
-    chain = chain_from_dict(plain)
-    try:
-        values = {name: number_of(plain["parameters"][name]) for name in chain.parameters}
-    except (KeyError, TypeError, ValueError) as reason:
-        raise _no_model(reason) from None
-    return chain, values
-
-
-def chain_from_dict(plain: dict[str, Any]) -> Chain:
-    """The structure alone, of a candidate or of what is named beside it; raises InputError."""
-    try:
-        (act_minus, act_plus), (meas_minus, meas_plus) = plain["actuator"], plain["sensor"]
-        return Chain(
-            plain["n_masses"],
-            plain["gap"],
-            act_minus,
-            act_plus,
-            meas_minus,
-            meas_plus,
-            plain["quantity"],
-            plain["damped"],
-            tuple(plain["ground_dampers"]),
-            plain["lag"],
-            plain["delay"],
-        )
-    except (KeyError, TypeError, ValueError) as reason:
-        raise _no_model(reason) from None
-
-
-def number_of(value: Any, least: float = -HUGE, most: float = HUGE) -> float:
-    """A number of a file, finite and between two others; raises ValueError."""
-    if type(value) in (int, float) and least <= value <= most:
-        return float(value)
-    raise ValueError(f"{shown(value)}, where a number from {least:g} to {most:g} belongs,")
-
-
-def _no_model(reason: Exception) -> InputError:
-    return InputError(f"this is no fitted model: {shown(reason)} is missing or wrong")
-
-
-def read_model(path: Path) -> tuple[Chain, dict[str, float]]:
-    """The selected model of a JSON file of `disting fit`; raises InputError."""
-    plain = read_json(path, FIT_FILE)
-    selected = plain.get("selected", plain) if isinstance(plain, dict) else None
-    if not isinstance(selected, dict):
-        raise InputError(f"{path} holds no selected model")
-    return model_from_dict(selected)
 
 
 def _finite(value: float) -> float | None:

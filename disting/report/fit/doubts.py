@@ -1,0 +1,170 @@
+"""Sentences on what looks wrong in a selection: in its data, its misfit, its values."""
+
+from collections.abc import Iterator
+from math import isfinite
+
+import numpy as np
+from scipy.ndimage import median_filter
+
+from disting.fit.judge.admissible import FROM_ZERO, KNOWN, UNDETERMINED
+from disting.fit.judge.members import Disagreement
+from disting.fit.judge.modes import between_lines
+from disting.fit.judge.reading import bad_lines
+from disting.fit.judge.responses import correlations, partners
+from disting.fit.noise.scatter import CLEAR, changed, scatter
+from disting.fit.results.confidence import response_of
+from disting.fit.search.candidates import reference
+from disting.fit.search.joint import AnyCost
+from disting.fit.select import Selection
+
+FEWEST = 8  # lines of a fit
+SMOOTHED = 5  # lines over which the scatter is looked at
+MOST_CLEAR = 0.7  # share of the lines that carry information, above which no band is proposed
+HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
+
+
+def unseen(found: Selection) -> Iterator[str]:
+    """Resonances of the described candidate of which the lines show flanks at most."""
+    chain, values = found.described.chain, found.described.estimate.parameters
+    for pole, zero in between_lines(chain.structure, values, found.task.cost.measured.frequency):
+        yield (
+            f"{reference(chain)} has a resonance at {pole:.5g} Hz and an antiresonance at"
+            f" {zero:.5g} Hz, both between two lines and narrower than these are apart: the"
+            " lines show their flanks only; measure closer together there before you trust the"
+            " values that make them"
+        )
+
+
+def _of_each(cost: AnyCost) -> list[str]:
+    """Which response, where there are several."""
+    return [""] if len(cost.setups) == 1 else [f" of {setup.text}" for setup in cost.setups]
+
+
+def suspicious_data(cost: AnyCost) -> Iterator[str]:
+    """What looks wrong in the data."""
+    for part, of in zip(cost.parts, _of_each(cost), strict=True):
+        yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
+
+
+def doubled(found: Selection) -> Iterator[str]:
+    """Test data that are the training data once more."""
+    train = found.task.cost.measured
+    if found.test is not train and found.test == train:
+        yield (
+            "training and test data are the same numbers: nothing is validated; measure again, or"
+            " leave --test away"
+        )
+
+
+def bad(found: Selection) -> tuple[str, ...]:
+    """Single lines that make most of a misfit."""
+    if found.explanation.explains and not found.better:
+        return ()
+    said = bad_lines(found.candidates, found.described, found.task)
+    return () if said is None else (said,)
+
+
+def doubtful_deviations(found: Selection) -> Iterator[str]:
+    """What contradicts the standard deviations of the data."""
+    if found.explanation.scatter.doubt:
+        yield found.explanation.scatter.doubt
+
+
+def clear_band(found: Selection) -> Iterator[str]:
+    """The frequencies that carry information, where many others do not."""
+    data = found.judging.parts[0].measured
+    rho = found.explanation.scatter.rho[: len(data)]
+    clear = np.flatnonzero(median_filter(rho, SMOOTHED, mode="nearest") < CLEAR)
+    runs = np.split(clear, np.flatnonzero(np.diff(clear) > 1) + 1)
+    longest = max(runs, key=len)
+    if len(longest) >= FEWEST and found.explanation.scatter.clear < MOST_CLEAR:
+        low, high = (data.frequency[i] for i in (longest[0], longest[-1]))
+        yield (
+            f"from {low:.4g} to {high:.4g} Hz the lines scatter by less than {100 * CLEAR:.0f} %:"
+            f" --band {low * 0.999:.4g}..{high * 1.001:.4g} fits these alone"
+        )
+
+
+def better(found: Selection) -> Iterator[str]:
+    """The excluded candidate that fits better than the selected one."""
+    if found.selected is None or not found.better:
+        return
+    best, more = found.better[0], len(found.better) - 1
+    others = f" ({more} more)" if more else ""
+    yield (
+        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} for"
+        f" {found.selected.j_test:.3g}, but is not admissible: {'; '.join(best.reasons)}"
+    )
+
+
+def disagreeing(both: tuple[Disagreement, ...]) -> str:
+    """Parameters that training and test give differently."""
+    values = ", ".join(
+        f"{d.name} ({d.train:.3g} and {d.test:.3g}, {d.distance:.2g} standard errors apart)"
+        for d in both
+    )
+    return (
+        f"training and test data disagree on {values}: model error, as friction that changes with"
+        " the amplitude makes; trust neither interval"
+    )
+
+
+def changing(found: Selection) -> Iterator[str]:
+    """A machine that is not the same in both measurements."""
+    setups = found.task.cost.setups
+    tests = zip(partners(found.task.cost, found.judging), found.judging.parts, strict=True)
+    for k, (train, judged) in enumerate(tests):
+        test, at = judged.measured, setups.index(found.judging.setups[k])
+        of = _of_each(found.judging)[k]
+        fitted = [response_of(found.described, found.task, d.omega, at) for d in (train, test)]
+        known = [scatter(d, [own]) for d, own in zip((train, test), fitted, strict=True)]
+        tau = changed(train, test, *known)
+        if tau:
+            own = max(one.typical for one in known)
+            yield (
+                f"training and test data{of} differ by {100 * tau:.2g} % a line beyond"
+                f" what they scatter, {100 * own:.2g} %: the machine changes between them, as"
+                " friction does with the amplitude"
+            )
+
+
+def hanging(found: Selection) -> Iterator[str]:
+    """Residuals that hang together: what is left is not noise."""
+    candidate, cost = found.described, found.task.cost
+    there = found.task.plant(candidate.chain)
+    values = [candidate.estimate.parameters[n] for n in found.task.names(candidate.chain)]
+    size = correlations(cost, cost.residual(there.response(np.array(values))))
+    if size > HANGING and found.explanation.explains:
+        yield (
+            f"residuals of neighbouring lines are correlated by {size:.2f} on the training data:"
+            " the model misses something small; the standard errors allow for it"
+        )
+
+
+def weak(found: Selection) -> Iterator[str]:
+    """Parameters of the selected candidate that are known badly."""
+    if found.selected is None:
+        return
+    wide = found.members[0].intervals if found.members else {}
+    loose = {n: e for n, e in found.selected.practical.relative_errors.items() if not e <= KNOWN}
+    said = [
+        f"{n} {limits_in_words(*wide[n])}" if n in wide and not e <= FROM_ZERO else _loose(n, e)
+        for n, e in loose.items()
+    ]
+    if said:
+        yield f"known badly: {', '.join(said)}"
+
+
+def _loose(name: str, error: float) -> str:
+    return f"{name} to ± {100 * error:.0f} %" if error <= UNDETERMINED else f"{name} not at all"
+
+
+def limits_in_words(low: float, high: float) -> str:
+    """An interval of 95 %, of which an end may be missing.
+
+    >>> limits_in_words(0.0, 0.004), limits_in_words(2.0, float("inf"))
+    ('below 0.004 (95 %)', 'above 2 (95 %)')
+    """
+    if not isfinite(high):
+        return f"above {low:.3g} (95 %)" if low > 0 else "not determined"
+    return f"{low:.3g} to {high:.3g} (95 %)" if low > 0 else f"below {high:.3g} (95 %)"
