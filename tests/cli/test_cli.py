@@ -305,7 +305,7 @@ def test_proofs_on_request():
 
 
 def test_models_tells_of_a_network_what_enters_and_what_is_determined():
-    done = disting("models", "1~2, 2~#, 3~#; F1; S1")
+    done = called("models", "1~2, 2~#, 3~#; F1; S1")
     assert done.stdout.splitlines() == [
         "1~2, 2~#, 3~#; F1; S1  G(s) = ((k02 + k12)*s**2 + m2*s**4)/(k02*k12 + (k02*m1 + k12*m1"
         " + k12*m2)*s**2 + m1*m2*s**4)",
@@ -318,5 +318,5 @@ def test_models_tells_of_a_network_what_enters_and_what_is_determined():
         (["R1-C1", "--damped"], "--damped belongs to numbered chains"),
         (["R1-C1", "--also", "lock=1"], "--also belongs to numbered chains"),
     ):
-        refused = disting("models", *arguments)
+        refused = called("models", *arguments)
         assert refused.returncode == 2 and wanted in refused.stderr

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from tests.cli.process import called, disting
+from tests.cli.process import called
 
 VALUES = "m1=1,m2=2,m3=3,k12=100,k23=70"
 
@@ -15,7 +15,7 @@ def equivalents(*arguments):
 
 
 def test_one_structure():
-    done = disting(
+    done = called(
         "equivalents",
         "3:1",
         "--to",

@@ -53,11 +53,9 @@ def rigid(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def fitted(files):
-    """What a process with two workers prints, and the file that it writes."""
+    """What is printed, and the file that is written."""
     path = files[0].with_name("fit.json")
-    done = disting(
-        "fit", files[0], "--test", files[1], "--masses", "2", "--json", path, "--jobs", 2
-    )
+    done = called("fit", files[0], "--test", files[1], "--masses", "2", "--json", path)
     assert done.returncode == 0 and done.stderr == ""
     return done.stdout, path
 
@@ -95,6 +93,19 @@ def test_the_printed_result_says_what_matters(fitted):
     )
 
 
+@pytest.mark.slow
+def test_a_process_with_two_workers_says_the_same(files, fitted, tmp_path):
+    path = tmp_path / "fit.json"
+    options = ("--test", files[1], "--masses", "2", "--json", path, "--jobs", 2)
+    done = disting("fit", files[0], *options)
+    assert done.returncode == 0 and done.stderr == ""
+    alone, workers = (json.loads(file.read_text(encoding="utf-8")) for file in (fitted[1], path))
+    assert workers | {"command": ""} == alone | {"command": ""}
+    assert [line for line in done.stdout.splitlines() if str(path.parent) not in line] == [
+        line for line in fitted[0].splitlines() if str(fitted[1].parent) not in line
+    ]
+
+
 def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
     cache = tmp_path / "cache.sqlite3"
     arguments = ("fit", rigid[0], "--test", rigid[1], "--masses", "1", "--json", "-")
@@ -109,7 +120,7 @@ def test_a_folder_gets_everything(rigid, tmp_path):
     data, out = os.path.join(os.fsencode(tmp_path), ODD), tmp_path / "out"
     with open(data, "wb") as file:
         file.write(rigid[0].read_bytes())
-    done = disting(
+    done = called(
         *("fit", os.fsdecode(data), "--test", rigid[1], "--masses", "1"),
         *("--out", out, "--site", REPORTS),
     )
@@ -221,14 +232,14 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
 
 
 def test_of_very_many_lines_some_are_fitted_and_text_and_json_say_so(tmp_path):
-    frequency = np.linspace(5.0, 300.0, 100_000)
+    frequency = np.linspace(5.0, 300.0, 20_000)
     response = 1 / (0.01 * (1 + 0.002j * frequency))
     text = [f"{f},{g.real},{g.imag}" for f, g in zip(frequency, response, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join(["f [Hz],Re,Im", *text]))
     options = ("fit", tmp_path / "a.csv", "--masses", "1", "--quantity", "velocity")
     for more, count in (((), 10_000), (("--lines", "20"), 20)):
         done = called(*options, *more, "--json", tmp_path / "fit.json")
-        said = f"; {count} of 100000 lines, evenly spaced on a logarithmic scale"
+        said = f"; {count} of 20000 lines, evenly spaced on a logarithmic scale"
         assert done.returncode == 0 and said in done.stdout.splitlines()[0]
         plain = json.loads((tmp_path / "fit.json").read_text())
         assert plain["data"][0]["reading"].endswith(said)

@@ -136,8 +136,8 @@ def with_friction():
 @pytest.mark.parametrize(
     "data",
     [
-        noisy(EXACT * notch(70, 0.05, 0.5)),
-        noisy(rod()),
+        pytest.param(noisy(EXACT * notch(70, 0.05, 0.5)), marks=pytest.mark.slow),
+        pytest.param(noisy(rod()), marks=pytest.mark.slow),
         noisy(EXACT * (1 + 0.3 * np.exp(-0.03j * OMEGA))),
         with_friction(),
     ],

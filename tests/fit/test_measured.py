@@ -55,7 +55,7 @@ def test_the_page_says_it_too(speed):
     assert "frequency in Hz (column 1), real part (column 2)" in page
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_an_acceleration_that_is_assumed_and_is_one_is_no_suspicion(tmp_path, seed):
     found = fitted(file_of(tmp_path / "a.csv", "acceleration", seed))
     assert found.quantities == () and found.explanation.explains

@@ -1,8 +1,6 @@
 """Networks fitted to responses: truths that are kept, published fits, bad input."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +14,7 @@ from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse, read, write_csv
 from disting.network import Network, network_of
 from disting.network.families import family_of
+from tests.cli.process import called
 
 DATA = Path(__file__).parents[2].parent / "shared" / "data" / "eis"
 needs_data = pytest.mark.skipif(not DATA.is_dir(), reason="no folder with measured impedances")
@@ -102,12 +101,10 @@ def test_two_sensors_are_fitted_together(tmp_path):
     assert found.left[0].values == pytest.approx(values, rel=0.02)
     for name, one in zip("ab", data, strict=True):
         write_csv(one, tmp_path / f"{name}.csv")
-    command = ["fit", "a.csv", "b.csv", "--quantity", "position"]
+    command = ["fit", tmp_path / "a.csv", tmp_path / "b.csv", "--quantity", "position"]
     for text in texts:
         command += ["--models", text]
-    done = subprocess.run(
-        [sys.executable, "-m", "disting", *command], capture_output=True, text=True, cwd=tmp_path
-    )
+    done = called(*command)
     assert done.returncode == 0, done.stderr
     assert f"{texts[1]} is the simplest that explains the data." in done.stdout
 
@@ -245,12 +242,6 @@ def test_files_of_instruments(file, lines, first):
     assert len(found) == lines and found.G[0] == pytest.approx(first)
 
 
-def run(*words: str) -> subprocess.CompletedProcess:
-    return subprocess.run(
-        [sys.executable, "-m", "disting", "fit", *words], capture_output=True, text=True
-    )
-
-
 def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
     omega = np.logspace(0, 4, 60)
     cell = 1 + 2 / (1 + 0.02j * omega)
@@ -260,7 +251,7 @@ def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
     file.write_text("\n".join(",".join(map(str, row)) for row in rows))
     told = tmp_path / "found.json"
     words = [str(file), "--models", "R0-C1", "--models", "R0-p(R1,C1)", "--json", str(told)]
-    done = run(*words)
+    done = called("fit", *words)
     assert done.returncode == 0, done.stderr
     assert "R0-p(R1,C1) is the simplest that explains the data." in done.stdout
     assert "taken as -Im" in done.stderr
@@ -283,5 +274,5 @@ def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
 def test_bad_input_is_one_sentence(tmp_path, words, said):
     file = tmp_path / "a.csv"
     file.write_text("\n".join(f"{k},{1 / k},0.1" for k in range(1, 20)))
-    done = run(str(file), *words)
+    done = called("fit", file, *words)
     assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr

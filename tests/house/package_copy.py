@@ -16,9 +16,11 @@ Change = tuple[str, str]
 def copied(
     folder: Path, changes: Mapping[str, Iterable[Change]], modules: Mapping[str, str] | None = None
 ) -> Path:
-    """A copy of the package in a folder, with these changes by module, and further modules."""
+    """A copy of the package in a folder, with these changes by module, and further modules. What is
+    compiled already is copied too, so that only what changed is compiled.
+    """
     shipped = Path(disting.__file__).parent
-    shutil.copytree(shipped, folder / "disting", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(shipped, folder / "disting")
     if (shipped.parent / "catalog").is_dir():
         (folder / "catalog").symlink_to(shipped.parent / "catalog")
     for name, text in (modules or {}).items():

@@ -73,7 +73,10 @@ def near(values, rng, size):
     return {p: x * Fraction(1 + size * float(rng.uniform(-1, 1))) for p, x in values.items()}
 
 
-@pytest.mark.parametrize("pair", [*SOMETIMES[:3], NEVER])
+@pytest.mark.parametrize(
+    "pair",
+    [SOMETIMES[0], *(pytest.param(pair, marks=pytest.mark.slow) for pair in SOMETIMES[1:3]), NEVER],
+)
 def test_no_search_finds_what_lists_deny_and_all_around_it(pair):
     rng = np.random.default_rng(5)
     left, right = models(pair)

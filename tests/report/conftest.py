@@ -1,4 +1,6 @@
-"""A real browser for the tests of pages; a test module gives `site`, the folder with the pages."""
+"""A real browser for the tests of pages, started once a process; a test module gives `site`, the
+folder with the pages.
+"""
 
 import re
 import shutil
@@ -12,7 +14,7 @@ CHROMIUM = next(
 )
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser() -> Iterator[object]:
     playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
     with playwright.sync_playwright() as p:
