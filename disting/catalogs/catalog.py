@@ -21,12 +21,13 @@ from disting.catalogs.files import (
 )
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.conditions.rule import RULES
-from disting.errors import CatalogError, InputError, of_type
+from disting.errors import CatalogError, ContradictionError, InputError, of_type
 from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.presentation import Shown, plural, summary
 from disting.questions.identifiability import Identifiability
 from disting.schemas import Format
+from disting.verdict.buckets import classes_of
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -155,28 +156,17 @@ class Catalog(Shown):
         """Groups of two or more mutually indistinguishable models, for all parameters of the
         view's domain.
 
-        That is transitive over every domain (where generic parameters of A have equivalents in B,
-        and those of B in C, those of A have some in C), so the groups are the connected
-        components; raises CatalogError where the verdicts contradict that. Pairs that agree for
-        some parameters only belong to no group for that (see `depending`).
+        Raises CatalogError where the verdicts contradict each other. Pairs that agree for some
+        parameters only belong to no group for that (see `depending`).
         """
-        import networkx as nx
-
-        graph: nx.Graph[int] = nx.Graph()
         pairs = self.records[1 + len(self.family) :]
         relations = {(r["left"], r["right"]): relation_of(self._deciding(r, view)) for r in pairs}
-        graph.add_edges_from(
-            pair for pair, relation in relations.items() if relation is Relation.INDISTINGUISHABLE
-        )
-        groups = sorted(tuple(sorted(c)) for c in nx.connected_components(graph))
-        for members in groups:
-            apart = (Relation.DISTINGUISHABLE, Relation.SOMETIMES)
-            if any(relations[a, b] in apart for a in members for b in members if a < b):
-                raise CatalogError(
-                    f"{self.name} is inconsistent: the group {members} holds a pair that can be"
-                    " told apart"
-                )
-        return tuple(groups)
+        names = [str(number) for number in range(1, 1 + len(self.family))]
+        try:
+            classes = classes_of(names, lambda i, j: relations[i + 1, j + 1])
+        except ContradictionError as reason:
+            raise CatalogError(f"{self.name} is inconsistent: {reason}") from None
+        return tuple(tuple(i + 1 for i in members) for members in classes if len(members) > 1)
 
     def depending(self, view: View = View.POSITIVE) -> tuple[tuple[int, int], ...]:
         """The pairs that are indistinguishable for some parameters only; over complex parameters

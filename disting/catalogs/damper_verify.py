@@ -5,7 +5,7 @@ Settles what the classes with dampers to the ground leave open, a pair of classe
 other, each kept at once.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.low_cost import patient_finding
+from disting.verdict.buckets import Forest
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.engine import Engine, Progress, mapped, silent
 from disting.verdict.result import Relation
@@ -110,26 +111,14 @@ def _open(found: DamperFamily, known: Mapping[tuple[Chain, Chain], Finding]) -> 
     group = {canonical(c).chain: int(g) for c, g in zip(classes.chains, classes.group, strict=True)}
     for one, other in sorted(classes.open_groups):
         links = [(group[a], group[b], x.outcome) for (a, b), x in known.items()]
-        root = _united((a, b) for a, b, outcome in links if outcome is Outcome.HOLDS)
+        same = Forest.of(1 + max(group.values()))
+        for a, b, outcome in links:
+            if outcome is Outcome.HOLDS:
+                same.unite(a, b)
+        root = same.root
         apart = [{root(a), root(b)} for a, b, outcome in links if outcome is Outcome.FAILS]
         if root(one) != root(other) and {root(one), root(other)} not in apart:
             yield _representative(found, one), _representative(found, other)
-
-
-def _united(pairs: Iterable[tuple[int, int]]) -> Callable[[int], int]:
-    """Which of the numbers that equalities link stands for all of them."""
-    above: dict[int, int] = {}
-
-    def root(i: int) -> int:
-        """The last one above."""
-        while i in above:
-            i = above[i]
-        return i
-
-    for a, b in pairs:
-        if root(a) != root(b):
-            above[root(b)] = root(a)
-    return root
 
 
 def _representative(found: DamperFamily, group: int) -> int:

@@ -18,6 +18,7 @@ from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.question import Domain
+from disting.verdict.buckets import classes_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View
@@ -91,14 +92,8 @@ class DamperTable:
         """The sets grouped by indistinguishability, in the order of their first members; an
         undecided pair joins no groups.
         """
-        groups: list[list[int]] = []
-        for i in range(len(self.sets)):
-            home = next(
-                (g for g in groups if self.decided.relation(g[0], i) is Relation.INDISTINGUISHABLE),
-                None,
-            )
-            groups.append([i]) if home is None else home.append(i)
-        return tuple(tuple(self.sets[i] for i in group) for group in groups)
+        classes = classes_of([spelled(s) for s in self.sets], self.decided.relation)
+        return tuple(tuple(self.sets[i] for i in members) for members in classes)
 
     def to_csv(self) -> str:
         """All pairs as CSV text: left, right, relation, decided_by ("" if undecided), domain,

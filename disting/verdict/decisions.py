@@ -18,12 +18,11 @@ from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, RULES, Stage
 from disting.conditions.side import AnySide
 from disting.conditions.table import NECESSARY
-from disting.errors import ContradictionError
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
 from disting.model.presentation import Shown, plural, summary
 from disting.questions.inclusion import Inclusion, Inclusions, Sense
-from disting.verdict.buckets import Buckets
+from disting.verdict.buckets import classes_of
 from disting.verdict.cascade import Step, decide, verdict_of
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
@@ -228,19 +227,11 @@ class Decisions(Shown):
     def classes(self) -> tuple[tuple[int, ...], ...]:
         """Groups of two or more subjects, counted from 0, that are mutually indistinguishable.
 
-        That is transitive over every domain (see `catalogs.catalog`), so an undecided pair of one
-        group is none; raises ContradictionError where the verdicts contradict it.
+        An undecided pair of one group is none; raises ContradictionError where the verdicts
+        contradict each other.
         """
-        known = Buckets.of(self.subjects, tests=0)
-        for i, j in combinations(range(len(self.subjects)), 2):
-            if self.relation(i, j) is Relation.INDISTINGUISHABLE:
-                known.unite(i, j)
-        groups = [members for members in known.classes() if len(members) > 1]
-        for i, j in (pair for members in groups for pair in combinations(members, 2)):
-            if self.relation(i, j) in (Relation.DISTINGUISHABLE, Relation.SOMETIMES):
-                names = self.subjects[i].name, self.subjects[j].name
-                raise ContradictionError(f"{names[0]} and {names[1]} are one group, but told apart")
-        return tuple(groups)
+        classes = classes_of([s.name for s in self.subjects], self.relation)
+        return tuple(members for members in classes if len(members) > 1)
 
     def counts(self) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the

@@ -148,19 +148,19 @@ class _Work:
             if first.rank == len(first.form) and len({profiles[i].constants for i in bucket}) == 1:
                 for i in bucket:
                     self.free[i] = number
-                    self.known.unite(bucket[0], i)
+                    self.known.classes.unite(bucket[0], i)
         for (base, masses), i in self.unions.items():
             for more in range(1, base.n_masses + 1):
                 j = self.unions.get((base, masses | {more}), i)
                 if profiles[i].rank == profiles[j].rank:
-                    self.known.unite(i, j)
+                    self.known.classes.unite(i, j)
 
     def rename(self) -> None:
         """Renamings inside buckets: those by symmetry are one canonical form already."""
         for bucket in self.known.shared(range(len(self.subjects))):
             for first, i in self.known.renamed(bucket):
                 self.renamed[i] = first
-                self.known.unite(first, i)
+                self.known.classes.unite(first, i)
 
     def take_over(self, settled: Settled) -> None:
         """What is settled of canonical forms that are here."""
@@ -174,14 +174,16 @@ class _Work:
         if found.certainty is Certainty.NUMERICAL:
             return
         if found.outcome is Outcome.HOLDS:
-            self.known.unite(i, j)
+            self.known.classes.unite(i, j)
         elif found.outcome is Outcome.FAILS:
             self.refuted.add((i, j))
 
     def open_pairs(self) -> list[tuple[int, int]]:
         """Pairs of representatives that share all columns and are not refuted."""
-        roots = [i for i in range(len(self.subjects)) if self.known.root(i) == i]
-        apart = {_sorted(self.known.root(a), self.known.root(b)) for a, b in self.refuted}
+        roots = [i for i in range(len(self.subjects)) if self.known.classes.root(i) == i]
+        apart = {
+            _sorted(self.known.classes.root(a), self.known.classes.root(b)) for a, b in self.refuted
+        }
         pairs = (
             _sorted(i, j) for bucket in self.known.shared(roots) for i, j in combinations(bucket, 2)
         )
@@ -189,7 +191,7 @@ class _Work:
 
     def finished(self, chains: Sequence[Chain]) -> Classes:
         """What was found, for the chains as given."""
-        columns, root = self.known.columns, self.known.root
+        columns, root = self.known.columns, self.known.classes.root
         told = {i: columns[i][:-1] for i in range(len(self.subjects))}
         apart = [
             *self.refuted,

@@ -115,7 +115,7 @@ class _Work:
         found = []
         for bucket in self.known.shared(chosen):
             if len({s // self.n_masses for s in bucket}) > 1:
-                roots = list(dict.fromkeys(map(self.known.root, bucket)))
+                roots = list(dict.fromkeys(map(self.known.classes.root, bucket)))
                 found += [roots] if len(roots) > 1 else []
         return found
 
@@ -152,7 +152,7 @@ class _Work:
                     (self.apart if found.outcome is Outcome.FAILS else self.open).add((a, b))
                 if found.certainty is Certainty.BOUNDED:
                     self.safeties.append(found.safety)
-            rest = [[s for s in bucket[1:] if self.known.root(s) == s] for bucket in rounds]
+            rest = [[s for s in bucket[1:] if self.known.classes.root(s) == s] for bucket in rounds]
             rounds = [b for b in rest if len({s // self.n_masses for s in self._members(b)}) > 1]
 
     def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
@@ -162,17 +162,17 @@ class _Work:
 
     def _members(self, roots: Iterable[int]) -> list[int]:
         chosen = set(roots)
-        return [s for s in range(len(self.sides)) if self.known.root(s) in chosen]
+        return [s for s in range(len(self.sides)) if self.known.classes.root(s) in chosen]
 
     def unite(self, first: int, s: int, rule: str = "") -> None:
         """One class of two, for this reason; by the exact decision where none is named."""
-        self.known.unite(first, s)
+        self.known.classes.unite(first, s)
         if rule:
             self.links[first] = self.links[s] = f"{rule}/{first}"
 
     def finished(self) -> Placed:
         """What was found; classes are numbered as they come."""
-        root = self.known.root
+        root = self.known.classes.root
         roots = [root(s) for s in range(len(self.sides))]
         number = {r: k for k, r in enumerate(dict.fromkeys(roots))}
         kept, apart = (
