@@ -1,18 +1,23 @@
 """Arguments of disting fit; nothing here loads numerical libraries."""
 
 import argparse
-import re
 from pathlib import Path
-from typing import Any
 
 from disting.cli.arguments import add_damped, add_json, add_work, frequency_range
+from disting.cli.fit_values import (
+    bound,
+    known_value,
+    masses,
+    reader_option,
+    signs,
+    site_folder,
+    thresholds,
+    unit_of,
+)
 from disting.cli.output import written_folder
-from disting.errors import shown
 from disting.model.chain import Sensor
 
 WEIGHTS = ("auto", "none", "std", "coherence")
-UNITS = ("frequency", "phase", "magnitude", "input", "output")
-SIGNS = ("+", "-", "auto")
 RULES = ("not-excluded", "paper")
 THRESHOLDS = (30.0, 1000.0, 20.0)
 
@@ -104,7 +109,7 @@ def _reading(group: argparse._ArgumentGroup) -> None:
         " may be repeated"
     )
     group.add_argument(
-        "--read", type=_option, action="append", default=[], metavar="NAME=VALUE", help=text
+        "--read", type=reader_option, action="append", default=[], metavar="NAME=VALUE", help=text
     )
     text = "another measurement of TRAIN; mean and scatter of all are taken; may be repeated"
     group.add_argument(
@@ -130,7 +135,7 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
         " may be repeated"
     )
     group.add_argument(
-        "--unit", type=_unit, action="append", default=[], metavar="NAME=UNIT", help=text
+        "--unit", type=unit_of, action="append", default=[], metavar="NAME=UNIT", help=text
     )
     group.add_argument(
         "--scale",
@@ -156,7 +161,7 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
         "sign of the sensor: +, - or auto, what fits better among small and large candidates; of"
         " several --sign=+,- (default: +)"
     )
-    group.add_argument("--sign", type=_signs, default="+", metavar="SIGN", help=text)
+    group.add_argument("--sign", type=signs, default="+", metavar="SIGN", help=text)
 
 
 def _structures(group: argparse._ArgumentGroup) -> None:
@@ -168,7 +173,7 @@ def _structures(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--models", action="append", default=[], metavar="NETWORK", help=text)
     group.add_argument(
         "--masses",
-        type=_masses,
+        type=masses,
         default=(1, 2, 3, 4),
         metavar="N",
         help="3, 1-4 or 1,3 (default: 1-4)",
@@ -208,7 +213,7 @@ def _known(group: argparse._ArgumentGroup) -> None:
     """What is known of their parameters and verdicts."""
     group.add_argument(
         "--fix",
-        type=_value,
+        type=known_value,
         action="append",
         default=[],
         metavar="NAME=VALUE",
@@ -216,7 +221,7 @@ def _known(group: argparse._ArgumentGroup) -> None:
     )
     text = "range of a parameter; may be repeated"
     group.add_argument(
-        "--bound", type=_bound, action="append", default=[], metavar="NAME=LOW..HIGH", help=text
+        "--bound", type=bound, action="append", default=[], metavar="NAME=LOW..HIGH", help=text
     )
     group.add_argument(
         "--no-prune", action="store_true", help="fit indistinguishable candidates separately"
@@ -238,7 +243,7 @@ def _choices(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
     group.add_argument(
-        "--thresholds", type=_thresholds, default=THRESHOLDS, metavar="C,P,G", help=text
+        "--thresholds", type=thresholds, default=THRESHOLDS, metavar="C,P,G", help=text
     )
     text = (
         "what may be selected: what the data do not exclude, or of that what the paper's three"
@@ -280,90 +285,5 @@ def _output(group: argparse._ArgumentGroup) -> None:
         "with --out: folder that 'disting report' wrote, to which the page links its structures"
         " (default: if it lies beside)"
     )
-    group.add_argument("--site", type=_site, metavar="DIR", help=text)
+    group.add_argument("--site", type=site_folder, metavar="DIR", help=text)
     add_json(group, "the selection")
-
-
-def _site(text: str) -> Path:
-    if not (Path(text) / "models").is_dir():
-        raise argparse.ArgumentTypeError(
-            f"{shown(text)} holds no pages that 'disting report' wrote; name their folder"
-        )
-    return Path(text)
-
-
-def _option(text: str) -> tuple[str, Any]:
-    name, equals, value = text.partition("=")
-    if not (name and equals and value):
-        raise argparse.ArgumentTypeError(
-            f"an option is written like sampling_rate=2500, not {shown(text)}"
-        )
-    if ".." in value:
-        return name, frequency_range(value)
-    # not at the comma of frf[2,1]
-    parts = tuple(_number(part) for part in re.split(r",(?![^\[(]*[\])])", value))
-    return name, parts if len(parts) > 1 else parts[0]
-
-
-def _unit(text: str) -> tuple[str, str]:
-    name, equals, unit = text.partition("=")
-    if not (equals and unit) or name not in UNITS:
-        raise argparse.ArgumentTypeError(
-            f"a unit is written like output=deg, of {', '.join(UNITS)}, not {shown(text)}"
-        )
-    return name, unit
-
-
-def _signs(text: str) -> str:
-    if text != "auto" and not all(sign in ("+", "-") for sign in text.split(",")):
-        raise argparse.ArgumentTypeError(
-            f"a sign is {', '.join(SIGNS)}, of several sensors like +,-, not {shown(text)}"
-        )
-    return text
-
-
-def _number(text: str) -> int | float | str:
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
-
-
-def _bound(text: str) -> tuple[str, tuple[float, float]]:
-    name, _, limits = text.partition("=")
-    return name, frequency_range(limits)
-
-
-def _value(text: str) -> tuple[str, float]:
-    name, _, value = text.partition("=")
-    try:
-        return name, float(value)
-    except ValueError:
-        raise argparse.ArgumentTypeError(
-            f"a value is written like m1=0.02, not {shown(text)}"
-        ) from None
-
-
-def _masses(text: str) -> tuple[int, ...]:
-    match = re.fullmatch(r"([1-9])(?:-([1-9])|((?:,[1-9])*))", text)
-    if not match or int(match[2] or 9) < int(match[1]):
-        raise argparse.ArgumentTypeError(
-            f"numbers of masses are written like 3, 1-4 or 1,3, not {shown(text)}"
-        )
-    if match[2]:
-        return tuple(range(int(match[1]), int(match[2]) + 1))
-    return tuple(sorted({int(n) for n in text.split(",")}))
-
-
-def _thresholds(text: str) -> tuple[float, float, float]:
-    try:
-        first, second, third = (float(part) for part in text.split(","))
-    except ValueError:
-        first = second = third = -1.0
-    if not all(limit > 0 for limit in (first, second, third)):
-        raise argparse.ArgumentTypeError(
-            f"thresholds are written like 30,1000,20, all positive, not {shown(text)}"
-        )
-    return first, second, third

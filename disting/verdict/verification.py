@@ -2,9 +2,7 @@
 that the file says follows from it.
 
 Nothing is looked up. What would take more work to see again than is done for it is said, and all
-else is checked. Evidence that is true can have been chosen, and then bounds nothing: so certainty,
-bounds and points are compared with those that the settings give, found again with evidence of this
-kind.
+else is checked (`claim_checks`).
 """
 
 from collections.abc import Callable, Iterator
@@ -14,26 +12,18 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from disting.algebra.certainty import Certainty
-from disting.conditions.finding import Finding
-from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.conditions.side import notes_of
 from disting.errors import DistingError, InputError, NotSeenError, shown
-from disting.evidence.kinds import Evidence
-from disting.evidence.real import BothWays
 from disting.files import as_path, read_json
 from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
-from disting.verdict.cascade import decide, follows, over_domain
+from disting.questions.inclusion import Inclusion
+from disting.verdict.claim_checks import CHECKS, LIMITS, SHARES, Check, Claim
 from disting.verdict.comparison import Sides
 from disting.verdict.engine import Engine
 from disting.verdict.everywhere import FORMAT as EVERYWHERE
 from disting.verdict.everywhere import differing_everywhere, read_everywhere
-from disting.verdict.proof import proven_again
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation
 from disting.verdict.verdict_file import (
     DAMAGED,
     Stored,
@@ -44,10 +34,7 @@ from disting.verdict.verdict_file import (
     read_file,
 )
 
-SECONDS = 60.0  # for a proof that took ten
 WANTED = "a file of a verdict, as 'disting compare N:I M:J --json' writes it"
-LIMITS, SHARES = "which is a limit of the other", "positive equivalents"
-Told = tuple[Certainty | None, int, Evidence | None]
 
 
 class Standing(StrEnum):
@@ -123,19 +110,19 @@ def verify(given: dict[str, Any] | str | Path) -> Verification:
     other = differing_everywhere(data, stored)
     if other:
         return Verification(Standing.FAILS, _not_agreeing(other))
-    found = [_verified(one, read) for one, read in zip(data["verdicts"], stored, strict=True)]
+    ways = [_verified(plain, read) for plain, read in zip(data["verdicts"], stored, strict=True)]
     whole = Verification(
         Standing.HOLDS,
-        verdicts=tuple(sentence for one in found for sentence in one.verdicts),
-        models=found[0].models,
-        found_again=tuple(dict.fromkeys(what for one in found for what in one.found_again)),
-        as_written=tuple(dict.fromkeys(what for one in found for what in one.as_written)),
+        verdicts=tuple(sentence for way in ways for sentence in way.verdicts),
+        models=ways[0].models,
+        found_again=tuple(dict.fromkeys(what for way in ways for what in way.found_again)),
+        as_written=tuple(dict.fromkeys(what for way in ways for what in way.as_written)),
     )
     for standing in (Standing.FAILS, Standing.OPEN):
-        where = next((i for i, one in enumerate(found) if one.standing is standing), None)
+        where = next((i for i, way in enumerate(ways) if way.standing is standing), None)
         if where is not None:
             base = whole if standing is Standing.OPEN else Verification(standing)
-            reason = f"{found[where].reason} (way {where + 1})"
+            reason = f"{ways[where].reason} (way {where + 1})"
             return replace(base, standing=standing, reason=reason)
     return whole
 
@@ -165,7 +152,7 @@ def _verified(data: dict[str, Any], stored: Stored) -> Verification:
         return Verification(Standing.FAILS, f"it is damaged ({type(reason).__name__}: {reason})")
     if stored.verdict.evidence is None:
         unseen.append("it is undecided: it says nothing that evidence could show")
-    told = Verification(
+    return Verification(
         Standing.OPEN if unseen else Standing.HOLDS,
         unseen[0] if unseen else "",
         (as_file(stored)["sentence"],),
@@ -173,7 +160,6 @@ def _verified(data: dict[str, Any], stored: Stored) -> Verification:
         tuple(filter(None, dict.fromkeys(seen))),
         tuple(filter(None, dict.fromkeys(written))),
     )
-    return told
 
 
 def _whose(stored: Stored, sides: Sides) -> str:
@@ -194,22 +180,6 @@ def _kind_of(name: str) -> str:
     return "a chain without a number" if name.startswith("(") else "a numbered chain"
 
 
-@dataclass(frozen=True, slots=True)
-class _Claim:
-    """One verdict of a file: what was asked, of what, that over complex parameters if it is told
-    beside it, and where it stands.
-    """
-
-    verdict: Verdict
-    query: Query
-    sides: Sides
-    equal: Verdict | None
-    where: str
-
-
-Check = Callable[[_Claim], Iterator[str]]
-
-
 def _checks(
     data: dict[str, Any], stored: Stored, sides: Sides
 ) -> Iterator[tuple[str, Callable[[], Iterator[str]]]]:
@@ -218,22 +188,22 @@ def _checks(
     """
     yield "models, sentence and all that is derived", partial(_disagreeing, data, stored, sides)
     beside = stored.over_complex
-    claims = [_Claim(stored.verdict, stored.query, sides, beside, "")]
+    claims = [Claim(stored.verdict, stored.query, sides, beside, "")]
     if beside is not None:
         query, where = exact(stored.query), "over complex parameters "
-        claims.append(_Claim(beside, query, sides, None, where))
+        claims.append(Claim(beside, query, sides, None, where))
     for what, check in CHECKS.items():
         yield from (_named(what, claim, check) for claim in claims)
     yield "", partial(_false_equality, stored)
 
 
-def _named(what: str, claim: _Claim, check: Check) -> tuple[str, Callable[[], Iterator[str]]]:
+def _named(what: str, claim: Claim, check: Check) -> tuple[str, Callable[[], Iterator[str]]]:
     """The check of a claim, and what it is called if there is anything to check."""
     v = claim.verdict
     shares = v.right_positive if v.left_positive is None else v.left_positive
-    there = {LIMITS: v.inclusions, SHARES: shares}.get(what, v.evidence) is not None
-    where = f", {claim.where.strip()}" * bool(claim.where)
-    return f"{what}{where}" * there, partial(check, claim)
+    looked_at = {LIMITS: v.inclusions, SHARES: shares}.get(what, v.evidence) is not None
+    where = f", {claim.where.strip()}" if claim.where else ""
+    return f"{what}{where}" if looked_at else "", partial(check, claim)
 
 
 def _disagreeing(data: dict[str, Any], stored: Stored, sides: Sides) -> Iterator[str]:
@@ -250,125 +220,12 @@ def _not_agreeing(what: str) -> str:
     return f"what it says does not agree with its evidence and models ({what})"
 
 
-def _unfounded(claim: _Claim) -> Iterator[str]:
-    v = claim.verdict
-    if v.evidence is None:
-        return
-    if not follows(v, v.evidence, claim.query):
-        yield f"{claim.where}{v.relation}, by {v.rule}, does not follow from evidence of that kind"
-    if v.notes != (*notes_of(claim.sides.left, claim.sides.right), *claim.sides.notes):
-        yield f"{claim.where}what is decided has notes of what is open"
-    equal = claim.equal
-    known = equal is None or equal.relation is Relation.INDISTINGUISHABLE
-    if v.decided_by == ADMISSIBLE.name and not known:
-        yield "it rests on equality over complex parameters, which the file does not show"
-
-
-def _untrue(claim: _Claim) -> Iterator[str]:
-    v, left, right = claim.verdict, claim.sides.left, claim.sides.right
-    if v.evidence is not None and not left.confirms(right, v.evidence, v.representation):
-        yield f"{claim.where}the evidence is not true of these models"
-
-
-def _ungraded(claim: _Claim) -> Iterator[str]:
-    """Whether the settings find evidence of this kind with this certainty."""
-    v = claim.verdict
-    if v.evidence is None:
-        return
-    again = _again(claim, v.evidence)
-    if again is None or again[:2] != (v.certainty, v.safety):
-        yield f"{claim.where}the certainty is not that of the evidence"
-    elif again[2] != v.evidence:
-        yield f"{claim.where}the evidence is not the one that the settings give"
-
-
-def _again(claim: _Claim, evidence: Evidence) -> Told | None:
-    """What is found with evidence of this kind; None for nothing, or by a condition that was not
-    asked.
-    """
-    v = claim.verdict
-    if v.decided_by not in (EXACT.name, ADMISSIBLE.name):
-        return _condition_again(claim) if v.decided_by in claim.query.conditions else None
-    found = (
-        claim.sides.left.exact_again(claim.sides.right, evidence)
-        if v.decided_by == EXACT.name
-        else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
-    )
-    return None if found is None else _told(found)
-
-
-def _condition_again(claim: _Claim) -> Told:
-    """What the condition alone finds; what `prove` proved of it is proven again."""
-    v, left, right = claim.verdict, claim.sides.left, claim.sides.right
-    view = claim.query.view if claim.query.view in (View.TF, View.MARKOV) else View.COMBINED
-    again = decide(left, right, Query(view, (v.decided_by,), claim.query.markov))
-    proven = v.certainty is Certainty.PROVEN and again.certainty is Certainty.BOUNDED
-    if proven:
-        again = proven_again(again, left, right, SECONDS)
-    return _told(again) if again.representation is v.representation else (None, 0, None)
-
-
-def _told(found: Verdict | Finding) -> Told:
-    return found.certainty, found.safety, found.evidence
-
-
-def _false_inclusions(claim: _Claim) -> Iterator[str]:
-    """Yield what is false of limits and of finite elements."""
-    v, left, right, where = claim.verdict, claim.sides.left, claim.sides.right, claim.where
-    both = v.inclusions
-    if both is None:
-        yield from (f"{where}{said}" for said in _without_evidence(v, left.rank == right.rank))
-        return
-    if (v.image, v.closure) != (both.image.inclusion, both.closure.inclusion):
-        yield f"{where}the inclusion is not that of its evidence"
-    if left.rank == right.rank:
-        yield f"{where}an inclusion is told of models of equal rank"
-        return
-    for found, what in ((both.image, "finite elements"), (both.closure, "limits")):
-        if found.evidence is not None and not left.includes(right, found.evidence):
-            yield f"{where}the evidence of the inclusion ({what}) is not true of these models"
-    if _plain(both) != _plain(left.inclusions(right)):
-        yield f"{where}the inclusion, or its certainty, is not what the settings give"
-
-
-def _without_evidence(v: Verdict, equal_rank: bool) -> Iterator[str]:
-    if v.image is not v.closure:
-        yield "limits and finite elements do not agree"
-    if v.closure in ONE_SIDED:
-        yield "an inclusion has no evidence"
-    apart = v.relation is Relation.DISTINGUISHABLE and v.decided_by != ADMISSIBLE.name
-    if v.closure is Inclusion.NEITHER and not (apart and equal_rank):
-        yield "an inclusion that is denied has no evidence"
-
-
-def _plain(both: Inclusions) -> list[InclusionFinding]:
-    """Both statements, without words on what is not known."""
-    return [replace(found, reason="") for found in (both.image, both.closure)]
-
-
-def _false_shares(claim: _Claim) -> Iterator[str]:
-    """Yield what is false of positive equivalents: a point is the one that the settings draw."""
-    v, left, right, where = claim.verdict, claim.sides.left, claim.sides.right, claim.where
-    if isinstance(v.evidence, BothWays):
-        told = (v.left_positive, v.right_positive)
-        if told != (v.evidence.left, v.evidence.right) and told != (None, None):
-            yield f"{where}positive equivalents are told in two ways"
-    for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
-        if found is None:
-            continue
-        if not left.tells_shares(right):
-            yield f"{where}positive equivalents are told of models of which they are not asked"
-        elif found.evidence is not None and not given.proves(other, found):
-            yield f"{where}the evidence on positive equivalents is not true of these models"
-        elif found != given.positive(other):
-            yield f"{where}what is told of positive equivalents is not what the settings give"
-
-
 def _false_equality(stored: Stored) -> Iterator[str]:
     """Yield what is told of complex parameters and not found there."""
     v, beside = stored.verdict, stored.over_complex
-    there = v if beside is None else beside
-    same = there.relation is Relation.INDISTINGUISHABLE and there.domain is Domain.COMPLEX
+    over_complex = v if beside is None else beside
+    equal = over_complex.relation is Relation.INDISTINGUISHABLE
+    same = equal and over_complex.domain is Domain.COMPLEX
     if v.closure is Inclusion.EQUAL and not same:
         yield "equality over complex parameters is told without evidence"
     if beside is None:
@@ -381,13 +238,3 @@ def _false_equality(stored: Stored) -> Iterator[str]:
         yield "equality over complex parameters is denied"
     if v.relation is not Relation.UNDECIDED and beside.relation is Relation.DISTINGUISHABLE:
         yield "models that differ over complex parameters differ over others too"
-
-
-CHECKS: dict[str, Check] = {
-    "that the relation follows from the evidence": _unfounded,
-    "the evidence": _untrue,
-    "certainty and points": _ungraded,
-    LIMITS: _false_inclusions,
-    SHARES: _false_shares,
-}
-"""What is looked at of a claim, and how."""

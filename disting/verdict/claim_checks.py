@@ -1,0 +1,165 @@
+"""What is looked at of one verdict of a file, and how: each check yields what does not hold.
+
+Evidence that is true can have been chosen, and then bounds nothing: so certainty, bounds and points
+are compared with those that the settings give, found again with evidence of this kind.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+from disting.algebra.certainty import Certainty
+from disting.conditions.finding import Finding
+from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.conditions.side import notes_of
+from disting.evidence.kinds import Evidence
+from disting.evidence.real import BothWays
+from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
+from disting.verdict.cascade import decide, follows, over_domain
+from disting.verdict.comparison import Sides
+from disting.verdict.proof import proven_again
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
+
+SECONDS = 60.0  # for a proof that took ten
+LIMITS, SHARES = "which is a limit of the other", "positive equivalents"
+Told = tuple[Certainty | None, int, Evidence | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """One verdict of a file: what was asked, of what, that over complex parameters if it is told
+    beside it, and where it stands.
+    """
+
+    verdict: Verdict
+    query: Query
+    sides: Sides
+    equal: Verdict | None
+    where: str
+
+
+Check = Callable[[Claim], Iterator[str]]
+
+
+def _unfounded(claim: Claim) -> Iterator[str]:
+    v = claim.verdict
+    if v.evidence is None:
+        return
+    if not follows(v, v.evidence, claim.query):
+        yield f"{claim.where}{v.relation}, by {v.rule}, does not follow from evidence of that kind"
+    if v.notes != (*notes_of(claim.sides.left, claim.sides.right), *claim.sides.notes):
+        yield f"{claim.where}what is decided has notes of what is open"
+    equal = claim.equal
+    known = equal is None or equal.relation is Relation.INDISTINGUISHABLE
+    if v.decided_by == ADMISSIBLE.name and not known:
+        yield "it rests on equality over complex parameters, which the file does not show"
+
+
+def _untrue(claim: Claim) -> Iterator[str]:
+    v, left, right = claim.verdict, claim.sides.left, claim.sides.right
+    if v.evidence is not None and not left.confirms(right, v.evidence, v.representation):
+        yield f"{claim.where}the evidence is not true of these models"
+
+
+def _ungraded(claim: Claim) -> Iterator[str]:
+    """Whether the settings find evidence of this kind with this certainty."""
+    v = claim.verdict
+    if v.evidence is None:
+        return
+    again = _again(claim, v.evidence)
+    if again is None or again[:2] != (v.certainty, v.safety):
+        yield f"{claim.where}the certainty is not that of the evidence"
+    elif again[2] != v.evidence:
+        yield f"{claim.where}the evidence is not the one that the settings give"
+
+
+def _again(claim: Claim, evidence: Evidence) -> Told | None:
+    """What is found with evidence of this kind; None for nothing, or by a condition that was not
+    asked.
+    """
+    v = claim.verdict
+    if v.decided_by not in (EXACT.name, ADMISSIBLE.name):
+        return _condition_again(claim) if v.decided_by in claim.query.conditions else None
+    finding = (
+        claim.sides.left.exact_again(claim.sides.right, evidence)
+        if v.decided_by == EXACT.name
+        else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
+    )
+    return None if finding is None else _told(finding)
+
+
+def _condition_again(claim: Claim) -> Told:
+    """What the condition alone finds; what `prove` proved of it is proven again."""
+    v, left, right = claim.verdict, claim.sides.left, claim.sides.right
+    view = claim.query.view if claim.query.view in (View.TF, View.MARKOV) else View.COMBINED
+    again = decide(left, right, Query(view, (v.decided_by,), claim.query.markov))
+    proven = v.certainty is Certainty.PROVEN and again.certainty is Certainty.BOUNDED
+    if proven:
+        again = proven_again(again, left, right, SECONDS)
+    return _told(again) if again.representation is v.representation else (None, 0, None)
+
+
+def _told(source: Verdict | Finding) -> Told:
+    return source.certainty, source.safety, source.evidence
+
+
+def _false_inclusions(claim: Claim) -> Iterator[str]:
+    """Yield what is false of limits and of finite elements."""
+    v, left, right, where = claim.verdict, claim.sides.left, claim.sides.right, claim.where
+    both = v.inclusions
+    if both is None:
+        yield from (f"{where}{said}" for said in _without_evidence(v, left.rank == right.rank))
+        return
+    if (v.image, v.closure) != (both.image.inclusion, both.closure.inclusion):
+        yield f"{where}the inclusion is not that of its evidence"
+    if left.rank == right.rank:
+        yield f"{where}an inclusion is told of models of equal rank"
+        return
+    for finding, what in ((both.image, "finite elements"), (both.closure, "limits")):
+        if finding.evidence is not None and not left.includes(right, finding.evidence):
+            yield f"{where}the evidence of the inclusion ({what}) is not true of these models"
+    if _plain(both) != _plain(left.inclusions(right)):
+        yield f"{where}the inclusion, or its certainty, is not what the settings give"
+
+
+def _without_evidence(v: Verdict, equal_rank: bool) -> Iterator[str]:
+    if v.image is not v.closure:
+        yield "limits and finite elements do not agree"
+    if v.closure in ONE_SIDED:
+        yield "an inclusion has no evidence"
+    apart = v.relation is Relation.DISTINGUISHABLE and v.decided_by != ADMISSIBLE.name
+    if v.closure is Inclusion.NEITHER and not (apart and equal_rank):
+        yield "an inclusion that is denied has no evidence"
+
+
+def _plain(both: Inclusions) -> list[InclusionFinding]:
+    """Both statements, without words on what is not known."""
+    return [replace(finding, reason="") for finding in (both.image, both.closure)]
+
+
+def _false_shares(claim: Claim) -> Iterator[str]:
+    """Yield what is false of positive equivalents: a point is the one that the settings draw."""
+    v, left, right, where = claim.verdict, claim.sides.left, claim.sides.right, claim.where
+    if isinstance(v.evidence, BothWays):
+        told = (v.left_positive, v.right_positive)
+        if told != (v.evidence.left, v.evidence.right) and told != (None, None):
+            yield f"{where}positive equivalents are told in two ways"
+    for share, side, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
+        if share is None:
+            continue
+        if not left.tells_shares(right):
+            yield f"{where}positive equivalents are told of models of which they are not asked"
+        elif share.evidence is not None and not side.proves(other, share):
+            yield f"{where}the evidence on positive equivalents is not true of these models"
+        elif share != side.positive(other):
+            yield f"{where}what is told of positive equivalents is not what the settings give"
+
+
+CHECKS: dict[str, Check] = {
+    "that the relation follows from the evidence": _unfounded,
+    "the evidence": _untrue,
+    "certainty and points": _ungraded,
+    LIMITS: _false_inclusions,
+    SHARES: _false_shares,
+}
+"""What is looked at of a claim, and how."""
