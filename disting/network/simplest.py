@@ -59,7 +59,7 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     if whole is not None:
         port = network.inputs[0]
         form = NormalForm(((port.minus, port.plus, whole),), ())
-    ends, edges, nodes = _numbered(network, form)
+    ends, edges, nodes = numbered(network, form)
     made = _Drawing(
         network.sort, 1 + max(i for pair in (*ends, *(p for p, _ in edges)) for i in pair)
     )
@@ -90,10 +90,10 @@ def _plain(network: Network) -> Drawn:
     ends = [(*e.nodes, 0)[:2] for e in network.elements]
     kinds = [(e.power, e.letter == "a") for e in network.elements]
     edges = tuple((a, b, kind) for (a, b), kind in zip(ends, kinds, strict=True))
-    return _numbered(network, NormalForm(edges, ()))
+    return numbered(network, NormalForm(edges, ()))
 
 
-def _numbered(network: Network, form: NormalForm) -> Drawn:
+def numbered(network: Network, form: NormalForm) -> Drawn:
     """Ports, edges and nodes in numbers, those of ports first: the smallest of what readings of the
     ports and orders of nodes that look alike make of them.
     """
