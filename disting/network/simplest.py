@@ -69,9 +69,14 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     ports = tuple(Port(plus, minus) for plus, minus in ends)
     inputs, outputs = ports[: len(network.inputs)], ports[len(network.inputs) :]
     plain = network.sort is Sort.CIRCUIT and len(texts) == 1 and inputs == outputs
-    said = [f"in {p.plus} {p.minus}" for p in inputs] + [f"out {p.plus} {p.minus}" for p in outputs]
-    name = texts[0] if plain else ", ".join([*map(str, made.elements), *said])
+    name = texts[0] if plain else written(made.elements, inputs, outputs)
     return Network(tuple(made.elements), inputs, outputs, network.order, name)
+
+
+def written(elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]) -> str:
+    """Elements and ports as text."""
+    said = [f"in {p.plus} {p.minus}" for p in inputs] + [f"out {p.plus} {p.minus}" for p in outputs]
+    return ", ".join([*map(str, elements), *said])
 
 
 def same_drawing(one: Network, other: Network) -> bool:
