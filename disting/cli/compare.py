@@ -146,7 +146,7 @@ def _told(found: Judged, options: argparse.Namespace) -> Iterator[str]:
     verdict, chains = found.verdict, _chains(found.models)
     unknown = _unknown(verdict, found.known)
     yield explained(verdict, list(map(in_letters, found.models)), unknown, measured(found.models))
-    if not chains and verdict.domain is Domain.POSITIVE:
+    if verdict.domain is Domain.POSITIVE:
         yield from _at_special_values(found.models, verdict)
     if chains and _tells_ways(verdict, options):
         yield from both_ways(verdict, chains, dict(options.bound))
@@ -154,10 +154,11 @@ def _told(found: Judged, options: argparse.Namespace) -> Iterator[str]:
 
 def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> Iterator[str]:
     """The second answer, on all positive values, where the verdict leaves special ones out."""
-    left, right = (side for side in sides if not isinstance(side, Chain))
-    said = special_values(left, right).sentence(verdict.left, verdict.right)
-    if said and (verdict.has_exceptions or verdict.relation is not Relation.INDISTINGUISHABLE):
-        yield f"special    {said}"
+    models = [side for side in sides if not isinstance(side, Chain)]
+    different = verdict.relation is Relation.DISTINGUISHABLE
+    if len(models) == len(sides) and (verdict.has_exceptions or different):
+        said = special_values(*models).sentence(verdict.left, verdict.right)
+        yield from [f"special    {said}"] * bool(said)
 
 
 def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:

@@ -48,7 +48,10 @@ class Forms:
 
 
 def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
-    """What the simplest networks tell over positive parameters; None if nothing."""
+    """What the simplest networks tell over positive parameters, ABANDONED if they leave it open;
+    None where nothing is replaced.
+    """
+    told = None
     for larger in (False, True):
         forms = forms_of(left, right, larger)
         if forms is None:
@@ -58,7 +61,8 @@ def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
             continue
         if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem):
             return replace(found, evidence=forms.evidence(found.evidence))
-    return None
+        told = replace(found, note=f"of the simplest networks that give the same, {found.note}")
+    return told
 
 
 def by_inverse(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:

@@ -1,24 +1,25 @@
 """Whether all transfer functions of one network are ones of another one, special values included.
 
-THEOREM. A part of two kinds in series and parallel gives, for all positive values, exactly the union
-of K(m, c, z) for least <= m <= most, whole sets: one element m = 0; in series c, z are those of any
-branch, most is the sum, least the largest of the branches; in parallel the same is true of 1/(x F),
-which turns K(m, c, z) into K(m + c + z - 1, not c, not z).
-Proof, by the number of elements. In series a pole of F is one of a branch; residues are positive, so
-no pole vanishes, nor does a constant or a pole at 0. So F has as many poles as the branch with most
-of them, at least, and at most all together; several branches may share one. Conversely, let F in
-K(m, c, z) be given. Choose m_i between least and most of each branch, none above m and with a sum of
-m or more: raising one m_i by 1, from all least to all most, takes the interval from max m_i to sum
-m_i to one that overlaps it or follows it, so such m_i exist. Give each branch m_i of the m poles, so that
-each pole is given to some, and to branches that share a pole, k or k_0, positive shares of it. By
-the induction each branch gives its share. In parallel 1/(x F) maps the sets one to one (see
+THEOREM. A part of two kinds in series and parallel gives, for all positive values, exactly the
+union of K(m, c, z) for least <= m <= most, whole sets: one element m = 0; in series c, z are those
+of any branch, most is the sum, least the largest of the branches; in parallel the same is true of
+1/(x F), which turns K(m, c, z) into K(m + c + z - 1, not c, not z).
+Proof, by the number of elements. In series all coefficients k are positive, so neither a pole nor a
+constant nor a pole at 0 of a branch vanishes in the sum. So F has at least as many poles as any of
+its branches, and at most as many as all together; branches may share some. Conversely, let F in
+K(m, c, z) be given, m between least and most. Choose m_i within the bounds of each branch, none
+above m, with a sum of m or more. Such are found: from all m_i at their least, raise one at a time
+by 1 to their most; the intervals from the largest m_i to their sum begin at least, end at most, and
+have no gaps, as neither end rises by more than 1. Give each branch m_i of the m poles, so that each
+pole is given to one at least, and to branches that share a pole, k or k_0, positive parts of it. By
+the induction each branch gives what it is given. In parallel 1/(x F) maps the sets one to one (see
 `disting.network.normal_form`).
 
-K(m, c, z) of different m, c, z have no function in common. So of two one-ports of the same two kinds
-the one's functions are among the other's exactly if c, z are the same and its numbers m are among
-the other's. Values of different parts are chosen independently, so of any networks that are the same
-graph with parts at its edges the same is true in one direction: parts that give no more, give no
-more.
+K(m, c, z) of different m, c, z have no function in common. So of two one-ports of the same two
+kinds the one's functions are among the other's exactly if c, z are the same and its numbers m are
+among the other's. Values of different parts are chosen independently; so in any networks that are
+the same graph with parts at its edges, the one gives no more than the other one if none of its
+parts does.
 """
 
 from disting.network.network import Network

@@ -1,11 +1,11 @@
 """A network at 1/s: springs and inerters, inductors and capacitors are exchanged.
 
-With 1/s for s an element p s^r becomes p s^-r, so P(1/s) = s^-h P'(s), P' of a network whose elements
-have the powers h - r: h = 2 of a machine, 0 of a circuit. G(s) = s^q C P^-1 B becomes s^(h - 2 q)
-times that of the other network, with the same q. A mass becomes a spring to the ground. Values are
-those of the elements, or their inverses (L = 1/C): positive ones remain so. Hence two networks of
-one sort and one q have a transfer function in common exactly if those at 1/s have, and what is true
-of one pair, of generic values or of all, is true of the other pair.
+With 1/s for s an element p s^r becomes p s^-r, so P(1/s) = s^-h P'(s), P' of a network whose
+elements have the powers h - r: h = 2 of a machine, 0 of a circuit. G(s) = s^q C P^-1 B becomes
+s^(h - 2 q) times that of the other network, with the same q. A mass becomes a spring to the ground.
+Values are those of the elements, or their inverses (L = 1/C): positive ones remain so. Hence two
+networks of one sort and one q have a transfer function in common exactly if those at 1/s have, and
+what is true of one pair, of generic values or of all, is true of the other pair.
 """
 
 from collections import Counter

@@ -99,7 +99,9 @@ def normal_form(network: Network) -> NormalForm | None:
     if network.is_directed:
         return _of_compartments(network)
     exact = exact_form(network)
-    return exact and NormalForm(tuple((a, b, part.generic) for a, b, part in exact), ())
+    if exact is None:
+        return None
+    return NormalForm(tuple((a, b, part.generic) for a, b, part in exact), ())
 
 
 def exact_form(network: Network) -> tuple[tuple[int, int, Part], ...] | None:
