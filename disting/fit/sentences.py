@@ -74,9 +74,9 @@ def _unseen(found: Selection) -> Iterator[str]:
     for pole, zero in between_lines(chain.structure, values, found.task.cost.measured.frequency):
         yield (
             f"{reference(chain)} has a resonance at {pole:.5g} Hz and an antiresonance at"
-            f" {zero:.5g} Hz, both between two lines and narrower than these are apart: the"
-            " lines show their flanks only; measure closer together there before you trust the"
-            " values that make them"
+            f" {zero:.5g} Hz. Both lie between two measured lines and are narrower than the"
+            " distance of these lines, so the data show their flanks only: measure more lines there"
+            " before you trust the values that make them"
         )
 
 
@@ -214,8 +214,8 @@ def _explained(found: Selection) -> Iterator[str]:
     yield from _better(found)
     if found.selected is None:
         yield (
-            "no candidate is selected: by the criteria asked for, in each some parameters are not"
-            " determined by this data; all values are printed"
+            "no candidate is selected: by the criteria that you asked for, this data leaves some"
+            " parameters of each candidate undetermined; all values are printed"
         )
     others, more = [m.name for m in found.members[1:]], len(found.containing)
     larger = (
@@ -246,8 +246,8 @@ def _unexplained(found: Selection) -> Iterator[str]:
         yield f"what would fit better: {'; '.join(r.sentence for r in found.readings)}"
     elif _is_joint(found):
         yield (
-            "fit each response alone: what explains one and not all of them points to a wrong"
-            " place, a wrong sign or a machine that changed between the measurements"
+            "fit each response alone: where a structure explains one but not all, a place or a sign"
+            " is wrong, or the machine changed between the measurements"
         )
     elif not found.explanation.noisy and not found.quantities:
         loop = "is the loop closed, " * any(FOLLOWS in said for said in _said(found))
@@ -287,7 +287,7 @@ def _better(found: Selection) -> Iterator[str]:
     best, more = found.better[0], len(found.better) - 1
     others = f" ({more} more)" if more else ""
     yield (
-        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} for"
+        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} instead of"
         f" {found.selected.j_test:.3g}, but is not admissible: {'; '.join(best.reasons)}"
     )
 
@@ -299,8 +299,8 @@ def _disagreeing(both: tuple[Disagreement, ...]) -> str:
         for d in both
     )
     return (
-        f"training and test data disagree on {values}: model error, as friction that changes with"
-        " the amplitude makes; trust neither interval"
+        f"training and test data disagree on {values}: the model misses something, for example"
+        " friction that changes with the amplitude; trust neither interval"
     )
 
 
@@ -317,9 +317,9 @@ def _changed(found: Selection) -> Iterator[str]:
         if tau:
             own = max(one.typical for one in known)
             yield (
-                f"training and test data{of} differ by {100 * tau:.2g} % a line beyond"
-                f" what they scatter, {100 * own:.2g} %: the machine changes between them, as"
-                " friction does with the amplitude"
+                f"training and test data{of} differ by {100 * tau:.2g} % a line beyond their"
+                f" scatter of {100 * own:.2g} %: the machine changed between them, for example its"
+                " friction with the amplitude"
             )
 
 
