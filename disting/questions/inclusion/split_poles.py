@@ -33,7 +33,7 @@ def split_model(chain: Chain, label: str) -> Split | None:
     modulus, count = prime(label), len(accelerated(chain).parameters)
     points = (tuple(residues(f"{label}:{k}:{chain}", count, modulus)) for k in range(ATTEMPTS))
     return next(
-        (found for point in points if (found := model_at(chain, point, modulus)) is not None), None
+        (model for point in points if (model := model_at(chain, point, modulus)) is not None), None
     )
 
 
