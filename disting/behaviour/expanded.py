@@ -62,7 +62,7 @@ def transfer_function(
 
     The quotient of two polynomials in s, a lag among its poles, times exp(-s Td) where there is a
     dead time. A chain can be named, such as "3:1+b2": `damped` and `sensor` say then how it is
-    meant.
+    meant. Raises InputError for a text that names no chain.
 
     >>> transfer_function("2:1", damped=False)
     (k12 + m2*s**2)/(k12*m1 + k12*m2 + m1*m2*s**2)

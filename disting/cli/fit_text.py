@@ -123,8 +123,8 @@ def _set(found: Selection) -> Iterator[str]:
         return
     yield ""
     yield (
-        f"structures that this data does not exclude (level {100 * LEVEL:g} % against each other"
-        " one):"
+        f"structures that this data does not exclude (each tested against each other at level"
+        f" {100 * LEVEL:g} %):"
     )
     width = max(len(m.name) for m in found.members)
     for m in found.members:
@@ -148,8 +148,8 @@ def _relied_on(found: Selection) -> Iterator[str]:
     if found.relied_on:
         yield ""
         yield (
-            "what you may rely on if it is one of these, or what may as well be it (95 %; larger"
-            " ones that contain one, and those not decided, were not looked at):"
+            "what you may rely on if the machine is one of these, or what may as well be one of"
+            " them (95 %; not looked at: larger ones that contain one, and those not decided):"
         )
         yield from (f"  {statement.text}" for statement in found.relied_on)
 
@@ -230,14 +230,14 @@ def _alternatives(found: Selection) -> Iterator[str]:
     same = by_relation.get(Relation.INDISTINGUISHABLE, [])
     if same:
         yield (
-            "every positive model of it is one of these too, so no data with this force and sensor"
-            " tell them apart:"
+            "each of these gives the same response with other positive values, so no data with this"
+            " force and sensor can tell them apart:"
         )
         yield from (f"  {name_of(chain)}" for chain in same)
     elif not found.alternatives and not any(m.twins for m in found.members[:1]):
         yield (
-            "for generic positive parameters no other candidate with as many masses behaves the"
-            " same: better data could tell"
+            "no other candidate with as many masses gives the same response, special values aside:"
+            " better data can tell them apart"
         )
     for relation, said in OTHERWISE.items():
         if relation in by_relation:

@@ -49,12 +49,12 @@ from disting.verdict.result import Relation
 
 Named = tuple[str, Chain]
 DOMAIN = (
-    "over complex parameters: what is told apart there is told apart over positive ones too; the"
-    " {place} of another structure can be any, as it is not known which is which"
+    "decided over complex parameters: what differs there differs over positive ones too; it is not"
+    " known which {place} of one structure is which of another, so each is tried"
 )
 
-AGAIN = "with what was measured next, NEW: fit both together"
-BRIEF = "menus on which nothing is surely enough are left out here; --json has them all"
+AGAIN = "then fit the new measurement, NEW, together with these data:"
+BRIEF = "only menus with an experiment that is surely enough are shown; --json has them all"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -176,6 +176,6 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: dict[str
 def _warn(effort: Effort) -> None:
     if np.median(effort.rho) > LOUD:
         complain(
-            f"warning: with more than {100 * LOUD:.0f} % noise a line, powers are rough: the"
-            " differences that are tested are no small ones then"
+            f"warning: lines scatter by more than {100 * LOUD:.0f} %, so the power is a rough"
+            " estimate: the test assumes small differences"
         )

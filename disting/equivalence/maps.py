@@ -103,7 +103,8 @@ def explicit_map(
     one).
 
     From a structure to itself: another map than the identity, if there is one. Chains can be named,
-    such as "3:1" and "A11": `damped` says then how they are meant.
+    such as "3:1" and "A11": `damped` says then how they are meant. Raises InputError for a text
+    that names no chain.
 
     >>> found = explicit_map(Chain(2, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True))
     >>> print(found.text)

@@ -15,8 +15,9 @@ THEOREMS = {
     ),
     "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a row",
     "duality": (
-        "{left} and {right} are dual: to each parameter set of one belongs one of the other,"
-        " positive if it is; masses become masses, springs and dampers are reversed and scaled"
+        "{left} and {right} are dual: each parameter set of one has one of the other with the same"
+        " response, positive if it is (disting equivalents --formulas prints it); masses are"
+        " computed from masses, springs and dampers are reversed and scaled"
     ),
     "Foster": (
         "{left} and {right} are undamped with force and sensor at one place: by Foster's theorem"

@@ -225,7 +225,61 @@ class Replaced(Kind):
         return {"kind": self.kind, **told, "inner": self.inner.to_dict()}
 
 
-OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced
+@dataclass(frozen=True, slots=True)
+class AtInverse(Kind):
+    """What is true of two networks at 1/s: `left` and `right` are those, `inner` is the evidence on
+    them.
+    """
+
+    kind: ClassVar[str] = "at-inverse"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE)
+    left: str
+    right: str
+    inner: Explicit | NoEquivalent | Witnesses | Theorem | Replaced
+
+    def shows(self, domain: Domain) -> Relation:
+        """What the inner one shows, of positive values."""
+        return self.inner.shows(domain) if domain is Domain.POSITIVE else Relation.UNDECIDED
+
+    @property
+    def turned(self) -> "AtInverse":
+        """The same of the pair in the other order."""
+        return AtInverse(self.right, self.left, self.inner.turned)
+
+    @property
+    def title(self) -> str:
+        """What the inner one is called."""
+        return self.inner.title
+
+    def sentence(self, left: str, right: str) -> str:
+        """Which networks stand for these, and what is known of them."""
+        return (
+            f"With 1/s for s (springs and inerters, inductors and capacitors exchanged) {left} is"
+            f" C = [{self.left}], {right} is D = [{self.right}]. {self.inner.sentence('C', 'D')}"
+        )
+
+    @property
+    def formula(self) -> str:
+        """That of the inner one."""
+        return self.inner.formula
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> "AtInverse":
+        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        inner = read(data["inner"], (Explicit, NoEquivalent, Witnesses, Theorem, Replaced))
+        return cls(**plain_fields(data) | {"inner": inner})
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        return {
+            "kind": self.kind,
+            "left": self.left,
+            "right": self.right,
+            "inner": self.inner.to_dict(),
+        }
+
+
+OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced | AtInverse
 
 
 def _spelled(point: Point) -> str:

@@ -15,9 +15,10 @@ paper).
 What is in a `Selection`, with the records that it holds:
 
 >>> best, task = found.selected, found.task  # a Candidate with its Estimate, the Task with its Cost
->>> found.explanation.explains, best.practical.rank, found.members[0].name
-(True, 5, '2:1+b1')
-
+>>> found.explanation.explains, best.practical.rank  # of Explanation, Practical
+(True, 5)
+>>> found.members[0].name, found.members[0].disagreements  # of Member, Disagreement
+('2:1+b1', ())
 >>> found.members[0].twins, found.alternatives, found.readings  # of Twin, Alternative, Reading
 ((), (), ())
 >>> found.relied_on[0].name, found.explanation.misses  # of Statement, Miss
@@ -38,7 +39,7 @@ It goes to a file for programs, and comes back:
 ...     read_model(file)[0] == drive
 True
 
-What follows from it:
+What follows from it, as Results, a Confidence, a Profile and a Sweep:
 
 >>> from disting.fit import confidence, fit_percent, physical, profile, sweep
 >>> [result.name for result in physical(best, task)][:3]  # each a Result
@@ -48,7 +49,16 @@ What follows from it:
 >>> profile(best, task, "k12").name, sweep(found.candidates, "collinearity").criterion
 ('k12', 'collinearity')
 
-Margins of a controller around it, and how much measuring excludes a rival:
+What a search does for one structure; several responses have a JointCost, and a JointPlant:
+
+>>> from disting.fit import JointCost, Setup, estimates
+>>> estimates([drive], task)[drive].j < 1e-9
+True
+>>> both = JointCost((task.cost, task.cost), (Setup(), Setup(sensor="2")))
+>>> type(both.plant(drive.structure, 1)).__name__, both.measured is data
+('JointPlant', True)
+
+Margins of a controller around it, and how much measuring excludes a Rival, as it is Designed:
 
 >>> from disting.fit import Controller, designed, gain, margins, plan
 >>> p = np.array([best.estimate.parameters[name] for name in drive.parameters])

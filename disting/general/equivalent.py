@@ -119,6 +119,25 @@ def _sign(polynomial: fmpq_poly, image: acb) -> int | None:
     return 1 if image.real > 0 else -1 if image.real < 0 else None
 
 
+def sign_at(polynomial: fmpq_poly, at: Equivalent) -> int:
+    """Sign of a polynomial in the root of a real vector, reduced modulo that root's polynomial."""
+    bits = FIRST_BITS
+    while not polynomial.is_zero():
+        with ctx.workprec(bits):
+            isolated: list[Any] = fmpz_poly(list(at.polynomial)).complex_roots()
+            balls = [root for root, _ in isolated if root.imag.is_zero() and _meets(root, at)]
+            signs = {_sign(polynomial, evaluated(polynomial, ball)) for ball in balls}
+        if len(balls) == 1 and None not in signs:
+            return signs.pop() or 0
+        bits *= 2
+    return 0
+
+
+def _meets(root: acb, at: Equivalent) -> bool:
+    low, high = _interval(root.real)
+    return low <= at.box[0][1] and at.box[0][0] <= high
+
+
 def _domain(root: acb, signs: list[int | None]) -> Domain:
     if not root.imag.is_zero():
         return Domain.COMPLEX

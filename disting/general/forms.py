@@ -18,14 +18,16 @@ from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import Explicit, NoEquivalent, Replaced, Witnesses
+from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses
 from disting.evidence.seen import seen
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
+from disting.general.model_evidence import confirms_models
 from disting.general.replacement import simplest_network
 from disting.model.question import Domain
+from disting.network.inverse import at_inverse
 from disting.network.network import Network
 from disting.network.simplest import same_drawing
 
@@ -46,7 +48,10 @@ class Forms:
 
 
 def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
-    """What the simplest networks tell over positive parameters; None if nothing."""
+    """What the simplest networks tell over positive parameters, ABANDONED if they leave it open;
+    None where nothing is replaced.
+    """
+    told = None
     for larger in (False, True):
         forms = forms_of(left, right, larger)
         if forms is None:
@@ -56,7 +61,36 @@ def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
             continue
         if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem):
             return replace(found, evidence=forms.evidence(found.evidence))
+        told = replace(found, note=f"of the simplest networks that give the same, {found.note}")
+    return told
+
+
+def by_inverse(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
+    """What the same networks tell with 1/s for s, over positive parameters; None if nothing."""
+    models = inverse_of(left, right)
+    if models is None:
+        return None
+    found = by_forms(*models, seed)
+    if found is None:
+        found = _answered(*models, seed)
+    if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem | Replaced):
+        evidence = AtInverse(models[0].name, models[1].name, found.evidence)
+        return replace(found, evidence=evidence)
     return None
+
+
+def inverse_of(left: AnyModel, right: AnyModel) -> tuple[AnyModel, AnyModel] | None:
+    """Both with 1/s for s; None where an element has no counterpart."""
+    networks = [m.network and at_inverse(m.network) for m in (left, right)]
+    known = [n for n in networks if n is not None]
+    if len(known) < len(networks) or len({(n.sort, n.order) for n in known}) > 1:
+        return None
+    try:
+        models = [_with_network(of_network(n), n) for n in known]
+    except InputError:
+        return None
+    one, other = on_one_variable(models)
+    return one, other
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -96,3 +130,23 @@ def _with_network(model: AnyModel, network: Network) -> AnyModel:
     plain = unnamed(model, network.name)
     object.__setattr__(plain, "network", network)
     return plain
+
+
+def confirms_forms(
+    evidence: Replaced | AtInverse, left: AnyModel, right: AnyModel, representation: str
+) -> bool:
+    """Whether these networks stand for both, and what is said of them is true."""
+    inner = evidence.inner
+    if isinstance(evidence, Replaced):
+        forms = forms_of(left, right, evidence.left_larger or evidence.right_larger)
+        if forms is None or evidence != forms.evidence(evidence.inner):
+            return False
+        models = forms.models
+    else:
+        found = inverse_of(left, right)
+        if found is None or (evidence.left, evidence.right) != tuple(m.name for m in found):
+            return False
+        models = found
+    if isinstance(inner, Replaced):
+        return confirms_forms(inner, *models, representation)
+    return confirms_models(inner, *models, representation)

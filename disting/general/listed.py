@@ -30,16 +30,15 @@ from disting.algebra.determinants import minors as subdeterminants
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.errors import InputError
 from disting.general.any_model import in_powers
-from disting.general.equivalent import Equivalent
+from disting.general.equivalent import Equivalent, sign_at
 from disting.general.fibre import Extent, solved
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
-from disting.general.replacement import moved
 from disting.general.target import Target, fibre_equations, rational_values, target
 from disting.model.question import Domain
 from disting.network.element import Port
-from disting.network.graph import seen_by_blocks
+from disting.network.graph import moved, seen_by_blocks
 from disting.network.network import Network
 
 REMEMBERED = 512
@@ -57,9 +56,9 @@ def having(given: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...
     there = _there(other)
     if _there(given) != there or len(other.parameters) != sum(map(sum, there)) - 1:
         return None
-    goal = _goal(given, values)
-    found = (goal and _positive(goal, other)) or ()
-    regular = (e for e in found if _is_regular(other, e))
+    goal = goal_of(given, values)
+    found = (goal and positive(goal, other)) or ()
+    regular = (e for e in found if orientation(other, e))
     return next((tuple(x.real for x in e.numbers) for e in regular), None)
 
 
@@ -74,13 +73,13 @@ def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
         return False
     if network is None or not network.sign_of_one_port or len(network.seen) > MOST_ELEMENTS:
         return False
-    goal = _goal(given, values)
-    if goal is None or _positive(goal, other) != ():
+    goal = goal_of(given, values)
+    if goal is None or positive(goal, other) != ():
         return False
     degree = max(len(goal.numerator), len(goal.denominator)) - 1
     matched = placed_network(network, other.powers)
     minors = _of_degree(matched, degree, replace(other.powers, lost=0))
-    return minors is not None and all(_positive(goal, m) == () for m in minors)
+    return minors is not None and all(positive(goal, m) == () for m in minors)
 
 
 def _is_in_one_variable(one: Powers, other: Powers) -> bool:
@@ -94,7 +93,7 @@ def _there(model: Model) -> tuple[list[bool], list[bool]]:
     return list(map(bool, model.numerator_terms)), list(map(bool, model.denominator_terms))
 
 
-def _goal(given: Model, values: Values) -> Target | None:
+def goal_of(given: Model, values: Values) -> Target | None:
     """None where a pole runs to infinity."""
     try:
         return target(given, rational_values(given, values))
@@ -102,7 +101,7 @@ def _goal(given: Model, values: Values) -> Target | None:
         return None
 
 
-def _positive(goal: Target, other: Model) -> tuple[Equivalent, ...] | None:
+def positive(goal: Target, other: Model) -> tuple[Equivalent, ...] | None:
     """All positive equivalents; None where they are not all known."""
     try:
         found = solved(fibre_equations(goal, other), other.parameters, "list", Bounds())
@@ -122,7 +121,7 @@ def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ..
         for at in range(len(whole.elements)):
             for contracted in (False, True):
                 try:
-                    found = _one_less(whole, at, contracted)
+                    found = one_less(whole, at, contracted)
                     if found is None or found in met:
                         continue
                     met.add(found)
@@ -139,7 +138,7 @@ def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ..
     return tuple(kept.values())
 
 
-def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:
+def one_less(whole: Network, at: int, contracted: bool) -> Network | None:
     """A one-port with an element deleted or contracted, as far as it is seen; None where the port
     is open or shorted then.
     """
@@ -157,13 +156,17 @@ def _one_less(whole: Network, at: int, contracted: bool) -> Network | None:
     seen = [kept[i] for i in sorted(seen_by_blocks(kept, ports[:1], ports[1:]))]
     if not seen:
         return None
+    if not any(0 in (*e.nodes, 0)[:2] for e in seen):  # it floats: one end becomes its ground
+        places = {i: i for e in seen for i in e.nodes} | {ports[0].minus: 0}
+        seen = [m for e in seen if (m := moved(e, places)) is not None]
+        ports = [Port(places[p.plus], places[p.minus]) for p in ports]
     return Network(tuple(seen), (ports[0],), (ports[1],), whole.order)
 
 
-def _is_regular(model: Model, at: Equivalent) -> bool:
-    """Whether the matrix of its n + 1 coefficients and their derivatives is not singular there,
-    those left out that are always zero: the determinant is zero at a root of an irreducible
-    polynomial only where that divides it.
+def orientation(model: Model, at: Equivalent) -> int:
+    """The sign at a real vector of values of the determinant of the matrix of the n + 1
+    coefficients and their derivatives, those left out that are always zero. At a root of an
+    irreducible polynomial it is zero only where that divides it.
     """
     modulus = fmpq_poly(list(at.polynomial))
     values = [fmpq_poly([fmpq(x.numerator, x.denominator) for x in c]) for c in at.coordinates]
@@ -173,7 +176,7 @@ def _is_regular(model: Model, at: Equivalent) -> bool:
         for x, e in zip(values, powers, strict=True):
             term = term * x ** int(e) % modulus
         total += term
-    return bool((total % modulus).degree() >= 0)
+    return sign_at(total % modulus, at)
 
 
 @lru_cache(maxsize=REMEMBERED)

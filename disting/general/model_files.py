@@ -125,7 +125,8 @@ def read_models(path: Path | str) -> ModelList:
 
 def write_models(path: Path | str, found: ModelList) -> Path:
     """Write chains by their names and other models as transfer functions in lowest terms, which
-    `read_models` reads back as they were; returns the path.
+    `read_models` reads back as they were; returns the path. Raises InputError for a parameter named
+    s, OSError where the file cannot be written.
 
     >>> from tempfile import TemporaryDirectory
     >>> lag = Model.from_transfer_function("k", "T*s + 1", name="lag")

@@ -20,7 +20,7 @@ from disting.conditions.side import GENERIC, Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import REPLACEMENT, Theorem
-from disting.evidence.general import Constants, Replaced, Witnesses
+from disting.evidence.general import AtInverse, Constants, Replaced, Witnesses
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
@@ -29,7 +29,7 @@ from disting.general.admissible import admissible_finding
 from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
 from disting.general.exponents import determined
-from disting.general.forms import by_forms, forms_of
+from disting.general.forms import by_forms, by_inverse, confirms_forms
 from disting.general.matrix_model import AnyModel
 from disting.general.model_inclusions import (
     confirms_inclusion,
@@ -55,9 +55,12 @@ def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
 
 def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     found = by_forms(left, right, settings.seed)
-    if found is not None:
+    if found is None:
+        found = admissible_finding(left, right, Domain.POSITIVE, settings.seed)
+    if found.outcome is not Outcome.ABANDONED:
         return found
-    return admissible_finding(left, right, Domain.POSITIVE, settings.seed)
+    turned = by_inverse(left, right, settings.seed)
+    return found if turned is None else turned
 
 
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
@@ -178,14 +181,8 @@ class ComparedModel(Side[AnyModel]):
             return False
         if evidence == Theorem(REPLACEMENT):
             return _replaceable(self, other)
-        if isinstance(evidence, Replaced):
-            forms = forms_of(
-                self.subject, other.subject, evidence.left_larger or evidence.right_larger
-            )
-            return forms is not None and (
-                evidence == forms.evidence(evidence.inner)
-                and model_evidence.confirms_models(evidence.inner, *forms.models, representation)
-            )
+        if isinstance(evidence, Replaced | AtInverse):
+            return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = _models(self, other)
         if isinstance(evidence, Witnesses):
             pair = _unnamed(self, other, Domain(evidence.domain))

@@ -16,16 +16,17 @@ derivatives by p have full rank at the p of F_0. So for small e > 0 some p near 
 (implicit function theorem).
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import combinations, product
 
 from disting.errors import InputError
+from disting.general.degree import covers
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import placed_network
 from disting.network.element import Element, Port
+from disting.network.graph import moved
 from disting.network.network import Network
 from disting.network.normal_form import Part, Power, normal_form
 from disting.network.simplest import simplest
@@ -64,10 +65,11 @@ def full_set(model: AnyModel) -> tuple[int, Part] | None:
     that is not shown.
     """
     found = set_of(model)
-    if found is None or model.network is None:
+    if found is None or model.network is None or not isinstance(model, Model):
         return None
     network = placed_network(model.network, model.powers)
-    return found if _has_minor(network.grounded, found[1]) else None
+    whole = _has_minor(network.grounded, found[1]) or covers(model, found[1], set_of)
+    return found if whole else None
 
 
 def set_of(model: AnyModel) -> tuple[int, Part] | None:
@@ -131,13 +133,3 @@ def _minor(elements: Sequence[Element], left_out: dict[int, bool], port: Port) -
         return Network(tuple(e for e in kept if e is not None), (there,), (there,))
     except InputError:
         return None
-
-
-def moved(e: Element, places: Mapping[int, int]) -> Element | None:
-    """The element at other nodes; None of one whose ends are the same node."""
-    nodes = tuple(places[i] for i in e.nodes)
-    if len(nodes) == 1:
-        return None if nodes[0] == 0 else replace(e, nodes=nodes)
-    if nodes[0] == nodes[1]:
-        return None
-    return replace(e, nodes=nodes if nodes[0] else nodes[::-1])

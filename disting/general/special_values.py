@@ -7,26 +7,48 @@ d. A factor of it with terms of one sign has no positive zero. A factor that is 
 its parameters x, with A and B sums of positive terms without x, has one, x = B/A, whatever
 the other values.
 
-Two models that are the same for almost all positive values have different sets of transfer
-functions if one of them reaches a lower degree and the other never does.
+Of how it comes to that the discriminants tell: where a factor divides that of d, two poles fall
+together, and one of them cancels; where it divides that of n, two zeros do. As functions nothing is
+left of either; whoever compares numerators and denominators as they stand, with the common factor
+in them, sees a double pole or a double zero.
+
+`special_values` says of two networks which of them gives all that the other one gives, special
+values included (`disting.network.exact`).
 """
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from flint import fmpz_mpoly
 
 from disting.algebra.symbols import symbols
+from disting.errors import listed
+from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
+from disting.network.exact import within
+
+MOST_PARAMETERS = 7  # resultants of more take long
 
 
-def lower_degree(model: Model) -> tuple[str, ...] | None:
-    """Polynomials in the parameters, each of which is zero at some positive values, where the
-    transfer function has a lower degree; none if it never has; None if that is not known.
+@dataclass(frozen=True, slots=True, order=True)
+class Special:
+    """A polynomial in the parameters that is zero at some positive values, where the transfer
+    function has a lower degree, and whether two poles, or two zeros, fall together there.
+    """
+
+    polynomial: str
+    poles: bool
+    zeros: bool
+
+
+def lower_degree(model: Model) -> tuple[Special, ...] | None:
+    """Where the transfer function has a lower degree; nowhere if it never has; None if that is not
+    known.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
     >>> lower_degree(of_network(network_of("p(R1,C1)-p(R2,C2)")))
-    ('C1*R1 - C2*R2',)
+    (Special(polynomial='C1*R1 - C2*R2', poles=True, zeros=False),)
     >>> lower_degree(of_network(network_of("p(C1,R1-p(C2,R2))")))
     ()
     """
@@ -43,14 +65,20 @@ def lower_degree(model: Model) -> tuple[str, ...] | None:
         sides.append(side)
     if not all(side.degrees()[0] for side in sides):
         return ()
-    found = []
+    found, double = [], [_double_roots(side) for side in sides]
     for factor, _ in sides[0].resultant(sides[1], "s").factor()[1]:
         if len({coefficient > 0 for coefficient in factor.coeffs()}) == 1:
             continue
         if not any(_is_solved(factor, i) for i in range(1, len(values) + 1)):
             return None
-        found.append(str(factor).replace("^", "**"))
+        zeros, poles = ((d % factor).is_zero() for d in double)
+        found.append(Special(str(factor).replace("^", "**"), poles, zeros))
     return tuple(sorted(found))
+
+
+def _double_roots(side: fmpz_mpoly) -> fmpz_mpoly:
+    """A polynomial that is zero where the side has a double root, 1 of one without two roots."""
+    return side.discriminant("s") if side.degrees()[0] > 1 else side**0
 
 
 def _product(values: Iterable[fmpz_mpoly], exponents: Iterable[int], one: fmpz_mpoly) -> fmpz_mpoly:
@@ -69,3 +97,60 @@ def _is_solved(factor: fmpz_mpoly, at: int) -> bool:
         and signs[0] != signs[1]
         and all(len(x) == 1 for x in signs.values())
     )
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialValues:
+    """Of two models: whether each gives all transfer functions that the other one gives, special
+    values included (None: not known), and where each has a lower degree.
+    """
+
+    left_in_right: bool | None
+    right_in_left: bool | None
+    left: tuple[Special, ...] | None
+    right: tuple[Special, ...] | None
+
+    @property
+    def is_known(self) -> bool:
+        """Whether one of them is known to give all that the other one gives."""
+        return bool(self.left_in_right or self.right_in_left)
+
+    def sentence(self, left: str, right: str) -> str:
+        """Both in words; "" where neither is known to give all that the other one gives."""
+        if self.left_in_right and self.right_in_left:
+            return f"{left} and {right} give the same, for all positive values (proven)."
+        if not self.is_known:
+            return ""
+        inner, outer, special, back = (
+            (left, right, self.right, self.right_in_left)
+            if self.left_in_right
+            else (right, left, self.left, self.left_in_right)
+        )
+        said = f"For all positive values of {inner}, {outer} can give the same (proven)"
+        if back is None:
+            return f"{said}; the converse is not known."
+        where = listed(f"{s.polynomial} = 0" for s in special or ())
+        few = f" {outer} has fewer poles where {where}." if where else ""
+        return f"{said}, but not the other way round.{few}"
+
+
+def special_values(left: AnyModel, right: AnyModel) -> SpecialValues:
+    """What two models of networks give for all positive values, special ones included.
+
+    >>> from disting.general.any_model import of_network
+    >>> from disting.network import network_of
+    >>> foster, cauer = "p(R1,C1)-p(R2,C2)", "p(C1,R1-p(C2,R2))"
+    >>> found = special_values(of_network(network_of(foster)), of_network(network_of(cauer)))
+    >>> found.left_in_right, found.right_in_left
+    (False, True)
+    >>> found.sentence("A", "B").partition(". ")[2]
+    'A has fewer poles where C1*R1 - C2*R2 = 0.'
+    """
+    one, other = left.network, right.network
+    if one is None or other is None:
+        return SpecialValues(None, None, None, None)
+    found = [
+        lower_degree(m) if isinstance(m, Model) and len(m.parameters) <= MOST_PARAMETERS else None
+        for m in (left, right)
+    ]
+    return SpecialValues(within(one, other), within(other, one), *found)

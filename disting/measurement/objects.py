@@ -27,8 +27,9 @@ def from_arrays(
     sensor: Sensor | str = Sensor.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
-    """Response from arrays of shape (n_f,): `frequency` in a unit of `units.FREQUENCIES`,
-    complex `response`.
+    """Response from arrays of shape (n_f,): `frequency` in a unit of `units.FREQUENCIES`, complex
+    `response`. Raises InputError for arrays that do not fit each other, an unknown unit, or fewer
+    lines than a response has.
 
     >>> data = from_arrays(range(1, 9), [1 + 1j, 2 - 1j] * 4, sensor="position")
     >>> data.omega.round(2).tolist()[:2], data.sensor.value
@@ -50,7 +51,7 @@ def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
     """Response from a pandas data frame whose columns are headed like those of a text file
     (`read`); same options.
 
-    An index with a name is a column too.
+    An index with a name is a column too. Raises InputError for another object, and as `read` does.
 
     >>> import pandas as pd
     >>> frame = pd.DataFrame({"frequency [Hz]": range(1, 9), "re": range(8, 0, -1), "im": range(8)})
@@ -63,7 +64,8 @@ def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
 def series_from_frame(
     frame: Any, input: str | int, output: str | int, **options: Any
 ) -> TimeSeries:
-    """Samples from two columns of a pandas data frame; options of `read_time_series`.
+    """Samples from two columns of a pandas data frame; options of `read_time_series`. Raises
+    InputError for another object, and as that does.
 
     >>> import pandas as pd
     >>> frame = pd.DataFrame({"u": [k % 3 for k in range(30)], "y": [k % 5 for k in range(30)]})
@@ -81,7 +83,8 @@ def from_control(
     sensor: Sensor | str = Sensor.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
-    """Response from a python-control FRD object: channel from `input` to `output` (from 0).
+    """Response from a python-control FRD object: channel from `input` to `output` (from 0). Raises
+    InputError for another object or channel.
 
     >>> import control
     >>> system = control.frd([1j * k for k in range(1, 9)], [1.0 * k for k in range(1, 9)])

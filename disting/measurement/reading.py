@@ -80,9 +80,10 @@ def read_time_series(
     """Samples of `input` and `output` (headers of a text file, names of MATLAB variables) from a
     file.
 
-    Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable
-    [s]); `sensor` = quantity of the output, default position; `sign`; `reference` = the signal
-    that a controller was asked for, of a record in closed loop.
+    Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable [s]);
+    `sensor` = quantity of the output, default position; `sign`; `reference` = the signal that a
+    controller was asked for, of a record in closed loop. Raises InputError, with the remedy, for a
+    file that is not there or not read, and for signals that it does not hold.
 
     >>> from tempfile import TemporaryDirectory
     >>> lines = ["t [s],iq [A],angle [rad]", *(f"{k / 100},{k % 7},{k % 5}" for k in range(60))]

@@ -121,3 +121,13 @@ def joined(
         across = frozenset().union(*meeting) - {at}
         made = in_series(edges.pop(ends) for ends in meeting)
         edges[across] = in_parallel([edges[across], made]) if across in edges else made
+
+
+def moved(e: Element, places: Mapping[int, int]) -> Element | None:
+    """The element at other nodes; None of one whose ends are the same node."""
+    nodes = tuple(places[i] for i in e.nodes)
+    if len(nodes) == 1:
+        return None if nodes[0] == 0 else replace(e, nodes=nodes)
+    if nodes[0] == nodes[1]:
+        return None
+    return replace(e, nodes=nodes if nodes[0] else nodes[::-1])

@@ -45,7 +45,7 @@ of a goes to those with an outflow, or to the outflow of i.
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from disting.network.graph import joined
@@ -61,19 +61,26 @@ Count = tuple[tuple[tuple[Power, Power], int], ...]
 @dataclass(frozen=True, slots=True, order=True)
 class Part:
     """A part in series ("S") or parallel ("P"): the powers r of its single elements, its terms of
-    two kinds, and parts of three kinds or more, written out.
+    two kinds, and parts of three kinds or more, written out. `spare`: how many of the terms may be
+    missing at special values, where they fall together with others.
     """
 
     form: str
     single: tuple[Power, ...]
     terms: Count = ()
     others: tuple["Part", ...] = ()
+    spare: Count = ()
 
     @property
     def kinds(self) -> set[Power]:
         """Powers of all that is in it."""
         inside = {r for pair, _ in self.terms for r in pair}
         return {*self.single, *inside, *(r for part in self.others for r in part.kinds)}
+
+    @property
+    def generic(self) -> "Part":
+        """What it is but for special values."""
+        return replace(self, others=tuple(sorted(p.generic for p in self.others)), spare=())
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +98,23 @@ def normal_form(network: Network) -> NormalForm | None:
     """
     if network.is_directed:
         return _of_compartments(network)
-    return None if any(e.ratio for e in network.elements) else _of_graph(network)
+    exact = exact_form(network)
+    if exact is None:
+        return None
+    return NormalForm(tuple((a, b, part.generic) for a, b, part in exact), ())
+
+
+def exact_form(network: Network) -> tuple[tuple[int, int, Part], ...] | None:
+    """The parts between nodes, with what they can be at special values too; None of compartments,
+    and of a network with gears.
+    """
+    if network.is_directed or any(e.ratio for e in network.elements):
+        return None
+    labelled = [(e.nodes, Part("S", (e.power,))) for e in network.seen]
+    kept = {i for p in network.ports for i in (p.plus, p.minus)}
+    edges = joined(labelled, kept, in_series, in_parallel)
+    listed = (tuple(sorted(ends)) for ends in edges)
+    return tuple((a, b, edges[frozenset((a, b))]) for a, b in sorted(listed))
 
 
 def in_series(parts: Iterable[Part]) -> Part:
@@ -105,7 +128,8 @@ def in_parallel(parts: Iterable[Part]) -> Part:
 
 
 def _joined(form: str, parts: Iterable[Part]) -> Part:
-    single, terms, others = set[Power](), Counter[tuple[Power, Power]](), list[Part]()
+    single, others = set[Power](), list[Part]()
+    most, least = Counter[tuple[Power, Power]](), Counter[tuple[Power, Power]]()
     for part in parts:
         inside = part if part.form == form or len(part.single) == 1 == len(part.kinds) else None
         if inside is None and len(part.kinds) == 2:
@@ -114,9 +138,11 @@ def _joined(form: str, parts: Iterable[Part]) -> Part:
             others.append(part)
         else:
             single |= set(inside.single)
-            terms.update(dict(inside.terms))
+            most.update(dict(inside.terms))
+            least |= Counter(dict(inside.terms)) - Counter(dict(inside.spare))
             others += inside.others
-    made = Part(form, tuple(sorted(single)), tuple(sorted(terms.items())), tuple(sorted(others)))
+    terms, spare = (tuple(sorted(count.items())) for count in (most, most - least))
+    made = Part(form, tuple(sorted(single)), terms, tuple(sorted(others)), spare)
     return turned(made) if form == "P" and len(made.kinds) == 2 else _single(made)
 
 
@@ -134,16 +160,7 @@ def turned(part: Part) -> Part:
     count = dict(part.terms).get((low, high), 0) + len(part.single) - 1
     single = [r for r, other in ((low, high), (high, low)) if other not in part.single]
     terms = (((low, high), count),) if count else ()
-    return Part("P" if part.form == "S" else "S", tuple(sorted(single)), terms)
-
-
-def _of_graph(network: Network) -> NormalForm:
-    """Parts between nodes that are no ends of ports and have two neighbours become one."""
-    labelled = [(e.nodes, Part("S", (e.power,))) for e in network.seen]
-    kept = {i for p in network.ports for i in (p.plus, p.minus)}
-    edges = joined(labelled, kept, in_series, in_parallel)
-    listed = (tuple(sorted(ends)) for ends in edges)
-    return NormalForm(tuple((a, b, edges[frozenset((a, b))]) for a, b in sorted(listed)), ())
+    return Part("P" if part.form == "S" else "S", tuple(sorted(single)), terms, spare=part.spare)
 
 
 def _of_compartments(network: Network) -> NormalForm:

@@ -59,7 +59,7 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     if whole is not None:
         port = network.inputs[0]
         form = NormalForm(((port.minus, port.plus, whole),), ())
-    ends, edges, nodes = _numbered(network, form)
+    ends, edges, nodes = numbered(network, form)
     made = _Drawing(
         network.sort, 1 + max(i for pair in (*ends, *(p for p, _ in edges)) for i in pair)
     )
@@ -69,9 +69,14 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     ports = tuple(Port(plus, minus) for plus, minus in ends)
     inputs, outputs = ports[: len(network.inputs)], ports[len(network.inputs) :]
     plain = network.sort is Sort.CIRCUIT and len(texts) == 1 and inputs == outputs
-    said = [f"in {p.plus} {p.minus}" for p in inputs] + [f"out {p.plus} {p.minus}" for p in outputs]
-    name = texts[0] if plain else ", ".join([*map(str, made.elements), *said])
+    name = texts[0] if plain else written(made.elements, inputs, outputs)
     return Network(tuple(made.elements), inputs, outputs, network.order, name)
+
+
+def written(elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]) -> str:
+    """Elements and ports as text."""
+    said = [f"in {p.plus} {p.minus}" for p in inputs] + [f"out {p.plus} {p.minus}" for p in outputs]
+    return ", ".join([*map(str, elements), *said])
 
 
 def same_drawing(one: Network, other: Network) -> bool:
@@ -90,10 +95,10 @@ def _plain(network: Network) -> Drawn:
     ends = [(*e.nodes, 0)[:2] for e in network.elements]
     kinds = [(e.power, e.letter == "a") for e in network.elements]
     edges = tuple((a, b, kind) for (a, b), kind in zip(ends, kinds, strict=True))
-    return _numbered(network, NormalForm(edges, ()))
+    return numbered(network, NormalForm(edges, ()))
 
 
-def _numbered(network: Network, form: NormalForm) -> Drawn:
+def numbered(network: Network, form: NormalForm) -> Drawn:
     """Ports, edges and nodes in numbers, those of ports first: the smallest of what readings of the
     ports and orders of nodes that look alike make of them.
     """

@@ -33,6 +33,11 @@ HARD = {
     "receptance": "receptance",
     "collocated": "collocated",
     "driving-point function": "driving-point-function",
+    "degree of freedom": "degree-of-freedom",
+    "degrees of freedom": "degree-of-freedom",
+    "likelihood": "likelihood",
+    "crest factor": "crest-factor",
+    "multisine": "multisine",
 }
 """Each with its heading in the glossary; a longer one before one that it begins with."""
 

@@ -2,10 +2,12 @@
 at most two of them L or C, each of which determines all its values; by classes of what they can do.
 
 E. L. Ladenheim, "A synthesis of biquadratic impedances", 1948; A. Morelli and M. C. Smith, "Passive
-Network Synthesis: An Approach to Classification", SIAM 2019, find 108 networks in 62 classes of
-equal sets of impedances. The classes of the family hold for almost all values; some of them fall
-apart where the sets are compared exactly: one network reaches impedances of a lower degree at
-special values, another one never does (`disting.general.special_values`).
+Network Synthesis: An Approach to Classification", SIAM 2019, find 108 networks in 62 classes. The
+classes of the family hold for almost all values. A part of a class has the same impedances for all
+values, special ones included: in one part networks of two kinds of elements that reach the same
+lower orders (`disting.network.exact`), of others those for which formulas without exceptions are
+known. Numerators and denominators that keep a common factor differ by more: by whether it is a
+double pole or a double zero.
 """
 
 from collections.abc import Iterator
@@ -17,8 +19,9 @@ from markupsafe import Markup
 from disting.equivalence.duplicates import duplicate
 from disting.evidence.general import BOTH, Explicit
 from disting.general.model import Model
-from disting.general.special_values import lower_degree
+from disting.general.special_values import Special, lower_degree
 from disting.model.question import Domain
+from disting.network.exact import within
 from disting.report.environment import render
 from disting.report.formulas import typeset
 from disting.report.listing import Card, Listing
@@ -32,23 +35,28 @@ OPEN = (Relation.SOMETIMES, Relation.UNDECIDED)
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A network of a class; `special`: polynomials that are zero where its impedance has a lower
-    degree, None where it is not known whether it ever has.
+    """A network of a class; `special`: where its impedance has a lower degree, None where it is not
+    known whether it ever has.
     """
 
     card: Card
-    special: tuple[str, ...] | None
+    special: tuple[Special, ...] | None
 
     @property
-    def equations(self) -> list[Markup]:
-        """Where its impedance has a lower degree, typeset."""
-        return [typeset(polynomial) for polynomial in self.special or ()]
+    def equations(self) -> list[tuple[Markup, str]]:
+        """Where its impedance has a lower degree, typeset, and what falls together there."""
+        return [(typeset(s.polynomial), _what_cancels(s)) for s in self.special or ()]
+
+    @property
+    def factors(self) -> frozenset[str]:
+        """What its numerators and denominators may have in common."""
+        return frozenset(_what_cancels(s) for s in self.special or ())
 
 
 @dataclass(frozen=True, slots=True)
 class Class:
-    """Networks that do the same for almost all values; `parts`: those that reach lower degrees, and
-    those that never do; `exact`: whether within each part all values have equivalents.
+    """Networks that do the same for almost all values; `parts`: those that do so for special values
+    too; `exact`: whether that is proven of each part, and that no two parts are one.
     """
 
     number: int
@@ -59,6 +67,11 @@ class Class:
     def members(self) -> tuple[Member, ...]:
         """All of them."""
         return tuple(m for part in self.parts for m in part)
+
+    @property
+    def n_with_factors(self) -> int:
+        """How many parts there are if common factors are kept."""
+        return len({(i, m.factors) for i, part in enumerate(self.parts) for m in part})
 
     @property
     def elements(self) -> str:
@@ -82,18 +95,41 @@ def classes(shown: Listing) -> list[Class]:
 
 
 def _class(shown: Listing, number: int, cards: list[Card]) -> Class:
-    members = [
-        Member(c, lower_degree(c.model) if isinstance(c.model, Model) else None) for c in cards
-    ]
-    kinds = [[m for m in members if (m.special == ()) is never] for never in (True, False)]
-    parts = tuple(tuple(part) for part in kinds if part)
-    numbers = [[m.card.number for m in part] for part in parts]
-    pairs = [pair for part in numbers for pair in combinations(part, 2)]
-    return Class(number, parts, all(_holds_always(shown, *pair) for pair in pairs))
+    parts = list[list[Member]]()
+    for card in cards:
+        member = Member(card, lower_degree(card.model) if isinstance(card.model, Model) else None)
+        part = next((p for p in parts if not _differ(p[0], member)), None)
+        if part is None:
+            parts.append([member])
+        else:
+            part.append(member)
+    exact = all(_same(shown, part[0], m) for part in parts for m in part[1:])
+    return Class(number, tuple(map(tuple, parts)), exact)
 
 
-def _holds_always(shown: Listing, left: int, right: int) -> bool:
-    """Whether two networks that are the same have equivalents of all values, special ones too."""
+def _differ(one: Member, other: Member) -> bool:
+    """Whether one of two networks that are the same for almost all values is known to give more
+    than the other one at special values.
+    """
+    if None not in (one.special, other.special) and bool(one.special) != bool(other.special):
+        return True
+    return False in _within(one, other)
+
+
+def _within(one: Member, other: Member) -> tuple[bool | None, bool | None]:
+    left, right = one.card.model.network, other.card.model.network
+    if left is None or right is None:
+        return None, None
+    return within(left, right), within(right, left)
+
+
+def _same(shown: Listing, one: Member, other: Member) -> bool:
+    """Whether two networks that are the same for almost all values are so for special ones too: by
+    the parts of which they are made, or by formulas.
+    """
+    if all(_within(one, other)):
+        return True
+    left, right = one.card.number, other.card.number
     found, models = shown.found.decisions[View.POSITIVE], shown.found.family
     if not found.verdict(left - 1, right - 1).has_exceptions:
         return True
@@ -103,6 +139,12 @@ def _holds_always(shown: Listing, left: int, right: int) -> bool:
         return False
     both = tuple((side, *f[1:]) for side, of in zip(BOTH, formulas, strict=True) for f in of)
     return Explicit(Domain.POSITIVE, both).without_exception(Domain.POSITIVE)
+
+
+def _what_cancels(special: Special) -> str:
+    if special.poles == special.zeros:
+        return "a pole cancels with a zero"
+    return f"two {'poles' if special.poles else 'zeros'} fall together"
 
 
 def open_pairs(shown: Listing) -> Iterator[tuple[Card, Card, Relation]]:
@@ -119,15 +161,19 @@ def ladenheim_page(shown: Listing, *, site: bool = False) -> str:
     """
     found = classes(shown)
     left = [card for card in shown.cards if not is_canonical(card)]
+    pairs = list(open_pairs(shown))
+    decided = not any(relation is Relation.UNDECIDED for *_, relation in pairs)
     return render(
         "ladenheim.html",
         shown=shown,
         classes=found,
         canonical=len(shown.cards) - len(left),
         parts=sum(len(c.parts) for c in found),
+        with_factors=sum(c.n_with_factors for c in found),
+        proven=decided and all(c.exact for c in found),
         split=[c for c in found if len(c.parts) > 1],
         left=left,
-        open=list(open_pairs(shown)),
+        open=pairs,
         drawings=[card.drawing for card in shown.cards if card.drawing],
         site=site,
         plural=plural,

@@ -57,13 +57,14 @@ class Section:
 @dataclass(frozen=True, slots=True)
 class GuidePage:
     """A page: its name without an ending, its first heading, its sections, and what follows the
-    first heading as HTML.
+    first heading as HTML; `is_folded`: parts of it are closed until an address names them.
     """
 
     name: str
     title: str
     sections: tuple[Section, ...]
     body: Markup
+    is_folded: bool = False
 
     @property
     def contents(self) -> tuple[tuple[str, str], ...]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from disting.catalogs import Catalog, ModelRow
+from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain
 from disting.questions.identifiability import Level
@@ -87,7 +88,9 @@ class Limits:
 
 
 def model_of(catalog: Catalog, number: int) -> Model:
-    """A model of a catalogue, with its drawing."""
+    """A model of a catalogue, with its drawing; raises InputError for a number that is none."""
+    if not 0 < number <= len(catalog.rows):
+        raise InputError(f"there is no model A{number}: they are A1 to A{len(catalog.rows)}")
     row = catalog.rows[number - 1]
     return Model(row, _drawing(number, row.chain))
 
@@ -122,7 +125,8 @@ def motion_of(catalog: Catalog) -> str:
 
 
 def model_page(catalog: Catalog, number: int) -> str:
-    """HTML of one model; beside it the style sheet of `write_report` is expected.
+    """HTML of one model; beside it the style sheet of `write_report` is expected. Raises InputError
+    for a number that is no model's.
 
     >>> from disting.catalogs import catalog
     >>> "Model A2" in model_page(catalog(2, damped=True), 2)

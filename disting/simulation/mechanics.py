@@ -127,7 +127,7 @@ def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
 
 
 def matrices(model: AnyModel, values: Mapping[str, float]) -> Matrices:
-    """M, D, K of a machine.
+    """M, D, K of a machine. Raises InputError for missing, unknown or negative values.
 
     >>> matrices(Chain(2, damped=False), {"m1": 1.0, "m2": 2.0, "k12": 4.0}).K.tolist()
     [[4.0, -4.0], [-4.0, 4.0]]
@@ -173,7 +173,8 @@ def input_filter(model: AnyModel, values: Mapping[str, float], omega: Real) -> C
 
 
 def frequency_response(model: AnyModel, values: Mapping[str, float], omega: Real) -> Complex:
-    """G(j omega), shape (n_f,), of what the sensor of the model shows; `omega` [rad/s].
+    """G(j omega), shape (n_f,), of what the sensor of the model shows; `omega` [rad/s]. Raises
+    InputError for missing, unknown or negative values.
 
     >>> abs(frequency_response(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
     [0.5, 0.5]

@@ -87,7 +87,7 @@ def findings(
     engine: Engine | None = None,
 ) -> tuple[Step, ...]:
     """What every condition finds in every representation, in order, whether it decides or not; of
-    models as `compare` takes them.
+    models as `compare` takes them. Raises InputError as that does.
 
     >>> steps = findings(Chain(2), Chain(2, meas_plus=2))
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]

@@ -137,7 +137,7 @@ def everywhere_file(
     engine: Engine | None = None,
 ) -> dict[str, Any]:
     """The verdicts of `compare_everywhere` as plain data, ready for JSON, which `verify` checks
-    alone.
+    alone. Raises InputError as that does.
 
     >>> data = everywhere_file("3:1", "3:11", ["sensor=2"], damped=True)
     >>> data["answer"], [one["places"] for one in data["verdicts"]]

@@ -25,9 +25,9 @@ CSV_COLUMNS = (
     "error_bound",
 )
 WHY = {
-    RENAMING.name: "a renaming of the parameters carries over all that is measured, by symmetry",
+    RENAMING.name: "by symmetry both show the same after a renaming of the parameters",
     FREE_CHOICE.name: "both can show any such numbers",
-    EXACT.name: "each has parameters with all that the other one shows",
+    EXACT.name: "each has parameters that show all that the other one shows",
     REPEATS: "it shows in both what is known already",
 }
 UNSEEN = "nothing is seen"  # where nothing moves
@@ -83,11 +83,11 @@ def conclusion(further: AnyFurther, structure: int) -> str:
         return f"surely enough: {'; or '.join(map(option_in_words, least))}"
     best = further.best(structure)
     if best is None:
-        return "nothing on this menu shows anything new"
+        return "no experiment on this menu shows anything new"
     kept = ", ".join(further.names[k] for k in best.left)
     return (
-        f"nothing on this menu is known to be surely enough; least is left by"
-        f" {option_in_words(best)}: {kept}, because {_why(further, structure, best)}"
+        f"no experiment on this menu is known to be enough; the best is {option_in_words(best)},"
+        f" which may leave {kept}: {_why(further, structure, best)}"
     )
 
 
@@ -166,7 +166,7 @@ def _why(further: AnyFurther, structure: int, option: Option) -> str:
     table = further.tables[item.kind]
     j = table.alike((structure, item.at), other)[0]
     relation, rule = table.look_up((structure, item.at), (other, j))
-    return "that is undecided" if relation is Relation.UNDECIDED else WHY[rule]
+    return "this is undecided" if relation is Relation.UNDECIDED else WHY[rule]
 
 
 def _only(

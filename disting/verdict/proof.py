@@ -41,7 +41,7 @@ def prove(
     sensor: Sensor | str | None = None,
 ) -> Verdict:
     """The verdict with certainty PROVEN if it rests on a rank that can be proven in time, else as
-    it is; the models as `compare` takes them.
+    it is; the models as `compare` takes them. Raises InputError for texts that name no models.
 
     >>> from disting import Family, compare
     >>> a = Family(3, damped=True)

@@ -72,7 +72,7 @@ def verdict_file(
     engine: Engine | None = None,
 ) -> dict[str, Any]:
     """The verdict on two models as plain data, ready for JSON, which `verify` checks alone; the
-    arguments are those of `compare`.
+    arguments are those of `compare`. Raises InputError as that does.
 
     >>> data = verdict_file("3:1", "A4", damped=True)
     >>> data["left"], data["models"][1]["name"], data["relation"], data["settings"]["seed"]

@@ -35,19 +35,25 @@ def said(path):
 def test_each_pair_has_a_sentence(said, path):
     first, empty, head, selected, *_ = said.splitlines()
     assert first == (
-        "measure next: a sensor at mass 2 (cost 1); if it is 3:1, that shows a difference from 3:11"
-        " as fitted now (power 95 % or more; less after a new fit, none where that can come as close"
-        " to 3:1 as it likes); 3:1+b2 contains it, which no data exclude"
+        "measure next: a sensor at mass 2 (cost 1); if the machine is 3:1, it shows a difference"
+        " from 3:11 (power 95 % or more for the values fitted now; a rival that is fitted again comes"
+        " closer, and one of which 3:1 is a limit can follow it); no data exclude 3:1+b2, which"
+        " contains it"
     )
     assert (empty, head) == ("", "3 structures that the fit left:")
     assert selected == "  3:1     [1FS]=[2]=[3]  fitted"
     (noise,) = [line for line in said.splitlines() if line.startswith("3:1+b2: ")]
-    assert "noise leaves it beside 3:1, which it contains" in noise
+    assert (
+        "the data are too noisy to tell it from 3:1, which it contains: only 3:1 can be excluded"
+        in noise
+    )
     assert f"(disting plan {path})" in noise
     (twin,) = [line for line in said.splitlines() if line.startswith("3:11: ")]
-    assert twin.startswith("3:11: no data with this force and sensor tell it from 3:1, whatever")
+    assert twin.startswith(
+        "3:11: with this force and sensor no data can tell it from 3:1, whatever"
+    )
     assert "a sensor at mass 2 (cost 1) shows up to" in twin and "power > 99.9 %" in twin
-    assert "at the fitted values, before a rival refits" in said
+    assert "at the fitted values, before a rival is fitted again" in said
 
 
 def test_the_group_is_told_what_next_tells_of_its_names(said):
@@ -125,7 +131,7 @@ def test_plain_data_says_what_the_numbers_are(path):
         ("3:1", "3:1+b2"): "noise", ("3:1", "3:11"): "equal", ("3:1+b2", "3:11"): "noise",
     }  # fmt: skip
     measured = plain["measured"]
-    assert measured["what"] == "at the fitted values, before a rival refits"
+    assert measured["what"] == "at the fitted values, before a rival is fitted again"
     assert (measured["lines"], measured["scatter"], measured["inertia"]) == (40, 0.02, 2.0)
     assert len(plain["sentences"]) == 2
     (lock,) = [
@@ -138,7 +144,10 @@ def test_plain_data_says_what_the_numbers_are(path):
 def test_a_brake_is_told_of_where_it_costs_something(path):
     said = called("next", path, "--cost", "brake=0.5").stdout
     assert "a known brake at mass 2" in said
-    assert "is added is 2, the mean of the masses; a brake is 12.6, times 2 pi f in the" in said
+    assert (
+        "the added inertia is 2, the mean of the masses; a brake is 12.6, times 2 pi f in the"
+        in said
+    )
     rows = list(
         csv.DictReader(
             io.StringIO(called("next", path, "--cost", "brake=0.5", "--csv", "-").stdout)
@@ -150,20 +159,20 @@ def test_a_brake_is_told_of_where_it_costs_something(path):
 
 
 def test_a_set_of_one_has_nothing_to_tell_apart(tmp_path):
-    """Said plainly, with the parameter that is known worst: its error falls with the root."""
+    """Said plainly, with the parameter of the largest error, which falls with the root."""
     errors = {name: 0.02 * value for name, value in VALUES.items()}
     for worst, said in (
-        (0.3, "d12 is known worst, to ± 30 % (one standard error): 9 times the periods, or lines in"
-         " the same range, bring it to ± 10 %, as far as noise makes it"),
-        (0.05, "d12 is known worst, to ± 5 % (one standard error)\n"),
-        (None, "the data do not determine d12: another sensor or place of the force"),
+        (0.3, "d12 has the largest error, ± 30 % (one standard error): 9 times as many periods, or"
+         " lines in the same range, reduce it to ± 10 % as far as noise is the cause"),
+        (0.05, "d12 has the largest error, ± 5 % (one standard error)\n"),
+        (None, "the data do not determine d12: another sensor, another place of the force"),
     ):  # fmt: skip
         own = None if worst is None else worst * VALUES["d12"]
         selected = member(FREE, VALUES) | {"standard_errors": errors | {"d12": own}}
         path = fit_file(tmp_path / "one.json", selected)
         done = called("next", path)
         assert done.returncode == 0 and done.stdout.startswith(
-            f"{path} leaves 3:1 alone: nothing needs to be measured to tell structures apart; {said}"
+            f"{path} leaves 3:1 alone: no further measurement is needed to tell structures apart; {said}"
         )
         plain = json.loads(called("next", path, "--json", "-").stdout)
         assert plain["first"] + "\n" == done.stdout and plain["again"] == ""
@@ -186,7 +195,7 @@ def test_a_file_that_does_not_tell_its_lines_still_has_its_menu(tmp_path):
     twin = member(FREE, VALUES, **{"3:11": twin_values()})
     path = fit_file(tmp_path / "fit.json", twin, frequencies={"low": 0, "high": 0, "lines": 0})
     done = called("next", path)
-    assert "does not tell the lines of its data" in done.stdout and "surely enough" in done.stdout
+    assert "does not name the lines of its data" in done.stdout and "surely enough" in done.stdout
     assert json.loads(called("next", path, "--json", "-").stdout)["measured"] is None
 
 

@@ -35,15 +35,15 @@ def test_answer_comes_first_with_what_is_needed(written):
     assert done.returncode == 0
     first, verdict, *rest = done.stdout.splitlines()
     assert first == (
-        "not enough: 2:1+b2 is excluded with a probability of 80 % if the machine is 2:1+b1 (level"
-        " 1 %); 1.53 times the periods are needed for 95 %"
+        "not enough: if the machine is 2:1+b1, the data exclude 2:1+b2 with a probability of 80 %"
+        " (level 1 %); for 95 % measure 1.53 times as many periods"
     )
     assert verdict.startswith(
         "verdict: 2:1+b1 and 2:1+b2, damped, acceleration, are distinguishable over positive"
     )
     text = "\n".join(rest)
     assert "  noise of a line at most 24 %\n  1.53 times the periods\n" in text
-    assert "1 surplus parameter (within 2:1+b1+b2)" in text and ": agreed" in text
+    assert "1 degree of freedom (2:1+b1+b2 contains both)" in text and ": agreed" in text
 
 
 def test_the_guide_shows_what_is_printed(written):
@@ -79,7 +79,7 @@ def test_indistinguishable_pair_is_impossible_and_next_is_named():
     )
     assert done.returncode == 0
     first, verdict = done.stdout.splitlines()[:2]
-    assert first.startswith("impossible: no effort") and first.endswith(
+    assert first.startswith("impossible: however long") and first.endswith(
         "disting next 3:1 3:11 --damped"
     )
     assert "are indistinguishable over positive parameters" in verdict
@@ -121,8 +121,8 @@ def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answ
     assert [m.name for m in found.members] == ["2:1", "2:1+b1", "2:1+b2"]
     done = called("plan", path)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.startswith("2:1 is taken for true")
-    first, second = done.stdout.split("the other way round")
+    assert done.stdout.startswith("assumed: the machine is 2:1 with")
+    first, second = done.stdout.split("the reverse: can data exclude")
     for name in ("2:1+b1", "2:1+b2"):
         (row,) = [line for line in first.splitlines() if line.startswith(f"{name} ")]
         assert f"impossible: it contains the model ({name[4:]} without effect)" in row
@@ -160,7 +160,7 @@ def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
     other.write_text(json.dumps(plain), encoding="utf-8")
     said = called("plan", other).stdout
     assert "impossible: 2:2+b1: the same response for the fitted values" in said
-    assert f"\nwhat else could be measured: disting next {other}\n" in said
+    assert f"\nfor another experiment: disting next {other}\n" in said
 
 
 def test_what_is_the_same_for_these_values_names_no_command_that_denies_it():
@@ -171,7 +171,7 @@ def test_what_is_the_same_for_these_values_names_no_command_that_denies_it():
     )
     pair = ("3:4+b1+b2+b3", "3:1+b1+b3", "--damped", "--set", values)
     said = called("plan", *pair, "--noise", 0.1, "--band", "0.5..5").stdout
-    assert said.startswith("impossible for these values: 3:1+b1+b3 fits within rounding")
+    assert said.startswith("impossible for these values: 3:1+b1+b3 fits them up to rounding")
     assert said.splitlines()[0].endswith(
         "; another sensor, or the force elsewhere, may tell them apart"
     )
@@ -190,7 +190,7 @@ def test_plan_and_next_answer_for_fits_of_random_drives(tmp_path, n_masses):
         path = tmp_path / f"{seed}.json"
         path.write_text(json.dumps(selection_to_dict(found)), encoding="utf-8")
         done = called("plan", path)
-        assert done.returncode == 0 and "is taken for true" in done.stdout
+        assert done.returncode == 0 and "assumed: the machine is" in done.stdout
         done = called("next", path)
         alone = len(found.members) < 2 and not any(m.twins for m in found.members)
         assert done.returncode == (2 if alone else 0)

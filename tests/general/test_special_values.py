@@ -3,11 +3,22 @@
 from fractions import Fraction
 
 import pytest
-from sympy import Poly, Rational, Symbol, cancel, resultant, sign, symbols
+from sympy import (
+    Poly,
+    Rational,
+    Symbol,
+    cancel,
+    resultant,
+    sign,
+    simplify,
+    solve,
+    symbols,
+    sympify,
+)
 
 from disting import Model, network_of
 from disting.general.any_model import of_network
-from disting.general.special_values import lower_degree
+from disting.general.special_values import lower_degree, special_values
 from disting.network.families import FAMILIES
 
 S = Symbol("s")
@@ -67,8 +78,42 @@ def test_at_the_special_values_the_degree_is_lower(text, special, generic) -> No
     (condition,) = lower_degree(model)
     for values, is_special in ((special, True), (generic, False)):
         numbers = {p: Fraction(v) for p, v in values.items()}
-        assert (eval(condition, {}, numbers) == 0) == is_special
+        assert (eval(condition.polynomial, {}, numbers) == 0) == is_special
         assert (_at(model, numbers) < max(model.degrees)) == is_special
+
+
+@pytest.mark.parametrize(
+    ("text", "poles", "zeros"),
+    [
+        ("p(R1,C1)-p(R2,C2)", True, False),
+        ("p(R1-C1,R2-C2)", False, True),
+        ("R1-p(R2,C1)-p(R3,C2)", True, False),
+        ("p(R1,R2-C1,R3-C2)", False, True),
+    ],
+)
+def test_poles_or_zeros_fall_together(text, poles, zeros) -> None:  # type: ignore[no-untyped-def]
+    """R1 C1 = R2 C2 put in by SymPy, before anything cancels."""
+    model = of_network(network_of(text))
+    (found,) = lower_degree(model)
+    assert (found.poles, found.zeros) == (poles, zeros)
+    (equation,) = solve(sympify(found.polynomial), Symbol("C1"))
+    top, bottom = (Poly(side.subs(Symbol("C1"), equation), S) for side in _sides(model))
+    assert (simplify(bottom.discriminant()) == 0) == poles
+    assert (simplify(top.discriminant()) == 0) == zeros
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "said"),
+    [
+        ("p(R1,R2-C1,R3-C2)", "R1-p(R2,C1)-p(R3,C2)", "A and B give the same, for all positive values (proven)."),
+        ("R1-p(R2,C1)", "R1-p(R2,C1)-p(R3,C2)", "For all positive values of A, B can give the same (proven), but not the other way round. B has fewer poles where C1*R2 - C2*R3 = 0."),
+        ("1~2~3, 2~4, 2~5; F1; S3", "1~2~3, 2~4~5; F1; S3", "For all positive values of B, A can give the same (proven); the converse is not known."),
+        ("R1-C1", "R1-L1", ""),
+    ],
+)  # fmt: skip
+def test_what_is_said_of_special_values(left, right, said) -> None:  # type: ignore[no-untyped-def]
+    found = special_values(*(of_network(network_of(text)) for text in (left, right)))
+    assert found.sentence("A", "B") == said
 
 
 def test_what_is_not_known_is_not_said() -> None:

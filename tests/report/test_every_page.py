@@ -14,7 +14,7 @@ import pytest
 from disting.files import __version__
 from tests.report.barriers import barriers
 from tests.report.links import dead_links, is_there, outline
-from tests.report.page_kinds import SCHEMES, SIGHTS, kinds, write_all
+from tests.report.page_kinds import REPORTS, SCHEMES, SHIPPED, SIGHTS, kinds, write_all
 from tests.report.sight import out_of_sight
 from tests.report.test_model_list import HOSTILE
 
@@ -28,6 +28,7 @@ JUDGED = (
     "guide, notebook-bench-commissioned", "fit",
 )  # fmt: skip
 WITHOUT_SITE = ("alone",)  # folders of pages that lie anywhere
+TALL = 12_000  # pixels: what is longer is folded or on several pages
 SETTLED = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -105,6 +106,52 @@ def test_no_page_scrolls_sideways_on_a_phone(window, site: Path) -> None:  # typ
         wide += [(page.name, one) for one in out_of_sight(tab)]
     tab.close()
     assert wide == []
+
+
+def heights(window, pages: Sequence[Path]) -> dict[str, int]:  # type: ignore[no-untyped-def]
+    """How tall pages are, in pixels, on a desk."""
+    tab = window.new_page()
+    tab.set_viewport_size({"width": 1280, "height": 800})
+    found = {}
+    for page in pages:
+        tab.goto(page.as_uri())
+        found[f"{page.parent.name}/{page.name}"] = tab.evaluate(
+            "document.documentElement.scrollHeight"
+        )
+    tab.close()
+    return found
+
+
+def test_no_page_is_endless(window, site: Path) -> None:  # type: ignore[no-untyped-def]
+    written = [page for page in site.rglob("*.html") if page.parent.name not in SHIPPED]
+    pages = sorted(written, key=lambda page: page.stat().st_size)[-12:]
+    assert {name: high for name, high in heights(window, pages).items() if high > TALL} == {}
+
+
+@pytest.mark.slow
+def test_no_shipped_page_is_endless(window) -> None:  # type: ignore[no-untyped-def]
+    found = heights(window, sorted(REPORTS.rglob("*.html")))
+    assert len(found) > 150
+    assert {name: high for name, high in found.items() if high > TALL} == {}
+
+
+def test_what_is_folded_opens_where_an_address_names_it_and_on_paper(window, site: Path) -> None:  # type: ignore[no-untyped-def]
+    tab = window.new_page()
+    tab.set_viewport_size({"width": 1280, "height": 800})
+    for address in (
+        "guide/python-disting.html#Chain.parameters",
+        "guide/commands.html#disting-fit--masses",
+    ):
+        tab.goto(f"{site.as_uri()}/{address}")
+        assert tab.locator(f"[id='{address.partition('#')[2]}']").is_visible(), address
+        assert tab.locator("details.fold:not([open])").count() > 5
+        tab.evaluate("dispatchEvent(new Event('beforeprint'))")
+        assert tab.locator("details.fold:not([open])").count() == 0
+        assert tab.evaluate("document.documentElement.scrollHeight") > TALL
+    tab.goto(f"{site.as_uri()}/paper/index.html")
+    tab.locator("#differing a").first.click()
+    assert tab.locator(".claim:target").is_visible()
+    tab.close()
 
 
 def test_what_is_wrong_would_be_found(window, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]

@@ -102,7 +102,7 @@ def test_every_command_and_option_is_there() -> None:
     assert not any("SUPPRESS" in o.text for c in found.values() for o in c.options)
     written = Outline(str(command_page(parser()).body))
     for command in found.values():
-        assert written.count("h2", id=command.anchor) == 1
+        assert written.count("details", id=command.anchor) == 1
         for option in command.options:
             assert written.count("dt", id=option.anchor) == 1, option
             assert "%(" not in option.text and "/tmp" not in option.default

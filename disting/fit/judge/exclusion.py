@@ -4,7 +4,7 @@ A structure with whitened residual r and sensitivities S is tested against anoth
 r_B (R. Davidson, J. MacKinnon, Several tests for model specification in the presence of alternative
 hypotheses, 1981):
 
-    T = (r'd)^2 / d'C d,    d = r_B - r, less what S makes up for,
+    T = (r'd)^2 / d'C d,    d = r_B - r without its projection on S,
 
 C = covariance of the residuals that the other one leaves (`covariance`). Where the other one
 contains the structure T is the difference of their costs. If the structure is true, T / s is

@@ -24,7 +24,8 @@ STEP = 1e-4  # of a logarithm, for derivatives of the results
 
 
 def poles(structure: Structure, p: Real) -> Complex:
-    """Roots of det A(s) [rad/s], shape (2 N,), the lag's pole not among them.
+    """Roots of det A(s) [rad/s], shape (2 N,), the lag's pole not among them. Raises ValueError for
+    p of another length.
 
     >>> from disting import Chain
     >>> drive = Chain(2, damped=False).structure
@@ -41,8 +42,8 @@ def poles(structure: Structure, p: Real) -> Complex:
 
 
 def zeros(structure: Structure, p: Real) -> Complex:
-    """Zeros of the receptance [rad/s]: finite roots of the determinant of A(s) bordered by the
-    two ports.
+    """Zeros of the receptance [rad/s]: finite roots of the determinant of A(s) bordered by the two
+    ports. Raises ValueError for p of another length.
 
     >>> from disting import Chain
     >>> drive = Chain(2, damped=False).structure

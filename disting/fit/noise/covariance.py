@@ -37,6 +37,9 @@ VANISHING = 1e-8
 class Noise:
     """sigma, shape (n_y,), amplitudes of all lines first; `correlation` r of neighbouring
     lines, 0 <= r < 1.
+
+    >>> round(Noise(np.ones(8), correlation=0.5).effective, 3)
+    0.333
     """
 
     sigma: Real

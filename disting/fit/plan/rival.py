@@ -13,10 +13,11 @@ has the same masses and springs; what it finds is never below the smallest one, 
 what is said. The model itself is fitted beside its rival: a search that does not find back the
 values from which the response was computed has missed the rival's best values perhaps too.
 
-The test is that of `exclusion`: both structures are fitted to the data, and T is what the step from
-the rival's response to the model's, less what the rival's parameters make up for, explains of the
-rival's residuals. If the rival is true T is distributed as chi2 of as many degrees as the model has
-parameters beyond the rival, if the model is, as noncentral chi2 with lambda.
+The test is that of `exclusion`: both structures are fitted to the data, and T is the part of the
+rival's residuals that the difference of the two responses explains, after removing what other
+parameters of the rival could also produce. If the rival is true T is distributed as chi2 of as
+many degrees of freedom as the model has parameters beyond the rival, if the model is, as noncentral
+chi2 with lambda.
 """
 
 from collections.abc import Mapping

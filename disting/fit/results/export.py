@@ -15,9 +15,11 @@ from disting.files import write_whole
 from disting.fit.judge.modes import poles, zeros
 from disting.fit.search.plant import Plant
 from disting.measurement.arrays import Complex, Real
+from disting.measurement.response import as_sign
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.simulation import matrices, port_vectors
+from disting.simulation.mechanics import checked
 
 if TYPE_CHECKING:
     import control
@@ -50,12 +52,13 @@ class StateSpace:
 
 def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateSpace:
     """State space (20) to (23) with numbers, one input, one output; the torque lag adds a state.
+    Raises InputError for missing, unknown or negative values, and for a sign that is not 1 or -1.
 
     >>> ss = state_space(Chain(1, damped=False), {"m1": 2.0})
     >>> ss.A.tolist(), ss.B.tolist(), ss.D.tolist()
     ([[0.0, 1.0], [-0.0, -0.0]], [[0.0], [0.5]], [[0.5]])
     """
-    n = chain.n_masses
+    n, sign = chain.n_masses, as_sign(sign)
     mass, damping, stiffness = matrices(chain, values)
     force, shown = port_vectors(chain)
     inverse = 1.0 / np.diag(mass)[:, None]
@@ -88,7 +91,8 @@ def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real
 
 def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "control.StateSpace":
     """A python-control StateSpace, its states, input u and output y named, without the dead time,
-    which no finite state space has; needs disting[control].
+    which no finite state space has; needs disting[control]. Raises InputError as `state_space`
+    does, and where python-control is not installed.
 
     >>> to_control(Chain(1, damped=False), {"m1": 2.0}).nstates
     2
@@ -101,8 +105,8 @@ def to_control(chain: Chain, values: dict[str, float], sign: int = 1) -> "contro
 def to_control_transfer_function(
     chain: Chain, values: dict[str, float], sign: int = 1
 ) -> "control.TransferFunction":
-    """A python-control TransferFunction, without the dead time, from poles, zeros and gain;
-    needs disting[control].
+    """A python-control TransferFunction, without the dead time, from poles, zeros and gain; needs
+    disting[control]. Raises InputError as `to_control` does.
 
     >>> drive = to_control_transfer_function(Chain(1, damped=False, sensor="position"), {"m1": 2.0})
     >>> complex(drive(1j)).real
@@ -123,13 +127,14 @@ class ZeroPole:
 
 
 def zero_pole(chain: Chain, values: dict[str, float], sign: int = 1) -> ZeroPole:
-    """Zeros, poles and gain of a chain with numbers, without the dead time.
+    """Zeros, poles and gain of a chain with numbers, without the dead time. Raises InputError as
+    `state_space` does.
 
     >>> found = zero_pole(Chain(1), {"m1": 2.0})
     >>> len(found.zeros), len(found.poles), found.gain
     (2, 2, 0.5)
     """
-    structure = chain.structure
+    structure, sign, values = chain.structure, as_sign(sign), checked(chain, values)
     p = np.array([values[name] for name in structure.parameters])
     bottom, top = poles(structure, p), zeros(structure, p)
     at = 2.0 * np.abs(bottom).max() + 1.0  # a real point away from all of them
@@ -176,7 +181,8 @@ class Exported:
 def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
     """A MATLAB v5 file: A, B, C, D and delay of the first model, and the struct array `models` with
     name, A, B, C, D, delay, z, p, k, parameters and units of each. The same models give the same
-    bytes.
+    bytes. Raises InputError for no models or wrong values, OSError where the file cannot be
+    written.
 
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
@@ -187,6 +193,8 @@ def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
     """
     from scipy.io import savemat
 
+    if not models:
+        raise InputError("a MATLAB file needs a model: none is given")
     whole = np.empty(len(models), dtype=object)
     whole[:] = [_plain(model, sign) for model in models]
     content = BytesIO()
@@ -208,7 +216,8 @@ def _plain(model: Exported, sign: int) -> dict[str, Any]:
 
 
 def control_script(models: Sequence[Exported], sign: int = 1) -> str:
-    """A Python program that makes a python-control StateSpace of each model, by name.
+    """A Python program that makes a python-control StateSpace of each model, by name. Raises
+    InputError as `state_space` does.
 
     >>> drive = Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})
     >>> "m1 = 2 kg" in control_script([drive])
@@ -243,11 +252,11 @@ def predicted(
     chain: Chain, values: dict[str, float], omega: Real, sign: int = 1
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
     """Response of a fitted chain, or of the same chain with other ports, at angular frequencies
-    [rad/s].
+    [rad/s]. Raises InputError for missing, unknown or negative values. Raises it too for a sign
+    that is not 1 or -1.
 
     >>> abs(predicted(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
     [0.5, 0.5]
     """
-    return Plant(chain.structure, omega, sign).response(
-        np.array([values[name] for name in chain.parameters])
-    )
+    p = np.array(list(checked(chain, values).values()))
+    return Plant(chain.structure, omega, sign).response(p)

@@ -36,7 +36,9 @@ class Sweep:
 
 
 def sweep(candidates: Sequence[Candidate], criterion: str) -> Sweep:
-    """Thresholds from 1 to 10000; the best candidate is the one with the lowest test cost."""
+    """Thresholds from 1 to 10000; the best candidate is the one with the lowest test cost. Raises
+    InputError for another criterion.
+    """
     if criterion not in CRITERIA:
         raise InputError(f"the criteria are {', '.join(CRITERIA)}, not {shown(criterion)}")
     ordered = sorted(candidates, key=lambda c: c.j_test)
@@ -64,7 +66,7 @@ class Profile:
 
 def profile(candidate: Candidate, task: Task, name: str, span: float = 0.0) -> Profile:
     """Profile of a fitted parameter, `span` of its logarithm to either side; 0: three standard
-    errors, at most a factor 10.
+    errors, at most a factor 10. Raises InputError for a parameter that was not fitted.
     """
     if name not in candidate.practical.names:
         raise InputError(

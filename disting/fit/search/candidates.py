@@ -16,7 +16,7 @@ def figure_1(
     sizes: Sequence[int] = (1, 2, 3, 4), sensor: Sensor = Sensor.ACCELERATION
 ) -> tuple[Chain, ...]:
     """Chains driven and seen at mass 1, every set of ground dampers, with and without lag and dead
-    time.
+    time. Raises InputError for a size below 1.
 
     >>> len(figure_1())
     120
@@ -40,7 +40,8 @@ def variants(chain: Chain) -> Iterator[Chain]:
 
 
 def whole_family(sizes: Sequence[int], sensor: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
-    """Every chain under (36)-(38) of these sizes, with its variants.
+    """Every chain under (36)-(38) of these sizes, with its variants. Raises InputError for a size
+    below 1.
 
     >>> len(whole_family([2]))  # three models, each with 16 variants
     48

@@ -237,8 +237,8 @@ def lines_by_deviation(measured: FrequencyResponse) -> Real:
 
 
 def lines_by_coherence(measured: FrequencyResponse) -> Real:
-    """Weight sqrt(gamma^2 / (1 - gamma^2)), the inverse of the relative deviation, scaled to a
-    mean square of 1.
+    """Weight sqrt(gamma^2 / (1 - gamma^2)), the inverse of the relative deviation, scaled to a mean
+    square of 1. Raises InputError for a response without coherence.
 
     >>> from disting.measurement import from_arrays
     >>> data = from_arrays(range(1, 9), [1] * 8, coherence=[0.9] * 8)

@@ -31,7 +31,13 @@ Lines = Callable[[FrequencyResponse], Real]
 
 @dataclass(frozen=True, slots=True)
 class Further:
-    """A further response of the machine, how it was measured, and independent data of it."""
+    """A further response of the machine, how it was measured, and independent data of it.
+
+    >>> from disting.measurement import from_arrays
+    >>> load = from_arrays(range(1, 17), [1j, 2j] * 8)
+    >>> Further(load, Setup(sensor="2")).thinned(8).setup.text
+    'sensor 2'
+    """
 
     measured: FrequencyResponse
     setup: Setup

@@ -48,6 +48,11 @@ class Plant:
     a reversed sensor.
 
     `still`: masses that are locked; `added`: (mass, power of s, size) of what is known.
+
+    >>> from disting import Chain
+    >>> plant = Plant(Chain(1, damped=False).structure, np.array([1.0, 2.0]))
+    >>> plant.parameters, plant.response(np.array([2.0])).real.tolist()
+    (('m1',), [0.5, 0.5])
     """
 
     structure: Structure

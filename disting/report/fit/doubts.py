@@ -29,9 +29,9 @@ def unseen(found: Selection) -> Iterator[str]:
     for pole, zero in between_lines(chain.structure, values, found.task.cost.measured.frequency):
         yield (
             f"{reference(chain)} has a resonance at {pole:.5g} Hz and an antiresonance at"
-            f" {zero:.5g} Hz, both between two lines and narrower than these are apart: the"
-            " lines show their flanks only; measure closer together there before you trust the"
-            " values that make them"
+            f" {zero:.5g} Hz. Both lie between two measured lines and are narrower than the"
+            " distance of these lines, so the data show their flanks only: measure more lines there"
+            " before you trust the values that make them"
         )
 
 
@@ -92,7 +92,7 @@ def better(found: Selection) -> Iterator[str]:
     best, more = found.better[0], len(found.better) - 1
     others = f" ({more} more)" if more else ""
     yield (
-        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} for"
+        f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} instead of"
         f" {found.selected.j_test:.3g}, but is not admissible: {'; '.join(best.reasons)}"
     )
 
@@ -104,8 +104,8 @@ def disagreeing(both: tuple[Disagreement, ...]) -> str:
         for d in both
     )
     return (
-        f"training and test data disagree on {values}: model error, as friction that changes with"
-        " the amplitude makes; trust neither interval"
+        f"training and test data disagree on {values}: the model misses something, for example"
+        " friction that changes with the amplitude; trust neither interval"
     )
 
 
@@ -122,9 +122,9 @@ def changing(found: Selection) -> Iterator[str]:
         if tau:
             own = max(one.typical for one in known)
             yield (
-                f"training and test data{of} differ by {100 * tau:.2g} % a line beyond"
-                f" what they scatter, {100 * own:.2g} %: the machine changes between them, as"
-                " friction does with the amplitude"
+                f"training and test data{of} differ by {100 * tau:.2g} % a line beyond their"
+                f" scatter of {100 * own:.2g} %: the machine changed between them, for example its"
+                " friction with the amplitude"
             )
 
 

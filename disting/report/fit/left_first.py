@@ -61,24 +61,24 @@ def first_sentence(found: Onward) -> str:
     larger = [k for k in range(1, len(found.left)) if k not in others]
     best = _best(found, found.seen, others)
     said = (
-        f"if it is {selected.name}, no experiment on the menu has power {percent(POWER)} against"
-        " another structure"
+        f"if the machine is {selected.name}, no experiment on the menu excludes another structure"
+        f" with power {percent(POWER)}"
     )
     if best is not None:
         said = (
-            f"measure next: {best.item.text} (cost {found.costs.cost(best.item.kind):g}); if it is"
-            f" {selected.name}, that shows a difference from {_of(found, best, others)}"
+            f"measure next: {best.item.text} (cost {found.costs.cost(best.item.kind):g}); if the"
+            f" machine is {selected.name}, it shows a difference from {_of(found, best, others)}"
         )
         left = [f"{found.left[k].name} (power {chance(power)})" for k, power in best.left]
         said += f"; not {listed(left)}" * bool(left)
     contain = listed([found.left[k].name for k in larger])
-    return said + f"; {contain} {_contain(larger)} it, which no data exclude" * bool(larger)
+    return said + f"; no data exclude {contain}, which {_contain(larger)} it" * bool(larger)
 
 
 def _alone(named: Named, source: str) -> Iterator[str]:
     """That nothing is to be told apart, what is not known beside it, and the worst parameter."""
     yield (
-        f"{source} leaves {reference(named.model)} alone: nothing needs to be measured to tell"
+        f"{source} leaves {reference(named.model)} alone: no further measurement is needed to tell"
         " structures apart"
     )
     if named.larger:
@@ -88,7 +88,7 @@ def _alone(named: Named, source: str) -> Iterator[str]:
         )
     if named.rivals:
         names = listed(map(reference, named.rivals))
-        yield f"not known is whether another structure behaves the same: {names}"
+        yield f"it is not known whether these structures behave the same: {names}"
     if named.errors:
         yield _worst(named.errors)
 
@@ -99,15 +99,15 @@ def _worst(errors: Mapping[str, float]) -> str:
     error = errors[name]
     if not error <= UNDETERMINED:
         return (
-            f"the data do not determine {name}: another sensor or place of the force, or a wider"
-            " band, may"
+            f"the data do not determine {name}: another sensor, another place of the force or a"
+            " wider band may help"
         )
-    known = f"{name} is known worst, to ± {percent(error)} (one standard error)"
+    known = f"{name} has the largest error, ± {percent(error)} (one standard error)"
     if error <= KNOWN:
         return known
     return (
-        f"{known}: {readable((error / KNOWN) ** 2)} times the periods, or lines in the same range,"
-        f" bring it to ± {percent(KNOWN)}, as far as noise makes it"
+        f"{known}: {readable((error / KNOWN) ** 2)} times as many periods, or lines in the same"
+        f" range, reduce it to ± {percent(KNOWN)} as far as noise is the cause"
     )
 
 
@@ -147,6 +147,6 @@ def _of(found: Onward, best: Reach, others: list[int]) -> str:
     else:
         which = f"{len(best.parted)} of the {len(others)} others"
     return (
-        f"{which} as fitted now (power {percent(POWER)} or more; less after a new fit, none where"
-        f" that can come as close to {found.left[0].name} as it likes)"
+        f"{which} (power {percent(POWER)} or more for the values fitted now; a rival that is fitted"
+        f" again comes closer, and one of which {found.left[0].name} is a limit can follow it)"
     )

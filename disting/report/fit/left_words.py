@@ -23,12 +23,12 @@ from disting.verdict.further_words import CSV_COLUMNS, rows, to_dict
 from disting.verdict.result import Relation
 
 MEASURED_COLUMNS = ("largest", "frequency", "noncentrality", "power")
-BEFORE = "at the fitted values, before a rival refits"
+BEFORE = "at the fitted values, before a rival is fitted again"
 SAYS = {
-    Standing.EQUAL: "no data with this force and sensor tell it from {}, whatever its values",
-    Standing.TWIN: "for the fitted values no data with this force and sensor tell it from {}",
-    Standing.NOISE: "noise leaves it beside {}",
-    Standing.OPEN: "whether this force and sensor tell it from {} is not known",
+    Standing.EQUAL: "with this force and sensor no data can tell it from {}, whatever the values",
+    Standing.TWIN: "with this force and sensor no data can tell it from {} at the fitted values",
+    Standing.NOISE: "the data are too noisy to tell it from {}",
+    Standing.OPEN: "it is not known whether data with this force and sensor can tell it from {}",
 }
 
 
@@ -81,12 +81,12 @@ def set_in_words(found: Onward) -> Iterator[str]:
     yield LEGEND
     moved = [one.name for one in found.left if as_listed(one.chain).chain != one.chain]
     if moved:
-        yield f"masses of {', '.join(moved)} are counted as drawn here"
+        yield f"masses of {', '.join(moved)} have the numbers of these drawings"
     left = {one.chain for one in found.left}
     open_ones = [reference(chain) for chain in found.named.rivals if chain not in left]
     if open_ones:
         why = "it is not known whether they behave the same"
-        yield f"not asked here, as {why}: {', '.join(open_ones)}"
+        yield f"left out, because {why}: {', '.join(open_ones)}"
 
 
 def measured_in_words(found: Onward) -> Iterator[str]:
@@ -95,27 +95,27 @@ def measured_in_words(found: Onward) -> Iterator[str]:
     """
     seen = found.seen
     if seen is None:
-        yield f"{found.source} does not tell the lines of its data: fit again for what they show"
+        yield f"{found.source} does not name the lines of its data: fit again to get powers"
         yield from (sentence(found, a, b) for a, b in found.pairs())
         return
     yield (
-        f"differences and powers are {BEFORE}: one that refits comes closer, one that contains the"
-        " true structure all the way"
+        f"differences and powers are {BEFORE}: fitted again it comes closer; one that contains the"
+        " true structure fits it exactly"
     )
     yield bench_in_words(seen)
-    yield f"how much more measuring tells apart what noise leaves: disting plan {found.source}"
+    yield f"how much more of the same measurement tells them apart: disting plan {found.source}"
     yield ""
     yield from (sentence(found, a, b) for a, b in found.pairs())
     items = [(item, _nearest(found, item)) for item in cheapest_first(found, seen, 0)]
     yield ""
-    yield f"if it is {found.left[0].name}, for the rival that each experiment tells least:"
+    yield f"if the machine is {found.left[0].name}: each experiment, and the rival it shows least:"
     head = "".join(f"{title:>10}" for title in ("largest", "at [Hz]", "lambda", "power"))
     width = max(len("rival"), *(len(one.name) for one in found.left))
     yield f"  {'':33}{'rival':{width}}{head}"
     yield from (f"  {item.text:33}{_row(found, seen, width, *row)}" for item, row in items if row)
     yield (
-        "largest: difference of a line in units of its scatter; lambda, power: of the further"
-        f" response alone, level {percent(LEVEL)}"
+        "largest: the largest difference at a line, in units of its scatter; lambda and power: of"
+        f" the further response alone, level {percent(LEVEL)}"
     )
 
 
@@ -126,7 +126,7 @@ def sentence(found: Onward, a: int, b: int) -> str:
     said = f"{other.name}: {SAYS[standing].format(one.name)}"
     if standing is Standing.NOISE:
         if joined(one.chain, other.chain) == other.chain:
-            said += f", which it contains, so that only {one.name} can be excluded"
+            said += f", which it contains: only {one.name} can be excluded"
         said += f" (disting plan {found.source})"
     shown = _shown(found, found.seen, a, b) if found.seen else ""
     return f"{said}; {shown}" if shown else said
@@ -139,9 +139,9 @@ def bench_in_words(seen: Foretold) -> str:
     more = [f"a {name} is {readable(size)}" for name, size in seen.sizes.items()][1:]
     beside = f"; {', '.join(more)}, times 2 pi f in the middle of the lines" if more else ""
     return (
-        f"at {len(hertz)} lines from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, a line scatters by"
-        f" {percent(float(bench.rho[0]))} (of the fitted data); the inertia"
-        f" that is added is {readable(bench.inertia)}, the mean of the masses{beside}"
+        f"{len(hertz)} lines from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, each with a scatter of"
+        f" {percent(float(bench.rho[0]))} (of the fitted data); the added inertia"
+        f" is {readable(bench.inertia)}, the mean of the masses{beside}"
     )
 
 
@@ -226,7 +226,8 @@ def _origin(one: Left) -> str:
     if one.fitted:
         return "fitted"
     family = f", one of a family, {one.free} free" * bool(one.free)
-    return f"as {', '.join(reference(chain) for chain in one.like)} for the fitted values{family}"
+    like = ", ".join(reference(chain) for chain in one.like)
+    return f"with the fitted response of {like}{family}"
 
 
 def _apart(found: Onward) -> Iterator[tuple[str, ...]]:
@@ -280,13 +281,13 @@ def _shown(found: Onward, seen: Foretold, a: int, b: int) -> str:
         reached = seen.power(a, b, nearest[0])
         said = f"{item.text} (cost {found.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
         if reached >= POWER:
-            one_of = ", for the one of its family of values that is known"
+            one_of = ", for one of its values, the others were not looked at"
             return f"{said}{one_of * bool(found.left[b].free)}"
         if best is None or reached > best[0]:
             best = reached, said
     if best is None:
-        return "nothing on the menu surely tells them apart" if unsure else ""
-    return f"nothing on the menu has power {percent(POWER)}: at most {best[1]}"
+        return "no experiment on the menu surely tells them apart" if unsure else ""
+    return f"no experiment on the menu has power {percent(POWER)}; the best: {best[1]}"
 
 
 def _size(step: Step, reached: float) -> str:

@@ -73,29 +73,31 @@ def rivals_in_words(
     the reverse, where the rival contains the selected structure.
     """
     name = name_of(named.model)
-    yield f"{name} is taken for true: {_values(named.values)}; noise {source}"
+    thing = _words(named.model)[0]
+    yield f"assumed: the {thing} is {name} with {_values(named.values)}; noise {source}"
     for same, why in named.same.items():
         yield f"impossible: {same}: {why}"
     if named.same:
-        yield f"what else could be measured: disting next {shlex.quote(file)}"
+        yield f"for another experiment: disting next {shlex.quote(file)}"
     if not found:
-        yield "" if named.same else "the fit names no rival: nothing is to be told apart"
+        yield "" if named.same else "the fit left no rival: there is nothing to tell apart"
         return
     yield ""
     yield from _rows([there for there, _ in found])
     back = [reverse for _, reverse in found if reverse is not None]
     if back:
         yield ""
-        yield f"the other way round, what excludes {name} if a structure that contains it is true:"
+        yield f"the reverse: can data exclude {name} if a structure that contains it is true?"
         yield from _rows(back, true=True)
     yield ""
     yield (
-        f"periods: multiple of those at hand for power {percent(POWER)} at level {percent(LEVEL)},"
-        " if all lines scatter alike; --noise FRF.csv takes each line's own scatter"
+        f"periods: how many times the present ones give power {percent(POWER)} at level"
+        f" {percent(LEVEL)}, if all lines scatter alike; --noise FRF.csv takes the scatter of each"
+        " line"
     )
     every = [p for p in (*(there for there, _ in found), *back) if p.noncentrality > 0]
     if any(p.answer is Answer.ENOUGH for p in every):
-        yield "enough: by the test by which disting fit excludes a structure"
+        yield "enough: disting fit excludes structures by the same test"
     if every:
         yield f"one pair in full: {plan_command(max(every, key=lambda p: p.factor))}"
 
@@ -155,66 +157,65 @@ def _answer(found: Plan) -> str:
     if found.rival is None:
         other = next_command(found)
         return (
-            f"impossible: no effort tells {model} and {name} apart {_words(found)[1]}; what else"
-            f" could be measured is told by: {other}"
+            f"impossible: however long you measure {_words(found.model)[1]}, {model} and {name}"
+            f" cannot be told apart; for another experiment: {other}"
         )
     if found.answer is Answer.SAME:
         return _same(found, found.rival)
     said = (
-        f"{name} is excluded with a probability of {chance(found.power)} if the"
-        f" {_words(found)[0]} is {model} (level {percent(LEVEL)})"
+        f"if the {_words(found.model)[0]} is {model}, the data exclude {name} with a probability of"
+        f" {chance(found.power)} (level {percent(LEVEL)})"
     )
     more = (
         f"enough: {said}"
         if found.answer is Answer.ENOUGH
-        else f"not enough: {said}; {readable(found.factor)} times the periods are needed for"
-        f" {percent(POWER)}"
+        else f"not enough: {said}; for {percent(POWER)} measure {readable(found.factor)} times as"
+        " many periods"
     )
     return more if is_trusted(found) else f"{more}. {_doubt(found.rival)}"
 
 
-def _words(found: Plan) -> tuple[str, str]:
+def _words(model: AnyStructure) -> tuple[str, str]:
     """What is measured, and by what."""
-    model = found.model
     return WORDS[Sort.MACHINE if isinstance(model, Chain) else model.sort]
 
 
 def _doubt(rival: Rival) -> str:
-    found = "" if rival.recovered else ", and the search did not find back the model's own values"
+    found = "" if rival.recovered else ", and the search did not find the model's own values again"
     return (
-        f"Doubtful: {rival.best.reached} of {len(rival.best.costs)} starts reached the rival's best"
-        f" fit{found}; a better one may exist, and then the power is lower"
+        f"Doubtful: {rival.best.reached} of {len(rival.best.costs)} starting points led to the"
+        f" rival's best fit{found}; a better fit may exist, and then the power is lower"
     )
 
 
 def _same(found: Plan, rival: Rival) -> str:
     """Why a rival that fits within rounding does so, although the verdict does not say so."""
     model, name = found.names
-    thing, where = _words(found)
+    thing, where = _words(found.model)
     if found.is_contained:
-        does = f", which it does {_limits(rival)}" if rival.limits else ""
+        does = f" and gives the same response {_limits(rival)}" if rival.limits else ""
         return (
-            f"impossible: {name} contains {model}{does}, so no measurement of this {thing} {where}"
-            " excludes it, with whatever effort. The question that can be answered is the reverse:"
-            f" is a {thing} that is {name} told from {model}?"
+            f"impossible: {name} contains {model}{does}. No measurement of this {thing} {where} can"
+            f" exclude it. Ask the reverse: if the {thing} is {name}, can data exclude {model}?"
         )
     if rival.limits:
         return (
-            f"impossible on these lines: {name} does there what {model} does {_limits(rival)}; if"
-            " the structures differ it shows elsewhere: choose a wider range"
+            f"impossible on these lines: {name} gives the response of {model} there"
+            f" {_limits(rival)}; if the structures differ, other frequencies show it: choose a"
+            " wider range"
         )
     relation = found.verdict.relation if found.verdict is not None else Relation.UNDECIDED
     why = {
-        Relation.SOMETIMES: "as the verdict says, some parameter values have an equivalent; these"
-        " are among them",
-        Relation.DISTINGUISHABLE: "the verdict says that the structures differ: all models of the"
-        " one, or these values at least, have an equivalent in the other, though not the reverse",
+        Relation.SOMETIMES: "the verdict says that some values have an equivalent, and these are"
+        " such values",
+        Relation.DISTINGUISHABLE: "the verdict says that the structures differ, but these values,"
+        f" or all of {model}, have an equivalent in {name}",
     }.get(relation, "whether that holds for other values too is not decided")
     more = "another sensor, or the force elsewhere, may tell them apart"
     if relation is Relation.SOMETIMES:
         other = next_command(found)
-        more = f"what else could be measured is told by: {other}"
-    return f"impossible for these values: {name} fits within rounding ({why}); {more}"
+        more = f"for another experiment: {other}"
+    return f"impossible for these values: {name} fits them up to rounding ({why}); {more}"
 
 
 def _limits(rival: Rival) -> str:
@@ -235,7 +236,7 @@ def _short(found: Plan) -> str:
         return f"impossible: {next_command(found)}"
     if found.answer is Answer.SAME:
         ends = f" ({', '.join(found.rival.limits)} without effect)" * bool(found.rival.limits)
-        does = "contains the model" if found.is_contained else "does the same on these lines"
+        does = "contains the model" if found.is_contained else "gives the same on these lines"
         return f"impossible: it {does}{ends}"
     return found.answer.value + ("" if is_trusted(found) else ", doubtful: few starts agree")
 
@@ -243,15 +244,15 @@ def _short(found: Plan) -> str:
 def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
     """Numbers behind the answer."""
     hertz, both = rival.hertz, found.joint
-    larger = f" (within {reference(both)})" if both and both != found.model else ""
+    larger = f" ({reference(both)} contains both)" if both and both != found.model else ""
     plural = "s" * (found.surplus > 1)
     yield (
         f"lines           {len(hertz)} from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, noise of a line"
         f" {percent(typical(rival.rho))} ({source})"
     )
     yield (
-        f"search          {rival.best.reached} of {len(rival.best.costs)} starts reached the"
-        f" rival's best fit: {rival.trust}"
+        f"search          {rival.best.reached} of {len(rival.best.costs)} starting points led to"
+        f" the rival's best fit: {rival.trust}"
     )
     if found.answer is Answer.SAME:
         return
@@ -261,11 +262,11 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f" squares over the lines {readable(float(np.sum(rival.apart**2)))}"
     )
     yield (
-        f"test            {found.surplus} surplus parameter{plural}{larger}, level {percent(LEVEL)}"
+        f"test            {found.surplus} degree{plural} of freedom{larger}, level {percent(LEVEL)}"
     )
     yield (
-        f"noncentrality   {readable(found.noncentrality)}, of {readable(found.needed)} for"
-        f" power {percent(POWER)}"
+        f"noncentrality   {readable(found.noncentrality)}; power {percent(POWER)} needs"
+        f" {readable(found.needed)}"
     )
     yield f"power           {chance(found.power)}"
     lines = max(FEWEST, ceil(found.factor * len(hertz)))
@@ -280,10 +281,10 @@ def _spectra(found: Plan, best: Designed) -> Iterator[str]:
     """Band and spectra of the same power, and the lines of the optimal one."""
     before, after = best.crests
     rows = [
-        ("the lines alike", found.noncentrality),
+        ("equal power on all lines", found.noncentrality),
         (f"best band, {best.band.low:.3g} to {best.band.high:.3g} Hz", best.band.noncentrality),
         (f"optimal, {best.optimum.lines} lines", best.optimum.noncentrality),
-        ("to be run: 90 % of it, 10 % on all lines", best.run.noncentrality),
+        ("to be run: 90 % of the optimal, 10 % on all lines", best.run.noncentrality),
         (f"  with crest {after:.2g}, at the peak of the first, {before:.2g}", best.at_equal_peak),
     ]
     width = max(len(name) for name, _ in rows)
@@ -293,9 +294,10 @@ def _spectra(found: Plan, best: Designed) -> Iterator[str]:
         reached = chance(power(size, found.surplus, found.level))
         yield f"{name:{width}}  {readable(size):>8}  {reached:>8}  {periods:>8}"
     gap = best.optimum.bound / best.optimum.noncentrality - 1
-    yield f"no spectrum of this power reaches more than {percent(gap)} beyond the optimal one"
+    above = f"{percent(gap)} above the optimal one"
+    yield f"no spectrum of the same power has a lambda more than {above}"
     yield ""
-    yield "share of the power of the optimal lines:"
+    yield "lines of the optimal spectrum, with their shares of the power:"
     chosen = np.argsort(-best.optimum.shares, kind="stable")[: min(SHOWN, best.optimum.lines)]
     for k in np.sort(chosen):
         yield f"  {best.hertz[k]:8.4g} Hz  {percent(float(best.optimum.shares[k])):>7}"

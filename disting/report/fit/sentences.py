@@ -122,8 +122,8 @@ def _explained(found: Selection) -> Iterator[str]:
     yield from better(found)
     if found.selected is None:
         yield (
-            "no candidate is selected: by the criteria asked for, in each some parameters are not"
-            " determined by this data; all values are printed"
+            "no candidate is selected: by the criteria that you asked for, this data leaves some"
+            " parameters of each candidate undetermined; all values are printed"
         )
     others, more = [m.name for m in found.members[1:]], len(found.containing)
     larger = (
@@ -154,8 +154,8 @@ def _unexplained(found: Selection) -> Iterator[str]:
         yield f"what would fit better: {'; '.join(r.sentence for r in found.readings)}"
     elif _is_joint(found):
         yield (
-            "fit each response alone: what explains one and not all of them points to a wrong"
-            " place, a wrong sign or a machine that changed between the measurements"
+            "fit each response alone: where a structure explains one but not all, a place or a sign"
+            " is wrong, or the machine changed between the measurements"
         )
     elif not found.explanation.noisy and not found.quantities:
         loop = "is the loop closed, " * any(FOLLOWS in said for said in _said(found))

@@ -45,7 +45,7 @@ def command_page(parser: argparse.ArgumentParser) -> GuidePage:
     """The page of all commands of a parser."""
     found = list(commands(parser))
     body = Markup(render("commands.html", commands=found))
-    return GuidePage(NAME, TITLE, (Section("", TITLE, 1), *_sections(found)), body)
+    return GuidePage(NAME, TITLE, (Section("", TITLE, 1), *_sections(found)), body, True)
 
 
 def commands(parser: argparse.ArgumentParser, words: str = "disting") -> Iterator[Command]:

@@ -111,6 +111,11 @@ class Shown:
     members: tuple["Shown", ...] = ()
     elsewhere: str = ""
 
+    @property
+    def gist(self) -> str:
+        """What the docstring says first, as plain text."""
+        return self.entry.text.split("\n\n")[0].replace("`", "")
+
 
 def python_pages() -> Iterator[GuidePage]:
     """A page for every public module; a name that two of them hand on is explained in the first."""
@@ -139,7 +144,7 @@ def _page(name: str, found: list[Entry], addresses: Mapping[Place, str]) -> Guid
     sections = [Section("", f"Python: {name}", 1, parsed(name).text)]
     for one in shown:
         sections += _sections(one) if not one.elsewhere else []
-    return GuidePage(page_name(name), f"Python: {name}", tuple(sections), body)
+    return GuidePage(page_name(name), f"Python: {name}", tuple(sections), body, True)
 
 
 def _sections(one: Shown, level: int = 2) -> Iterator[Section]:
