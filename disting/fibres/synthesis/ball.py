@@ -17,7 +17,7 @@ from flint import acb, acb_poly, arb, ctx
 
 from disting.model.row import Row
 
-Ball = Any  # acb: flint has no usable types
+Ball = Any  # acb; lists of coefficients and of points hold integers beside balls
 Poly = Any  # acb_poly
 
 # widest relative radius of a test ball that may pass as "consistent with zero"

@@ -20,17 +20,16 @@ found holds without any chance.
 
 from functools import cache
 from itertools import chain
-from typing import Any
 
-from flint import fmpz, fmpz_poly, nmod_poly
+from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
 
 PRIMES = 400  # tried; a degree m needs about m of them, and r factors about 2^r times as many
 FIRST = 1 << 20
 Shown = set[tuple[int, str]]  # number of the factor, and what is known of its zeros
 
 
-def conjugate_factors(numerator: Any) -> tuple[fmpz_poly, ...]:
-    """The N_i of a polynomial with rational coefficients (fmpq_poly), if the group is proven to be
+def conjugate_factors(numerator: fmpq_poly) -> tuple[fmpz_poly, ...]:
+    """The N_i of a polynomial with rational coefficients, if the group is proven to be
     the product; else ().
 
     >>> from flint import fmpq_poly

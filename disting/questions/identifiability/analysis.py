@@ -18,7 +18,6 @@ at every point, a few points prove that there are none, without writing anything
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from flint import acb, fmpq
 
@@ -280,7 +279,7 @@ def _exact(members: tuple[Member, ...]) -> int:
     return sum(m.said.origin is not Origin.OTHER for m in members)
 
 
-def _same(left: fmpq, right: Any) -> bool:
+def _same(left: fmpq, right: fmpq | acb) -> bool:
     return left == right if isinstance(right, fmpq) else bool(right.overlaps(acb(left)))
 
 

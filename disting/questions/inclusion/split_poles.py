@@ -4,8 +4,8 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
+from disting.algebra.fractionfree import Modular
 from disting.algebra.quotient import constant, variable
 from disting.algebra.sampling import prime, residues
 from disting.behaviour.chain_model import degrees, quotient
@@ -13,7 +13,7 @@ from disting.model.chain import Chain, Sensor
 
 ATTEMPTS = 1000  # points tried until one is found
 REMEMBERED = 256
-Polynomial = Any
+Polynomial = Modular
 
 
 @dataclass(frozen=True, slots=True)
