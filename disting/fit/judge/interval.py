@@ -10,6 +10,11 @@ the values with Q(v) - Q_min at most the quantile of F of 1 and the degrees of f
 scatter. Where zero is among them the interval ends above where it holds 95 % on one side: the
 parameter is below that. An estimate by another cost is not where Q is lowest: it has p -+ t s
 unless zero is near.
+
+Q may have several valleys, and noise may make another one than the true one the deepest. Where the
+parameters are true, Q there exceeds its minimum by at most the quantile of F of the number of
+parameters, with 95 %, and so does the bottom of their valley. The intervals hold p -+ t s of each
+valley that the search has found and that is no higher.
 """
 
 from collections.abc import Callable, Mapping
@@ -68,16 +73,47 @@ def intervals(candidate: Candidate, task: Task, known: Scatter) -> dict[str, Int
     """The interval of each fitted parameter; 0 and infinity where it has no end."""
     values, errors = candidate.estimate.parameters, candidate.practical.relative_errors
     wide = float(t_distribution.isf(OUTSIDE / 2, known.freedom))
-    found = {n: (values[n] * (1 - wide * e), values[n] * (1 + wide * e)) for n, e in errors.items()}
-    if all(e <= STRAIGHT for e in errors.values()):
-        return found
+    found = {n: _about(values[n], wide * e) for n, e in errors.items()}
     about = _likelihood(candidate, task, known)
-    response = task.plant(candidate.chain).response(values_of(candidate.estimate, task))
-    own = float(about.whitened.total(response))
-    most = STRAIGHT if own - about.lowest <= MOST_LIKELY else FROM_ZERO
-    return {
-        n: found[n] if e <= most else _profiled(about, n, e <= FROM_ZERO) for n, e in errors.items()
-    }
+    if any(e > STRAIGHT for e in errors.values()):
+        response = task.plant(candidate.chain).response(values_of(candidate.estimate, task))
+        own = float(about.whitened.total(response))
+        most = STRAIGHT if own - about.lowest <= MOST_LIKELY else FROM_ZERO
+        found = {
+            n: found[n] if e <= most else _profiled(about, n, e <= FROM_ZERO)
+            for n, e in errors.items()
+        }
+    return _with_valleys(about, found, wide)
+
+
+def _about(value: float, relative: float) -> Interval:
+    return value * (1 - relative), value * (1 + relative)
+
+
+def _with_valleys(
+    about: _Likelihood, found: Mapping[str, Interval], wide: float
+) -> dict[str, Interval]:
+    """Intervals that hold the other valleys too which the data do not exclude."""
+    task, candidate = about.task, about.candidate
+    names, plant = task.names(candidate.chain), task.plant(candidate.chain)
+    whole, box = dict(found), task.box(names)
+    if not (candidate.estimate.valleys and box.free.any()):
+        return whole
+    starts = np.array(candidate.estimate.valleys)
+    points, costs = rough(plant, about.whitened, box, starts, ITERATIONS)
+    most = about.lowest + about.size * limit(
+        int(box.free.sum()), about.known.freedom, level=OUTSIDE
+    )
+    for point in points[costs <= most]:
+        at = {n: float(v) for n, v in zip(names, point, strict=True) if n in found}
+        if all(found[n][0] <= value <= found[n][1] for n, value in at.items()):
+            continue  # the same valley
+        columns = about.whitened.of(plant, point)[1][:, box.free]
+        spread = covariance(columns, equal(float(len(columns)), len(columns), 0))
+        for n, error in zip(np.array(names)[box.free], np.sqrt(np.diag(spread)), strict=True):
+            low, high = _about(at[n], wide * sqrt(about.size) * float(error))
+            whole[n] = min(whole[n][0], max(low, 0.0)), max(whole[n][1], high)
+    return whole
 
 
 def _likelihood(candidate: Candidate, task: Task, known: Scatter) -> _Likelihood:

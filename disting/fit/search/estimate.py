@@ -40,6 +40,7 @@ from disting.model.presentation import summary
 ITERATIONS = 30  # of the rough search, and again from the best that it found
 FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
 FINISHED = 4  # starts that are searched on, the best of which is brought to the last digit
+VALLEYS = 12  # of the rough search that are kept beside the best parameters
 REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
 NOTHING = 1e-6  # or a cost that is as good as zero
 GAIN = 1e-4  # relative gain of cost from which on a neighbour's fit helps
@@ -107,7 +108,8 @@ class Task:
 @dataclass(frozen=True)
 class Estimate:
     """A candidate's best parameters and their cost J; `costs` of all starts after the rough
-    search, in rising order.
+    search, in rising order; `valleys`: where the best of them ended, shape (n, n_p), in the order
+    of `Task.names`: noise may make another valley than the true one the deepest.
 
     Among the starts are those from the data and from smaller fits, then the fits of neighbours,
     once for each change.
@@ -117,6 +119,7 @@ class Estimate:
     parameters: dict[str, float]
     j: float
     costs: tuple[float, ...] = ()
+    valleys: tuple[tuple[float, ...], ...] = ()
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={value:.4g}" for name, value in self.parameters.items())
@@ -181,7 +184,7 @@ def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
             p, j = fine(plant, task.cost, box, points[i])
         p, j = _nested(chain, task, known, p, j)
     tried = tuple(sorted([*own.costs, *map(float, costs)]))
-    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried)
+    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried, own.valleys)
 
 
 def refined(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
@@ -196,18 +199,22 @@ def refined(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estima
         p, j = _nested(chain, task, known, p, j)
     share = j / own.j if own.j else 1.0
     costs = tuple(share * cost for cost in own.costs)
-    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, costs)
+    return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, costs, own.valleys)
 
 
 def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
     names = task.names(chain)
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
-    ends, reached = rough(plant, task.cost, box, points[_different(costs)], ITERATIONS)
+    ends, reached = rough(plant, task.cost, box, points[_different(costs, FINISHED)], ITERATIONS)
     p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
     p, j = _nested(chain, task, known, p, j)
     return Estimate(
-        chain, dict(zip(names, map(float, p), strict=True)), j, tuple(sorted(map(float, costs)))
+        chain,
+        dict(zip(names, map(float, p), strict=True)),
+        j,
+        tuple(sorted(map(float, costs))),
+        tuple(tuple(map(float, points[i])) for i in _different(costs, VALLEYS)),
     )
 
 
@@ -247,11 +254,11 @@ def _own(found: Estimate) -> dict[str, float]:
     return {name: value for name, value in found.parameters.items() if name not in chain}
 
 
-def _different(costs: Real) -> list[int]:
-    """The best starts, one of each valley as far as costs tell."""
+def _different(costs: Real, most: int) -> list[int]:
+    """The best starts, at most so many, one of each valley as far as costs tell."""
     chosen = list[int]()
     for i in np.argsort(costs, kind="stable"):
-        if len(chosen) < FINISHED and all(costs[i] > costs[k] * (1 + REACHED) for k in chosen):
+        if len(chosen) < most and all(costs[i] > costs[k] * (1 + REACHED) for k in chosen):
             chosen.append(int(i))
     return chosen
 

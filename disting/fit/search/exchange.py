@@ -165,13 +165,21 @@ def _results(
 
 def estimate_to_json(found: Estimate) -> str:
     """Text that `estimate_from_json` reads back bit-equal."""
-    return json.dumps({"parameters": found.parameters, "j": found.j, "costs": found.costs})
+    return json.dumps(
+        {
+            "parameters": found.parameters,
+            "j": found.j,
+            "costs": found.costs,
+            "valleys": found.valleys,
+        }
+    )
 
 
 def estimate_from_json(chain: Chain, text: str) -> Estimate:
     """Inverse of `estimate_to_json`."""
     plain = json.loads(text)
-    return Estimate(chain, plain["parameters"], plain["j"], tuple(plain["costs"]))
+    valleys = tuple(map(tuple, plain["valleys"]))
+    return Estimate(chain, plain["parameters"], plain["j"], tuple(plain["costs"]), valleys)
 
 
 def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: str) -> str:

@@ -23,7 +23,8 @@ def response(start: int, step: int, seed: int, drive: Chain = DRIVE) -> Frequenc
     """The drive, or another with its values, between 5 and 200 Hz with 1 % noise."""
     omega = 2 * np.pi * np.geomspace(5.0, 200.0, 90)[start::step]
     noise = np.random.default_rng(seed).normal(size=(2, len(omega))) / 100
-    measured = predicted(drive, VALUES, omega) * (1 + noise[0] + 1j * noise[1])
+    values = {name: VALUES[name] for name in drive.parameters}
+    measured = predicted(drive, values, omega) * (1 + noise[0] + 1j * noise[1])
     coherence = np.full(len(omega), 0.998)
     signals = (("torque", "Nm"), (HOSTILE, "rad/s^2"))
     return FrequencyResponse(omega, measured, None, coherence, DRIVE.sensor, *signals, HOSTILE)  # type: ignore[arg-type]
