@@ -40,10 +40,10 @@ def conjugate_factors(numerator: fmpq_poly) -> tuple[fmpz_poly, ...]:
     >>> conjugate_factors(fmpq_poly([1, 0, 0, 0, 1]))
     ()
     """
-    _, found = numerator.numer().factor()
-    factors = tuple(sorted((f for f, _ in found), key=lambda f: (f.degree(), str(f))))
+    _, powers = numerator.numer().factor()
+    factors = tuple(sorted((f for f, _ in powers), key=lambda f: (f.degree(), str(f))))
     wanted = {(i, what) for i, f in enumerate(factors) for what in _WANTED[min(f.degree(), 3)]}
-    if any(e > 1 for _, e in found):
+    if any(e > 1 for _, e in powers):
         return ()
     for modulus in _primes():
         if not wanted:
@@ -77,9 +77,9 @@ def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Shown:
 
 @cache
 def _primes() -> tuple[int, ...]:
-    found = list[int]()
+    primes = list[int]()
     candidate = FIRST + 1
-    while len(found) < PRIMES:
-        found += [candidate] if fmpz(candidate).is_prime() else []
+    while len(primes) < PRIMES:
+        primes += [candidate] if fmpz(candidate).is_prime() else []
         candidate += 2
-    return tuple(found)
+    return tuple(primes)
