@@ -7,12 +7,6 @@ Whether an identifiable function has one value for all parameters with the same 
 several, is seen at one random point. A difference there is one for generic points, where the
 solutions vary continuously; agreement at exactly known solutions, which are rational functions of
 the point, is generic but for a probability like that of their number.
-
-A scaling leaves the behaviour as it is: p_i -> t^w_i p_i for all t, with integer weights w.
-Numerator and denominator written out are sums of monomials p^a with non-zero coefficients. If all
-monomials of both have one weight w.a, the quotient does not change: an exact proof. The weights
-are the integer kernel of the differences of exponents. As w_i p_i is in the kernel of the Jacobian
-at every point, a few points prove that there are none, without writing anything out.
 """
 
 import json
@@ -24,7 +18,6 @@ from flint import acb, fmpq
 from disting.algebra.certainty import Certainty, Grade
 from disting.algebra.sampling import enough
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import expanded
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.result import Answer, Status
 from disting.model.chain import Chain, Sensor
@@ -37,6 +30,7 @@ from disting.questions.identifiability.basis import Basis, basis
 from disting.questions.identifiability.formula import Formula, monomial
 from disting.questions.identifiability.functions import Candidate
 from disting.questions.identifiability.parts import Combination, Level, Origin, Renaming, Scaling
+from disting.questions.identifiability.scalings import scalings
 from disting.questions.identifiability.solutions import (
     Listing,
     Member,
@@ -46,12 +40,8 @@ from disting.questions.identifiability.solutions import (
 )
 from disting.questions.identifiability.tangent import (
     Tangent,
-    integer_kernel,
-    maybe_scaled,
     most_invariants,
     proof_tangents,
-    search_tangents,
-    short_vectors,
 )
 
 
@@ -141,12 +131,12 @@ def _rank(structure: Structure, proof: Sequence[Tangent], rank: int, seen: Basis
     parameters = len(structure.parameters)
     if rank == parameters:
         return _Rank(rank, (Certainty.PROVEN, 0), ())
-    scalings_of_chain = scalings(structure)
-    proven = rank in (parameters - len(scalings_of_chain), most_invariants(structure))
+    seen_scalings = scalings(structure)
+    proven = rank in (parameters - len(seen_scalings), most_invariants(structure))
     return _Rank(
         rank,
         (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, seen.safety),
-        scalings_of_chain,
+        seen_scalings,
     )
 
 
@@ -281,28 +271,3 @@ def _exact(members: tuple[Member, ...]) -> int:
 
 def _same(left: fmpq, right: fmpq | acb) -> bool:
     return left == right if isinstance(right, fmpq) else bool(right.overlaps(acb(left)))
-
-
-POINTS = 4
-
-
-def scalings(structure: Structure, seed: str = "disting") -> tuple[Scaling, ...]:
-    """A basis of the scaling symmetries, few parameters first.
-
-    >>> from disting.model.chain import Chain
-    >>> [s.text for s in scalings(Chain(3, 2, 1, 3, 2, 3, damped=False).structure)]
-    []
-    """
-    if not maybe_scaled(list(search_tangents(structure, seed, POINTS))):
-        return ()
-    powers = [p[1:] for part in expanded(structure) for p in part.monoms()]
-    differences = [[a - b for a, b in zip(p, powers[0], strict=True)] for p in powers[1:]]
-    names = [p for p in structure.parameters if p != "Td"]
-    vectors = [_signed(v) for v in short_vectors(integer_kernel(differences, len(names)))]
-    shown = sorted(vectors, key=lambda v: (sum(map(bool, v)), [-x for x in v]))
-    return tuple(Scaling(tuple((n, w) for n, w in zip(names, v, strict=True) if w)) for v in shown)
-
-
-def _signed(vector: list[int]) -> list[int]:
-    first = next(x for x in vector if x)
-    return vector if first > 0 else [-x for x in vector]
