@@ -197,7 +197,7 @@ TOTAL = {
     ".simulation": {"demo", "port_vectors"},
     ".fit": {
         "collinearity_index", "condition_indices", "confidence", "designed", "estimates",
-        "fit_percent", "importance", "physical", "practical", "selection_to_dict", "variants",
+        "fit_percent", "importance", "physical", "practical", "variants",
     },
 }  # fmt: skip
 """Functions that take whatever their types allow."""

@@ -10,12 +10,12 @@ where leading ones vanish.
 
 from collections.abc import Sequence
 from time import monotonic
-from typing import Any
 
-from flint import nmod_mat, nmod_poly
+from flint import fmpz_mpoly, nmod_mat, nmod_poly
 
-# an element of a ring without zero divisors, with exact division, gcd and a number of terms
-Polynomial = Any
+Polynomial = fmpz_mpoly
+Modular = nmod_poly
+"""A polynomial in one variable modulo a prime."""
 
 
 class OutOfTimeError(Exception):
@@ -36,7 +36,10 @@ def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
     previous: Polynomial | None = None
     done = 0
     while pivots := [
-        (len(work[i][j]), i, j) for i in range(done, len(work)) for j in columns if work[i][j] != 0
+        (len(work[i][j]), i, j)
+        for i in range(done, len(work))
+        for j in columns
+        if not work[i][j].is_zero()
     ]:
         _, at, column = min(pivots)
         work[done], work[at] = work[at], work[done]
@@ -69,17 +72,17 @@ def _primitive(row: Sequence[Polynomial]) -> list[Polynomial]:
     """The row without its common factor."""
     common: Polynomial | None = None
     for entry in row:
-        if entry != 0:
+        if not entry.is_zero():
             common = entry if common is None else common.gcd(entry)
     return [entry // common for entry in row] if common is not None else list(row)
 
 
-def polynomial(coefficients: Sequence[int], modulus: int) -> nmod_poly:
+def polynomial(coefficients: Sequence[int], modulus: int) -> Modular:
     """The polynomial with these coefficients, the constant first."""
     return nmod_poly(list(coefficients), modulus)
 
 
-def resultant(f: nmod_poly, g: nmod_poly, m: int, n: int) -> int:
+def resultant(f: Modular, g: Modular, m: int, n: int) -> int:
     """Determinant of Sylvester's matrix of two polynomials of the formal degrees m and n; 1 for
     two constants.
 

@@ -62,11 +62,12 @@ def classes_of(
     """
     relations = {pair: relation(*pair) for pair in combinations(range(len(names)), 2)}
     same = Forest.of(len(names))
-    for pair, found in relations.items():
-        if found is Relation.INDISTINGUISHABLE:
+    for pair, r in relations.items():
+        if r is Relation.INDISTINGUISHABLE:
             same.unite(*pair)
-    for (i, j), found in relations.items():
-        if found in (Relation.DISTINGUISHABLE, Relation.SOMETIMES) and same.root(i) == same.root(j):
+    apart = (Relation.DISTINGUISHABLE, Relation.SOMETIMES)
+    for (i, j), r in relations.items():
+        if r in apart and same.root(i) == same.root(j):
             raise ContradictionError(f"{names[i]} and {names[j]} are one group, but told apart")
     return same.classes()
 
@@ -106,10 +107,10 @@ class Buckets:
 
     def shared(self, chosen: Iterable[int]) -> list[list[int]]:
         """The chosen models by all columns."""
-        found: dict[tuple[int, ...], list[int]] = defaultdict(list)
+        buckets: dict[tuple[int, ...], list[int]] = defaultdict(list)
         for i in chosen:
-            found[tuple(self.columns[i])].append(i)
-        return list(found.values())
+            buckets[tuple(self.columns[i])].append(i)
+        return list(buckets.values())
 
     def renamed(self, bucket: Sequence[int]) -> Iterator[tuple[int, int]]:
         """Yield pairs of models of one bucket that are renamings of each other: models of equal
@@ -118,8 +119,8 @@ class Buckets:
         prints: dict[str, int] = {}
         for i in bucket if len(bucket) > 1 else ():
             first = prints.setdefault(self.sides[i].colouring.fingerprint, i)
-            one, other = self.sides[first], self.sides[i]
+            earlier, later = self.sides[first], self.sides[i]
             if first != i and (
-                one is other or condition_6(one, other, True).outcome is Outcome.HOLDS
+                earlier is later or condition_6(earlier, later, True).outcome is Outcome.HOLDS
             ):
                 yield first, i

@@ -89,20 +89,20 @@ def decide(left: AnySide, right: AnySide, query: Query) -> Verdict:
     """Verdict of the first step that decides; indistinguishable over complex parameters, it
     goes on to admissible ones.
     """
-    found, domain = first(left, right, steps(left, right, query)), query.view.domain
+    verdict, domain = first(left, right, steps(left, right, query)), query.view.domain
     if query.tells_inclusion:
-        found = with_inclusion(found, left.rank == right.rank, lambda: left.inclusions(right))
-        found = _with_shares(found, left, right)
-    if domain is Domain.COMPLEX or found.relation is not Relation.INDISTINGUISHABLE:
-        return replace(found, domain=domain)
-    step = Step(Stage.PARAMETERS, over_domain(left, right, domain, found))
+        verdict = with_inclusion(verdict, left.rank == right.rank, lambda: left.inclusions(right))
+        verdict = _with_shares(verdict, left, right)
+    if domain is Domain.COMPLEX or verdict.relation is not Relation.INDISTINGUISHABLE:
+        return replace(verdict, domain=domain)
+    step = Step(Stage.PARAMETERS, over_domain(left, right, domain, verdict))
     said = (
         undecided(left, right, (open_note(step.finding.note),), domain)
         if step.relation is Relation.UNDECIDED
         else verdict_of(left, right, step, domain)
     )
-    said = replace(said, image=found.image, closure=found.closure)
-    return replace(said, left_positive=found.left_positive, right_positive=found.right_positive)
+    said = replace(said, image=verdict.image, closure=verdict.closure)
+    return replace(said, left_positive=verdict.left_positive, right_positive=verdict.right_positive)
 
 
 def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | None) -> Finding:
@@ -142,20 +142,20 @@ def _with_shares(verdict: Verdict, left: AnySide, right: AnySide) -> Verdict:
     """
     if not left.tells_shares(right):
         return verdict
-    here = verdict.closure in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
-    there = verdict.closure in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
+    left_asked = verdict.closure in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
+    right_asked = verdict.closure in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
     return replace(
         verdict,
-        left_positive=said_of(left.positive(right), verdict.image) if here else None,
-        right_positive=said_of(right.positive(left), verdict.image) if there else None,
+        left_positive=said_of(left.positive(right), verdict.image) if left_asked else None,
+        right_positive=said_of(right.positive(left), verdict.image) if right_asked else None,
     )
 
 
-def said_of(found: PositiveFinding, image: Inclusion) -> PositiveFinding | None:
+def said_of(share: PositiveFinding, image: Inclusion) -> PositiveFinding | None:
     """What is found of positive equivalents; nothing is open of models that have none with finite
     elements.
     """
-    return None if found.share is Share.UNKNOWN and image is Inclusion.NEITHER else found
+    return None if share.share is Share.UNKNOWN and image is Inclusion.NEITHER else share
 
 
 def with_inclusion(
@@ -170,18 +170,18 @@ def with_inclusion(
         return replace(verdict, image=Inclusion.EQUAL, closure=Inclusion.EQUAL)
     if equal_rank:
         return replace(verdict, image=Inclusion.NEITHER, closure=Inclusion.NEITHER)
-    found = finding()
+    both = finding()
     return replace(
-        verdict, image=found.image.inclusion, closure=found.closure.inclusion, inclusions=found
+        verdict, image=both.image.inclusion, closure=both.closure.inclusion, inclusions=both
     )
 
 
-def first(left: AnySide, right: AnySide, found: Iterable[Step]) -> Verdict:
+def first(left: AnySide, right: AnySide, every: Iterable[Step]) -> Verdict:
     """The verdict over complex parameters of the first step that decides; undecided, it names
     what was abandoned.
     """
     notes: list[str] = []
-    for step in found:
+    for step in every:
         if step.relation is not Relation.UNDECIDED:
             return verdict_of(left, right, step)
         if step.finding.outcome is Outcome.ABANDONED:
@@ -206,9 +206,9 @@ def audit(left: AnySide, right: AnySide, query: Query) -> Verdict:
     return decide(left, right, query)
 
 
-def agreed(left: str, right: str, found: Iterable[Step]) -> None:
+def agreed(left: str, right: str, every: Iterable[Step]) -> None:
     """Raise ContradictionError where two steps decide differently."""
-    deciding = [step for step in found if step.relation is not Relation.UNDECIDED]
+    deciding = [step for step in every if step.relation is not Relation.UNDECIDED]
     if len({step.relation for step in deciding}) > 1:
         told = ", ".join(
             f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding

@@ -99,7 +99,7 @@ class ComparedChain(Side[Chain]):
         """Left to the common canonical form, then back to the right model."""
         if self.canonical.chain != other.canonical.chain:
             return None
-        back = {there: here for here, there in other.canonical.renaming.items()}
+        back = {new: old for old, new in other.canonical.renaming.items()}
         pairs = tuple((p, back[self.canonical.renaming[p]]) for p in self.chain.parameters)
         used = set(self.canonical.symmetries) ^ set(other.canonical.symmetries)
         return Renaming(pairs, tuple(sorted(symmetry.value for symmetry in used)))
@@ -115,9 +115,9 @@ class ComparedChain(Side[Chain]):
         if self.rank != other.rank:
             return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
         first, second = self.in_order(other)
-        found = self.answerer(EXACTLY, (first, second), self.settings)
-        found = found if first == self.canonical.chain else found.turned
-        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
+        decided = self.answerer(EXACTLY, (first, second), self.settings)
+        decided = decided if first == self.canonical.chain else decided.turned
+        return resting_on_ranks(decided, self.transfer_profile, other.transfer_profile)
 
     def confirms(self, other: "ComparedChain", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both chains."""
@@ -127,9 +127,9 @@ class ComparedChain(Side[Chain]):
         """Whether evidence of an inclusion is true of both chains."""
         return confirms_inclusion(evidence, self, other)
 
-    def proves(self, other: "ComparedChain", found: PositiveFinding) -> bool:
+    def proves(self, other: "ComparedChain", share: PositiveFinding) -> bool:
         """Whether evidence on positive equivalents in the other is true."""
-        return proves(found, *_canonical(self, other))
+        return proves(share, *_canonical(self, other))
 
     def exact_again(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
         """What `exact` finds with evidence of this kind."""
@@ -137,11 +137,11 @@ class ComparedChain(Side[Chain]):
             return None
         first, second = self.in_order(other)
         turned = first != self.canonical.chain
-        found = exact_again(evidence.turned if turned else evidence, first, second, self.settings)
-        if found is None:
+        again = exact_again(evidence.turned if turned else evidence, first, second, self.settings)
+        if again is None:
             return None
-        found = found.turned if turned else found
-        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
+        again = again.turned if turned else again
+        return resting_on_ranks(again, self.transfer_profile, other.transfer_profile)
 
     def admissible(
         self, other: "ComparedChain", domain: Domain, why: Evidence | None = None
@@ -176,11 +176,11 @@ class ComparedChain(Side[Chain]):
         """The canonical forms of both, in an order of their own, so that a pair is asked about
         once.
         """
-        here, there = sorted(
+        low, high = sorted(
             (self.canonical.chain, other.canonical.chain),
             key=lambda c: (c.indices, c.ground_dampers, c.lag),
         )
-        return here, there
+        return low, high
 
     @classmethod
     def prepare_exact(cls, pairs: Sequence[Pair], ask: Ask) -> None:
@@ -215,29 +215,29 @@ class ComparedChain(Side[Chain]):
         """
         first = {_canonical(*pair): pair for pair in reversed(pairs)}
         quick = {key: quick_closure(*pair) for key, pair in first.items()}
-        ask(CLOSURE, [by_rank(*first[key]) for key, found in quick.items() if found is None])
+        ask(CLOSURE, [by_rank(*first[key]) for key, finding in quick.items() if finding is None])
         closures = {
-            key: asked_closure(*first[key]) if found is None else found
-            for key, found in quick.items()
+            key: asked_closure(*first[key]) if finding is None else finding
+            for key, finding in quick.items()
         }
         implied = {key: implied_image(*first[key], closures[key]) for key in first}
-        ask(IMAGE, [by_rank(*first[key]) for key, found in implied.items() if found is None])
+        ask(IMAGE, [by_rank(*first[key]) for key, finding in implied.items() if finding is None])
         images = {
-            key: asked_image(*first[key]) if found is None else found
-            for key, found in implied.items()
+            key: asked_image(*first[key]) if finding is None else finding
+            for key, finding in implied.items()
         }
         ask(
             IDEALS,
             [by_rank(*first[key]) for key in first if needs_ideals(images[key], closures[key])],
         )
-        found = {key: joined(*first[key], images[key], closures[key]) for key in first}
-        return [found[_canonical(*pair)] for pair in pairs]
+        both = {key: joined(*first[key], images[key], closures[key]) for key in first}
+        return [both[_canonical(*pair)] for pair in pairs]
 
-    def _positive(self, given: Chain, other: Chain) -> PositiveFinding:
-        return self.answerer(POSITIVELY, (given, other), self.settings)
+    def _positive(self, form: Chain, other: Chain) -> PositiveFinding:
+        return self.answerer(POSITIVELY, (form, other), self.settings)
 
-    def _lacking(self, given: Chain, other: Chain) -> Values:
-        return self.answerer(LACKING, (given, other), self.settings)
+    def _lacking(self, form: Chain, other: Chain) -> Values:
+        return self.answerer(LACKING, (form, other), self.settings)
 
     def _identifiability(self, canonical_chain: Chain) -> Identifiability:
         return self.answerer(IDENTIFIABILITY, (canonical_chain,), self.settings)

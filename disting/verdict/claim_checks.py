@@ -50,8 +50,8 @@ def _unfounded(claim: Claim) -> Iterator[str]:
     if v.notes != (*notes_of(claim.sides.left, claim.sides.right), *claim.sides.notes):
         yield f"{claim.where}what is decided has notes of what is open"
     equal = claim.equal
-    known = equal is None or equal.relation is Relation.INDISTINGUISHABLE
-    if v.decided_by == ADMISSIBLE.name and not known:
+    shown_equal = equal is None or equal.relation is Relation.INDISTINGUISHABLE
+    if v.decided_by == ADMISSIBLE.name and not shown_equal:
         yield "it rests on equality over complex parameters, which the file does not show"
 
 

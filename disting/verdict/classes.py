@@ -68,8 +68,8 @@ class Classes:
             raise InputError(
                 f"a pair is two different models 0 to {len(self) - 1}, not {i} and {j}"
             )
-        here, there = self.columns[i], self.columns[j]
-        differ = np.flatnonzero((here != there) & (here >= 0) & (there >= 0))
+        left, right = self.columns[i], self.columns[j]
+        differ = np.flatnonzero((left != right) & (left >= 0) & (right >= 0))
         if len(differ):
             return Relation.DISTINGUISHABLE, self.tests[int(differ[0])]
         a, b = sorted((int(self.group[i]), int(self.group[j])))
@@ -97,21 +97,21 @@ class Classes:
 
     def counts_by_rule(self) -> dict[str, int]:
         """Number of pairs by deciding rule, "" for the undecided ones: whole buckets at once."""
-        parts, found = [np.arange(len(self))], Counter[str]()
+        parts, by_rule = [np.arange(len(self))], Counter[str]()
         for t, name in enumerate(self.tests):
             pieces = [_split(part, self.columns[part, t]) for part in parts]
             for part, split in zip(parts, pieces, strict=True):
-                found[name] += _pairs(len(part)) - sum(_pairs(len(p)) for p in split)
+                by_rule[name] += _pairs(len(part)) - sum(_pairs(len(p)) for p in split)
             parts = [piece for split in pieces for piece in split]
         for members in self._members.values():
-            found.update(self._link(i, j) for i, j in combinations(members, 2))
+            by_rule.update(self._link(i, j) for i, j in combinations(members, 2))
         counts = self.counts()
-        found[""] = counts[Relation.UNDECIDED]
+        by_rule[""] = counts[Relation.UNDECIDED]
         inside = sum(_pairs(len(p)) for p in parts)
-        found[EXACT.name] += (
+        by_rule[EXACT.name] += (
             inside - counts[Relation.INDISTINGUISHABLE] - counts[Relation.UNDECIDED]
         )
-        return {rule: n for rule, n in sorted(found.items()) if n or not rule}
+        return {rule: n for rule, n in sorted(by_rule.items()) if n or not rule}
 
     def pairs(self) -> Iterator[tuple[int, int, Relation, str]]:
         """Yield (i, j, relation, rule) of all pairs, one at a time."""
@@ -120,10 +120,10 @@ class Classes:
 
     @cached_property
     def _members(self) -> dict[int, tuple[int, ...]]:
-        found: dict[int, list[int]] = {}
+        members: dict[int, list[int]] = {}
         for i, g in enumerate(self.group):
-            found.setdefault(int(g), []).append(i)
-        return {g: tuple(m) for g, m in found.items()}
+            members.setdefault(int(g), []).append(i)
+        return {g: tuple(m) for g, m in members.items()}
 
     @cached_property
     def _ranks(self) -> dict[tuple[Chain, Masses], int]:

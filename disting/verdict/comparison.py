@@ -73,8 +73,8 @@ def compare(
     query, engine = asked_of(query, engine)
     a, b = models_named(left, right, damped, sensor)
     sides = sides_of(a, b, both_places(experiments), engine)
-    found = engine.verdict(sides.left, sides.right, query, audited=audit)
-    return replace(found, notes=(*found.notes, *sides.notes))
+    verdict = engine.verdict(sides.left, sides.right, query, audited=audit)
+    return replace(verdict, notes=(*verdict.notes, *sides.notes))
 
 
 def findings(
@@ -112,8 +112,8 @@ def models_named(
 ) -> tuple[Chain | AnyModel, Chain | AnyModel]:
     """Both models, names as the chains that they mean, texts as the networks; raises InputError."""
     wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
-    for one in (left, right):
-        of_type(one, Chain | str | AnyModel | Network, wanted)
+    for side in (left, right):
+        of_type(side, Chain | str | AnyModel | Network, wanted)
     beside = next((m.sensor for m in (left, right) if isinstance(m, Chain)), Sensor.ACCELERATION)
     quantity = beside if sensor is None else as_sensor(sensor)
     read = [_as_model(m, quantity) for m in (left, right)]
@@ -163,8 +163,10 @@ def sides_of(
     # as they are: what a verdict's evidence says is then of the chains that were given
     if len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b)):
         return Sides(*plain, tuple(notes))
-    here, there = names_under(plain[0].name, plain[1].name, experiments)
-    return Sides(engine.measured_subject(here, a), engine.measured_subject(there, b), tuple(notes))
+    left_name, right_name = names_under(plain[0].name, plain[1].name, experiments)
+    return Sides(
+        engine.measured_subject(left_name, a), engine.measured_subject(right_name, b), tuple(notes)
+    )
 
 
 def determinable(
@@ -205,13 +207,13 @@ def _sides(
     """Two chains as chains, whoever names them, whatever else as two general models; by two
     names.
     """
-    here, there = names_beside(left, right)
+    left_name, right_name = names_beside(left, right)
     a, b = as_chain(left), as_chain(right)
     if a is not None and b is not None:
-        return engine.subject(here, a), engine.subject(there, b)
+        return engine.subject(left_name, a), engine.subject(right_name, b)
     models = [_model(left), _model(right)]
     refuse_ports(models)
-    one, other = engine.general_subjects(models, (here, there))
+    one, other = engine.general_subjects(models, (left_name, right_name))
     return one, other
 
 
@@ -219,8 +221,12 @@ def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, 
     """What two models are called beside each other."""
     if isinstance(left, Chain) and isinstance(right, Chain):
         return names_of(left, right)
-    here, there = (name_of(m) if isinstance(m, Chain) else m.name for m in (left, right))
-    return (f"{here} 1", f"{there} 2") if here == there else (here, there)
+    left_name, right_name = (name_of(m) if isinstance(m, Chain) else m.name for m in (left, right))
+    return (
+        (f"{left_name} 1", f"{right_name} 2")
+        if left_name == right_name
+        else (left_name, right_name)
+    )
 
 
 def names_of(left: Chain, right: Chain) -> tuple[str, str]:
@@ -266,10 +272,10 @@ def refuse_ports(models: Sequence[AnyModel]) -> None:
         )
 
 
-def _model(given: Chain | AnyModel) -> AnyModel:
-    if not isinstance(given, Chain):
-        return given
-    return Model.from_chain(given, name=name_of(given))
+def _model(model: Chain | AnyModel) -> AnyModel:
+    if not isinstance(model, Chain):
+        return model
+    return Model.from_chain(model, name=name_of(model))
 
 
 def identifiability(

@@ -92,8 +92,8 @@ def _inclusions(result: Decisions, ask: Ask) -> None:
     ]
     if pairs:
         chosen = [(subjects[i], subjects[j]) for i, j in pairs]
-        found = subjects[0].all_inclusions(chosen, ask)
-        result.inclusions.update(zip(pairs, found, strict=True))
+        findings = subjects[0].all_inclusions(chosen, ask)
+        result.inclusions.update(zip(pairs, findings, strict=True))
 
 
 def _positive(result: Decisions, ask: Ask) -> None:
@@ -132,15 +132,15 @@ def _admissible(result: Decisions, ask: Ask) -> None:
     for i, j in zip(*np.nonzero(same), strict=True):
         equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
         left, right = result.subjects[i], result.subjects[j]
-        found = left.admissible(right, domain, equal.evidence)
+        finding = left.admissible(right, domain, equal.evidence)
         step = Step(
-            Stage.PARAMETERS, resting_on(found, (equal.certainty, equal.safety), equal.evidence)
+            Stage.PARAMETERS, resting_on(finding, (equal.certainty, equal.safety), equal.evidence)
         )
-        known = step.relation is not Relation.UNDECIDED
-        if known:
+        settled = step.relation is not Relation.UNDECIDED
+        if settled:
             result.steps[int(i), int(j)] = step
-        result.decided_by[i, j] = NUMBERS[step.finding.rule.name] if known else 0
-        result.representation[i, j] = STAGES.index(Stage.PARAMETERS if known else Stage.NONE)
+        result.decided_by[i, j] = NUMBERS[step.finding.rule.name] if settled else 0
+        result.representation[i, j] = STAGES.index(Stage.PARAMETERS if settled else Stage.NONE)
 
 
 def _necessary(
@@ -151,11 +151,11 @@ def _necessary(
     for condition in NECESSARY:
         if result.query.asks(condition.rule):
             buckets = _buckets(profiles, condition.key, len(result.subjects))
-            known = buckets >= 0
+            is_known = buckets >= 0
             differ = (
                 (buckets[:, None] != buckets[None, :])
-                & known[:, None]
-                & known[None, :]
+                & is_known[:, None]
+                & is_known[None, :]
                 & open_pairs
             )
             _settle(result, open_pairs, differ, condition.rule, Stage(r))

@@ -48,9 +48,9 @@ class Part:
         """Which of the part stands in a place of the list."""
         return {place: number for number, place in enumerate(self.places)}
 
-    def moved(self, found: Mapping[Pair, T]) -> dict[Pair, T]:
+    def moved(self, values: Mapping[Pair, T]) -> dict[Pair, T]:
         """What was found of its pairs, by their places in the list."""
-        return {(self.places[i], self.places[j]): x for (i, j), x in found.items()}
+        return {(self.places[i], self.places[j]): x for (i, j), x in values.items()}
 
 
 @dataclass(frozen=True)
@@ -96,16 +96,16 @@ class Decisions(Shown):
         decided_by, representation = self.decided_by.copy(), self.representation.copy()
         decided_by[inside] = part.decisions.decided_by
         representation[inside] = part.decisions.representation
-        found = part.decisions
+        inner_part = part.decisions
         own = {pair: x for pair, x in self.inclusions.items() if not part.numbers.keys() >= {*pair}}
         return replace(
             self,
             decided_by=decided_by,
             representation=representation,
-            steps=self.steps | part.moved(found.steps),
-            inclusions=own | part.moved(found.inclusions),
-            shares=self.shares | part.moved(found.shares),
-            equal=self.equal | part.moved(found.equal),
+            steps=self.steps | part.moved(inner_part.steps),
+            inclusions=own | part.moved(inner_part.inclusions),
+            shares=self.shares | part.moved(inner_part.shares),
+            equal=self.equal | part.moved(inner_part.equal),
             part=part,
         )
 
@@ -167,15 +167,15 @@ class Decisions(Shown):
 
     def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:
         image, closure = (self.inclusion(i, j, sense) for sense in Sense)
-        here, there = self.shares.get((i, j)), self.shares.get((j, i))
-        found = self.inclusions.get((i, j))
+        left_share, right_share = self.shares.get((i, j)), self.shares.get((j, i))
+        both = self.inclusions.get((i, j))
         return replace(
             verdict,
             image=image,
             closure=closure,
-            inclusions=found,
-            left_positive=here,
-            right_positive=there,
+            inclusions=both,
+            left_positive=left_share,
+            right_positive=right_share,
         )
 
     def inclusion(self, i: int, j: int, sense: Sense) -> Inclusion:
@@ -187,8 +187,8 @@ class Decisions(Shown):
         if not self.query.tells_inclusion:
             return Inclusion.UNKNOWN
         if (i, j) in self.inclusions:
-            found = self.inclusions[i, j]
-            return (found.image if sense is Sense.IMAGE else found.closure).inclusion
+            both = self.inclusions[i, j]
+            return (both.image if sense is Sense.IMAGE else both.closure).inclusion
         if {(i, j), (j, i)} <= self.shares.keys():
             return Inclusion.EQUAL
         step = self.steps.get((i, j))
@@ -237,8 +237,8 @@ class Decisions(Shown):
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the
         undecided ones.
         """
-        found = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=1)
-        return {NAMES[number]: int(n) for number, n in enumerate(found) if n or number == 0}
+        counts = np.bincount(self.decided_by[np.triu_indices(len(self.subjects), 1)], minlength=1)
+        return {NAMES[number]: int(n) for number, n in enumerate(counts) if n or number == 0}
 
 
 def markov_count(r: Representation, query: Query, subjects: Sequence[AnySide]) -> int:

@@ -117,8 +117,8 @@ class Engine:
         key = question_key(question, models, settings)
         if key not in self.answers:
             self.answer_all(question, [models])
-        found: T = self.answers[key]
-        return found
+        remembered: T = self.answers[key]
+        return remembered
 
     def remember(self, question: Question[T], models: Models, answer: T) -> None:
         """Take over an answer that is known already, such as a catalogue's; it is not stored."""

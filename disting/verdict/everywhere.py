@@ -62,12 +62,12 @@ class Everywhere:
     @property
     def answer(self) -> Answer:
         """Whether they tell the models apart."""
-        found = {verdict.relation for _, verdict in self.verdicts}
-        if found == {Relation.DISTINGUISHABLE}:
+        relations = {verdict.relation for _, verdict in self.verdicts}
+        if relations == {Relation.DISTINGUISHABLE}:
             return Answer.SURELY
-        if Relation.DISTINGUISHABLE in found and len(found - {Relation.UNDECIDED}) > 1:
+        if Relation.DISTINGUISHABLE in relations and len(relations - {Relation.UNDECIDED}) > 1:
             return Answer.DEPENDS
-        return Answer.UNKNOWN if Relation.UNDECIDED in found else Answer.NEVER
+        return Answer.UNKNOWN if Relation.UNDECIDED in relations else Answer.NEVER
 
 
 def compare_everywhere(
@@ -98,11 +98,11 @@ def compare_everywhere(
         raise InputError(NOT_CHAINS)
     left, right = chains_named([left, right], damped=damped, sensor=sensor)
     engine = engine or Engine()
-    found = []
+    verdicts = []
     for way, pairs in placements(left, right, named_all(also), places):
         verdict = compare(left, right, experiments=pairs, query=query, engine=engine)
-        found.append((way, verdict))
-    return Everywhere(tuple(found))
+        verdicts.append((way, verdict))
+    return Everywhere(tuple(verdicts))
 
 
 def named_all(also: Sequence[str | Experiment]) -> tuple[Named, ...]:
@@ -118,7 +118,7 @@ def placements(
     chains as they are first; raises InputError.
     """
     for way in ways(left, right, asked, known):
-        further = [(one.experiment, moved(one.experiment, way)) for one in asked]
+        further = [(pair.experiment, moved(pair.experiment, way)) for pair in asked]
         yield way, both_places([Experiment(), *further])
 
 
@@ -146,7 +146,7 @@ def everywhere_file(
     a, b = chains_named([left, right], damped=damped, sensor=sensor)
     asked, engine = named_all(also), engine or Engine()
     files = [
-        {"places": {str(here): there for here, there in way}}
+        {"places": {str(left_place): right_place for left_place, right_place in way}}
         | verdict_file(a, b, experiments=pairs, query=query, engine=engine)
         for way, pairs in placements(a, b, asked)
     ]
@@ -156,7 +156,7 @@ def everywhere_file(
 def read_everywhere(data: Mapping[str, Any]) -> tuple[Stored, ...]:
     """All verdicts of such a file; raises InputError for what is damaged."""
     try:
-        return tuple(read_file(one, ("places",)) for one in data["verdicts"])
+        return tuple(read_file(plain, ("places",)) for plain in data["verdicts"])
     except DAMAGED as reason:
         raise InputError(f"the file of the verdicts is damaged ({reason})") from None
 
@@ -168,7 +168,7 @@ def differing_everywhere(data: Mapping[str, Any], stored: Sequence[Stored]) -> s
     place the experiments.
     """
     try:
-        asked = [_named(one) for one in data["also"][: MOST_EXPERIMENTS + 1]]
+        asked = [_named(each) for each in data["also"][: MOST_EXPERIMENTS + 1]]
         a, b = stored[0].models
         if len(asked) > MOST_EXPERIMENTS or not (isinstance(a, Chain) and isinstance(b, Chain)):
             return "also"
@@ -177,12 +177,12 @@ def differing_everywhere(data: Mapping[str, Any], stored: Sequence[Stored]) -> s
         return f"the experiments: {reason}"
     files = data["verdicts"]
     for name in COMMON:
-        if any(not same_plain(one[name], files[0][name]) for one in files):
+        if any(not same_plain(each[name], files[0][name]) for each in files):
             return name
-    if [one.experiments for one in stored] != [pairs for _, pairs in ways]:
+    if [each.experiments for each in stored] != [pairs for _, pairs in ways]:
         return "the ways to place the experiments"
-    places = [{str(here): there for here, there in way} for way, _ in ways]
-    if [one["places"] for one in files] != places:
+    places = [{str(left_place): right_place for left_place, right_place in way} for way, _ in ways]
+    if [each["places"] for each in files] != places:
         return "places"
     again = _whole(asked, files)
     if not VERSION.fullmatch(str(data.get("program"))):
@@ -195,20 +195,25 @@ def differing_everywhere(data: Mapping[str, Any], stored: Sequence[Stored]) -> s
 
 
 def _whole(asked: Sequence[Named], files: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    found = Everywhere(tuple(((), read_file(one, ("places",)).verdict) for one in files))
+    whole = Everywhere(tuple(((), read_file(each, ("places",)).verdict) for each in files))
     return {
         "format": FORMAT,
         "program": __version__,
-        "answer": found.answer.value,
-        "experiments": ["as it is", *dict.fromkeys(one.experiment.text for one in asked)],
+        "answer": whole.answer.value,
+        "experiments": ["as it is", *dict.fromkeys(each.experiment.text for each in asked)],
         "also": [
-            {"experiment": plain_experiment(one.experiment), "places": list(map(list, one.places))}
-            for one in asked
+            {
+                "experiment": plain_experiment(each.experiment),
+                "places": list(map(list, each.places)),
+            }
+            for each in asked
         ],
         "verdicts": list(files),
     }
 
 
 def _named(data: Mapping[str, Any]) -> Named:
-    places = tuple((int(here), int(there)) for here, there in data["places"])
+    places = tuple(
+        (int(left_place), int(right_place)) for left_place, right_place in data["places"]
+    )
     return Named(read_experiment(data["experiment"]), places)

@@ -98,10 +98,10 @@ class Further(Shown, Generic[S]):
         """The same of all others: SURELY where it is of all, NEVER where of none, not even
         depending on the place.
         """
-        found = {self.answer(structure, item, other) for other in self.others(structure)}
-        if len(found) == 1:
-            return found.pop()
-        return Answer.UNKNOWN if found == {Answer.UNKNOWN, Answer.NEVER} else Answer.DEPENDS
+        answers = {self.answer(structure, item, other) for other in self.others(structure)}
+        if len(answers) == 1:
+            return answers.pop()
+        return Answer.UNKNOWN if answers == {Answer.UNKNOWN, Answer.NEVER} else Answer.DEPENDS
 
     def anywhere(self, kind: Kind) -> bool:
         """Whether this kind tells all structures apart, wherever it is done."""

@@ -38,28 +38,28 @@ NOTHING = {
 }
 
 
-def left_over(found: AnyFurther, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
+def left_over(further: AnyFurther, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
     """The structures that an item does not surely tell from this one, with the masses at which
     it does not.
     """
-    table = found.tables[item.kind]
-    places = {k: table.alike((structure, item.at), k) for k in found.others(structure)}
+    table = further.tables[item.kind]
+    places = {k: table.alike((structure, item.at), k) for k in further.others(structure)}
     return {k: masses for k, masses in places.items() if masses}
 
 
-def in_words(found: AnyFurther, structure: int, item: Item) -> str:
+def in_words(further: AnyFurther, structure: int, item: Item) -> str:
     """What an item tells, for somebody who has this structure in mind."""
-    known = found.tables[item.kind].gain((structure, item.at))
-    if not item.is_worth(known):
-        return NOTHING[known] if found.place == "mass" or known is Gain.REPEATS else UNSEEN
-    left = left_over(found, structure, item)
+    gain = further.tables[item.kind].gain((structure, item.at))
+    if not item.is_worth(gain):
+        return NOTHING[gain] if further.place == "mass" or gain is Gain.REPEATS else UNSEEN
+    left = left_over(further, structure, item)
     if not left:
         return "surely tells it from the rest"
     told = [
-        f"{start} if that is {_among(found, kept)}"
+        f"{start} if that is {_among(further, kept)}"
         for start, kept in (
-            ("not", _only(found, structure, item, Relation.INDISTINGUISHABLE)),
-            ("not known", _only(found, structure, item, Relation.UNDECIDED)),
+            ("not", _only(further, structure, item, Relation.INDISTINGUISHABLE)),
+            ("not known", _only(further, structure, item, Relation.UNDECIDED)),
         )
         if kept
     ]
@@ -76,35 +76,35 @@ def option_in_words(option: Option) -> str:
     return f"{' and '.join(item.text for item in option.items)} (cost {option.cost:g})"
 
 
-def conclusion(found: AnyFurther, structure: int) -> str:
+def conclusion(further: AnyFurther, structure: int) -> str:
     """The cheapest sets that are enough, or what is left by the best one, and why."""
-    least = found.least(structure)
+    least = further.least(structure)
     if least:
         return f"surely enough: {'; or '.join(map(option_in_words, least))}"
-    best = found.best(structure)
+    best = further.best(structure)
     if best is None:
         return "no experiment on this menu shows anything new"
-    kept = ", ".join(found.names[k] for k in best.left)
+    kept = ", ".join(further.names[k] for k in best.left)
     return (
         f"no experiment on this menu is known to be enough; the best is {option_in_words(best)},"
-        f" which may leave {kept}: {_why(found, structure, best)}"
+        f" which may leave {kept}: {_why(further, structure, best)}"
     )
 
 
-def anywhere(found: AnyFurther) -> str:
+def anywhere(further: AnyFurther) -> str:
     """The kinds that tell all of them apart wherever they are done; "" if none does."""
-    enough = [k for k in found.kinds if found.anywhere(k)]
-    told = [f"{k.anywhere} (cost {found.costs.cost(k):g})" for k in enough]
+    enough = [k for k in further.kinds if further.anywhere(k)]
+    told = [f"{k.anywhere} (cost {further.costs.cost(k):g})" for k in enough]
     return "; or ".join(told)
 
 
-def rows(found: AnyFurther) -> Iterator[tuple[str, ...]]:
+def rows(further: AnyFurther) -> Iterator[tuple[str, ...]]:
     """Yield a row of CSV_COLUMNS for each kind of experiment and each pair of places."""
-    for kind in found.kinds:
-        table = found.tables[kind]
-        for a, left in enumerate(found.names):
-            for b, right in enumerate(found.names[a + 1 :], a + 1):
-                for i, j in product(found.places(a), found.places(b)):
+    for kind in further.kinds:
+        table = further.tables[kind]
+        for a, left in enumerate(further.names):
+            for b, right in enumerate(further.names[a + 1 :], a + 1):
+                for i, j in product(further.places(a), further.places(b)):
                     relation, rule = table.look_up((a, i), (b, j))
                     grade, safety = table.grade((a, i), (b, j))
                     bound = error_bound(grade, safety)
@@ -112,73 +112,78 @@ def rows(found: AnyFurther) -> Iterator[tuple[str, ...]]:
                     yield tuple(map(str, row))
 
 
-def to_dict(found: AnyFurther) -> dict[str, Any]:
+def to_dict(further: AnyFurther) -> dict[str, Any]:
     """Plain data, ready for JSON."""
     return {
         "format": Format.NEXT.value,
-        "structures": list(found.names),
+        "structures": list(further.names),
         "domain": "complex",
-        "costs": found.costs.of_kinds(found.kinds),
-        "anywhere": [kind.name for kind in found.kinds if found.anywhere(kind)],
-        "menu": [_item(found, k, item) for k in range(len(found.names)) for item in found.items(k)],
+        "costs": further.costs.of_kinds(further.kinds),
+        "anywhere": [kind.name for kind in further.kinds if further.anywhere(kind)],
+        "menu": [
+            _item(further, k, item) for k in range(len(further.names)) for item in further.items(k)
+        ],
         "least": {
-            name: [_option(found, o) for o in found.least(k)] for k, name in enumerate(found.names)
+            name: [_option(further, o) for o in further.least(k)]
+            for k, name in enumerate(further.names)
         },
-        "pairs": [dict(zip(CSV_COLUMNS, row, strict=True)) for row in rows(found)],
+        "pairs": [dict(zip(CSV_COLUMNS, row, strict=True)) for row in rows(further)],
     }
 
 
-def many(found: AnyFurther) -> str:
+def many(further: AnyFurther) -> str:
     """The name of several places in plain data.
 
     >>> from disting.catalogs.next_files import next_catalog
     >>> many(next_catalog(3).further((1, 11)))
     'masses'
     """
-    return "masses" if found.place == "mass" else f"{found.place}s"
+    return "masses" if further.place == "mass" else f"{further.place}s"
 
 
-def _item(found: AnyFurther, structure: int, item: Item) -> dict[str, Any]:
-    left = left_over(found, structure, item)
+def _item(further: AnyFurther, structure: int, item: Item) -> dict[str, Any]:
+    left = left_over(further, structure, item)
     return {
-        "structure": found.names[structure],
+        "structure": further.names[structure],
         "experiment": item.kind.name,
-        found.place: item.at,
-        "cost": found.costs.cost(item.kind),
-        "answer": found.whole(structure, item).value,
-        "not_from": [{"structure": found.names[k], many(found): list(m)} for k, m in left.items()],
+        further.place: item.at,
+        "cost": further.costs.cost(item.kind),
+        "answer": further.whole(structure, item).value,
+        "not_from": [
+            {"structure": further.names[k], many(further): list(m)} for k, m in left.items()
+        ],
     }
 
 
-def _option(found: AnyFurther, option: Option) -> dict[str, Any]:
-    items = [{"experiment": i.kind.name, found.place: i.at} for i in option.items]
+def _option(further: AnyFurther, option: Option) -> dict[str, Any]:
+    items = [{"experiment": i.kind.name, further.place: i.at} for i in option.items]
     return {"cost": option.cost, "experiments": items}
 
 
-def _why(found: AnyFurther, structure: int, option: Option) -> str:
+def _why(further: AnyFurther, structure: int, option: Option) -> str:
     """The reason for the first structure that is left."""
     item, other = option.items[0], option.left[0]
-    table = found.tables[item.kind]
+    table = further.tables[item.kind]
     j = table.alike((structure, item.at), other)[0]
     relation, rule = table.look_up((structure, item.at), (other, j))
     return "this is undecided" if relation is Relation.UNDECIDED else WHY[rule]
 
 
 def _only(
-    found: AnyFurther, structure: int, item: Item, relation: Relation
+    further: AnyFurther, structure: int, item: Item, relation: Relation
 ) -> dict[int, tuple[int, ...]]:
     """What is left over because of this relation."""
-    table, spot = found.tables[item.kind], (structure, item.at)
+    table, spot = further.tables[item.kind], (structure, item.at)
     left = {
         k: tuple(j for j in masses if table.look_up(spot, (k, j))[0] is relation)
-        for k, masses in left_over(found, structure, item).items()
+        for k, masses in left_over(further, structure, item).items()
     }
     return {k: masses for k, masses in left.items() if masses}
 
 
-def _among(found: AnyFurther, left: dict[int, tuple[int, ...]]) -> str:
+def _among(further: AnyFurther, left: dict[int, tuple[int, ...]]) -> str:
     return ", or ".join(
-        f"{found.place} {_either(at)} of {found.names[k]}" for k, at in left.items()
+        f"{further.place} {_either(at)} of {further.names[k]}" for k, at in left.items()
     )
 
 

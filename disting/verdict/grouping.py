@@ -124,8 +124,8 @@ class _Work:
         }
         # the model with the fewest dampers represents a class
         order = [(len(c.ground_dampers), c.indices, i) for c, i in numbers.items()]
-        known = Buckets.of(subjects, len(TESTS), order.__getitem__)
-        return _Work(engine, subjects, place, known, list(range(n)), [NOT_KNOWN] * n, unions)
+        buckets = Buckets.of(subjects, len(TESTS), order.__getitem__)
+        return _Work(engine, subjects, place, buckets, list(range(n)), [NOT_KNOWN] * n, unions)
 
     def profiles(
         self,
@@ -165,17 +165,17 @@ class _Work:
     def take_over(self, settled: Settled) -> None:
         """What is settled of canonical forms that are here."""
         at = {s.canonical.chain: i for i, s in enumerate(self.subjects)}
-        for (first, second), found in settled.items():
+        for (first, second), finding in settled.items():
             if first in at and second in at:
-                self.take(at[first], at[second], found)
+                self.take(at[first], at[second], finding)
 
-    def take(self, i: int, j: int, found: Finding) -> None:
+    def take(self, i: int, j: int, finding: Finding) -> None:
         """What a finding says of two forms, where it is sure."""
-        if found.certainty is Certainty.NUMERICAL:
+        if finding.certainty is Certainty.NUMERICAL:
             return
-        if found.outcome is Outcome.HOLDS:
+        if finding.outcome is Outcome.HOLDS:
             self.known.classes.unite(i, j)
-        elif found.outcome is Outcome.FAILS:
+        elif finding.outcome is Outcome.FAILS:
             self.refuted.add((i, j))
 
     def open_pairs(self) -> list[tuple[int, int]]:
@@ -222,9 +222,9 @@ def _invert(work: _Work, executor: Executor | None, progress: Progress) -> None:
     wanted = sorted({i for pair in work.open_pairs() for i in pair})
     asked = [(work.subjects[i].chain,) for i in wanted]
     work.engine.answer_all(INVERSELY, asked, executor=executor, progress=progress)
-    found = [work.engine.answer(INVERSELY, chains, work.engine.settings) for chains in asked]
+    inverses = [work.engine.answer(INVERSELY, chains, work.engine.settings) for chains in asked]
     values: dict[int, Hashable] = {}
-    for i, p in zip(wanted, found, strict=True):
+    for i, p in zip(wanted, inverses, strict=True):
         values[i] = p.matroid if isinstance(p.matroid, Unsearched) else (p.form, p.rank, p.matroid)
     work.known.fill(len(TESTS) - 1, values)
 

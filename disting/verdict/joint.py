@@ -32,7 +32,7 @@ def family_safety(decided: Decisions) -> int:
     return joint_safety([*_safeties(decided), *part])
 
 
-def classes_safety(found: Classes) -> int:
+def classes_safety(classes: Classes) -> int:
     """The same for classes of models, from the number of statements alone: each is wrong with
     2^-LEAST_SAFETY at most.
 
@@ -41,15 +41,15 @@ def classes_safety(found: Classes) -> int:
     tells apart.
     """
     first: dict[int, int] = {}
-    for i, group in enumerate(found.group):
+    for i, group in enumerate(classes.group):
         first.setdefault(int(group), i)
-    columns = found.columns[list(first.values())]
+    columns = classes.columns[list(first.values())]
     together = np.ones((len(first), len(first)), bool)
     for column in columns.T:
-        one, other = column[:, None], column[None, :]
-        together &= (one == other) | (one < 0) | (other < 0)
-    decisions = int(np.triu(together, 1).sum()) - len(found.open_groups)
-    return joint_safety([LEAST_SAFETY] * (3 * len(found) + len(found) - len(first) + decisions))
+        lower, upper = column[:, None], column[None, :]
+        together &= (lower == upper) | (lower < 0) | (upper < 0)
+    decisions = int(np.triu(together, 1).sum()) - len(classes.open_groups)
+    return joint_safety([LEAST_SAFETY] * (3 * len(classes) + len(classes) - len(first) + decisions))
 
 
 def joint_in_words(safety: int) -> str:
@@ -74,9 +74,9 @@ def _safeties(decided: Decisions) -> Iterator[int]:
     list. Those of an exact decision count the ranks it needs.
     """
 
-    def own(found: Mapping[tuple[int, int], T]) -> list[T]:
+    def own(by_pair: Mapping[tuple[int, int], T]) -> list[T]:
         """What is not of the part."""
-        return [x for pair, x in found.items() if decided.within(*pair) is None]
+        return [x for pair, x in by_pair.items() if decided.within(*pair) is None]
 
     profiles = set[tuple[Stage, int]]()
     for i, j, _, where, certainty, safety in decided.grades():

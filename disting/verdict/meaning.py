@@ -102,11 +102,11 @@ def _the_same(verdict: Verdict, what: str) -> str:
     )
 
 
-def _steeper(found: Counts, left: str, right: str, machines: bool, halves: bool, what: str) -> str:
+def _steeper(counts: Counts, left: str, right: str, machines: bool, halves: bool, what: str) -> str:
     """Degrees n over m: towards high frequencies |G| falls by 20 (m - n) dB in a decade, by half of
     it where powers are counted in halves.
     """
-    (n1, m1), (n2, m2) = found.first
+    (n1, m1), (n2, m2) = counts.first
     if n1 < 0 or n2 < 0:
         still, moves = (left, right) if n1 < 0 else (right, left)
         sensor = "sensor" if machines else "output"
@@ -138,25 +138,25 @@ def _zeros(more: int, flat: str, machines: bool) -> str:
     return f": {flat} has {zeros} more{pair}"
 
 
-def _more_equations(found: Ranks, left: str, right: str, machines: bool, what: str) -> str:
-    fewer, more = (left, right) if found.left < found.right else (right, left)
-    count = abs(found.left - found.right)
+def _more_equations(ranks: Ranks, left: str, right: str, machines: bool, what: str) -> str:
+    fewer, more = (left, right) if ranks.left < ranks.right else (right, left)
+    count = abs(ranks.left - ranks.right)
     equations = "an equation" if count == 1 else f"{count} equations"
-    kinds = frozenset(label[0] for label in found.rows)
+    kinds = frozenset(label[0] for label in ranks.rows)
     of_machines, of_others = PARTS.get(kinds, ("", ""))
     where = of_machines if machines else of_others
-    every = f"{where}, every" if where and not found.all_rows else "Every"
+    every = f"{where}, every" if where and not ranks.all_rows else "Every"
     return (
         f"{every} {fewer} {what} satisfies {equations} that a {more} {what} satisfies only by"
         " coincidence. That tells them apart."
     )
 
 
-def _varying(found: Forms, left: str, right: str, what: str) -> str:
-    if "Td" in (*found.only_left, *found.only_right):
-        delayed = left if "Td" in found.only_left else right
+def _varying(forms: Forms, left: str, right: str, what: str) -> str:
+    if "Td" in (*forms.only_left, *forms.only_right):
+        delayed = left if "Td" in forms.only_left else right
         return f"Towards high frequencies the phase of {delayed} falls without an end."
-    fixed, free = (left, right) if found.only_right else (right, left)
+    fixed, free = (left, right) if forms.only_right else (right, left)
     return (
         f"A coefficient of the {what} is one fixed number for every {fixed}; that of {free}"
         " changes with its parameters."

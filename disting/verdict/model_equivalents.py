@@ -36,7 +36,7 @@ class ModelEquivalent(Shown):
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; values rounded to 15 digits where they are irrational."""
-        found = () if self.values is None else self.values.equivalents
+        points = () if self.values is None else self.values.equivalents
         return {
             "name": self.model.name,
             "relation": self.verdict.relation.value,
@@ -48,7 +48,7 @@ class ModelEquivalent(Shown):
                     "domain": x.domain.value,
                     "parameters": {name: str(value) for name, value in x.values.items()},
                 }
-                for x in found
+                for x in points
             ],
         }
 
@@ -78,8 +78,8 @@ def model_equivalents(
     engine = Engine() if engine is None else engine
     exponents = model.network.exponents if model.network is not None else ()
     phases = {n: _phase(n, (values or {}).get(n, n)) for n in exponents}
-    known = None if values is None else {n: x for n, x in values.items() if n not in phases}
-    found = []
+    numbers = None if values is None else {n: x for n, x in values.items() if n not in phases}
+    equivalents = []
     for there in map(_as_model, others):
         if (there.name, there) == (model.name, model) or there.shape != model.shape:
             continue
@@ -87,12 +87,12 @@ def model_equivalents(
         if verdict.relation is not Relation.DISTINGUISHABLE:
             mine, others_form = (s.subject for s in engine.general_subjects([model, there]))
             at = None
-            if known is not None and isinstance(mine, Model) and isinstance(others_form, Model):
-                at = alternatives(mine, known, others_form)
+            if numbers is not None and isinstance(mine, Model) and isinstance(others_form, Model):
+                at = alternatives(mine, numbers, others_form)
             named = zip(others_form.powers.exponents, mine.powers.exponents, strict=False)
             equal = tuple((name, phases[given_name]) for name, given_name in named)
-            found.append(ModelEquivalent(there, verdict, at, equal))
-    return found
+            equivalents.append(ModelEquivalent(there, verdict, at, equal))
+    return equivalents
 
 
 def _as_model(given: Network | AnyModel) -> AnyModel:

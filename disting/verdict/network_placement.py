@@ -118,8 +118,8 @@ def further_networks(
     for kind in costs.priced(MENUS[networks[0].sort]):
         if kind.holds and max(map(len, places)) < 2:
             continue
-        found = [measured(networks[k], kind, i, f"{names[k]} at {i}") for k, i in spots]
-        sides = engine.general_subjects([m.model for m in found])
+        machines = [measured(networks[k], kind, i, f"{names[k]} at {i}") for k, i in spots]
+        sides = engine.general_subjects([m.model for m in machines])
         decided = engine.decisions(sides, QUERY, executor=executor, progress=progress)
-        tables[kind] = NetworkTable(places, spots, tuple(m.gain for m in found), decided)
+        tables[kind] = NetworkTable(places, spots, tuple(m.gain for m in machines), decided)
     return Further(names, networks, tables, costs)

@@ -87,16 +87,16 @@ class _Work:
         """Only what is gained is known."""
         n = chains[0].n_masses
         sides, gains, firsts = [], [], []
-        known: dict[MeasuredChain, ComparedMachine] = {}
+        by_form: dict[MeasuredChain, ComparedMachine] = {}
         for number, chain in enumerate(chains):
             for i in range(1, n + 1):
                 item = Item(kind, i)
                 name = f"structure {number}, mass {i}"
                 form = standard(measured(chain, item))
-                sides.append(known.setdefault(form, engine.measured_subject(name, form)))
-                found = gain(chain, item)
-                gains.append(found or Gain.NEW)
-                firsts.append(NOT_KNOWN if found is None else list(Gain).index(found))
+                sides.append(by_form.setdefault(form, engine.measured_subject(name, form)))
+                gained = gain(chain, item)
+                gains.append(gained or Gain.NEW)
+                firsts.append(NOT_KNOWN if gained is None else list(Gain).index(gained))
         size = len(sides)
         buckets = Buckets.of(sides, len(TESTS))
         for row, first in zip(buckets.columns, firsts, strict=True):
@@ -112,12 +112,12 @@ class _Work:
 
     def asked(self, chosen: Iterable[int]) -> list[list[int]]:
         """Roots by buckets, where those hold more than one structure."""
-        found = []
+        asked = []
         for bucket in self.known.shared(chosen):
             if len({s // self.n_masses for s in bucket}) > 1:
                 roots = list(dict.fromkeys(map(self.known.classes.root, bucket)))
-                found += [roots] if len(roots) > 1 else []
-        return found
+                asked += [roots] if len(roots) > 1 else []
+        return asked
 
     def join_known(self, profiles: dict[int, Profile]) -> None:
         """Free choice and renamings."""
@@ -129,8 +129,8 @@ class _Work:
                 self.unite(first, s, RENAMING.name)
 
     @staticmethod
-    def _is_free(one: Profile, other: Profile) -> bool:
-        return condition_7(one, other).outcome is Outcome.HOLDS
+    def _is_free(first: Profile, second: Profile) -> bool:
+        return condition_7(first, second).outcome is Outcome.HOLDS
 
     def decide(
         self, profiles: dict[int, Profile], executor: Executor | None, progress: Progress
@@ -144,21 +144,21 @@ class _Work:
                 QUICKLY, list(models.values()), executor=executor, progress=progress
             )
             for (a, b), asked in models.items():
-                found = self.engine.answer(QUICKLY, asked, self.engine.settings)
-                found = resting_on_ranks(found, profiles[a], profiles[b])
-                if found.outcome is Outcome.HOLDS:
+                finding = self.engine.answer(QUICKLY, asked, self.engine.settings)
+                finding = resting_on_ranks(finding, profiles[a], profiles[b])
+                if finding.outcome is Outcome.HOLDS:
                     self.unite(a, b)
                 else:
-                    (self.apart if found.outcome is Outcome.FAILS else self.open).add((a, b))
-                if found.certainty is Certainty.BOUNDED:
-                    self.safeties.append(found.safety)
+                    (self.apart if finding.outcome is Outcome.FAILS else self.open).add((a, b))
+                if finding.certainty is Certainty.BOUNDED:
+                    self.safeties.append(finding.safety)
             rest = [[s for s in bucket[1:] if self.known.classes.root(s) == s] for bucket in rounds]
             rounds = [b for b in rest if len({s // self.n_masses for s in self._members(b)}) > 1]
 
     def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
         """Both machines, in an order that does not depend on that of the structures."""
-        here, there = sorted((self.sides[s].measured for s in (a, b)), key=written)
-        return here, there
+        low, high = sorted((self.sides[s].measured for s in (a, b)), key=written)
+        return low, high
 
     def _members(self, roots: Iterable[int]) -> list[int]:
         chosen = set(roots)

@@ -52,13 +52,13 @@ class Table(Protocol):
         """
 
 
-def answer_of(found: Set[Relation]) -> Answer:
+def answer_of(relations: Set[Relation]) -> Answer:
     """What the relations to all places of another structure come to."""
-    if found <= {Relation.DISTINGUISHABLE}:
+    if relations <= {Relation.DISTINGUISHABLE}:
         return Answer.SURELY
-    if found == {Relation.INDISTINGUISHABLE}:
+    if relations == {Relation.INDISTINGUISHABLE}:
         return Answer.NEVER
-    if {Relation.DISTINGUISHABLE, Relation.INDISTINGUISHABLE} <= found:
+    if {Relation.DISTINGUISHABLE, Relation.INDISTINGUISHABLE} <= relations:
         return Answer.DEPENDS
     return Answer.UNKNOWN
 
@@ -114,14 +114,14 @@ class Placed:
     def look_up(self, left: Spot, right: Spot) -> tuple[Relation, str]:
         """Relation and deciding rule of two spots, "" if undecided."""
         a, b = self._at(left), self._at(right)
-        for name, here, there in zip(TESTS, self.columns[a], self.columns[b], strict=True):
-            if NOT_KNOWN not in (here, there) and here != there:
+        for name, *buckets in zip(TESTS, self.columns[a], self.columns[b], strict=True):
+            if NOT_KNOWN not in buckets and buckets[0] != buckets[1]:
                 return Relation.DISTINGUISHABLE, name
-        one, other = sorted((self.classes[a], self.classes[b]))
-        if one == other:
+        low, high = sorted((self.classes[a], self.classes[b]))
+        if low == high:
             same = self.links[a] == self.links[b] != ""
             return Relation.INDISTINGUISHABLE, self._rule(a) if same else EXACT.name
-        if (one, other) in self.open:
+        if (low, high) in self.open:
             return Relation.UNDECIDED, ""
         return Relation.DISTINGUISHABLE, EXACT.name
 
@@ -139,17 +139,19 @@ class Placed:
         """
         if (spot, other) not in self._alike:
             masses = range(1, self.n_masses + 1)
-            found = (self.look_up(spot, (other, j))[0] for j in masses)
+            relations = (self.look_up(spot, (other, j))[0] for j in masses)
             apart = Relation.DISTINGUISHABLE
-            self._alike[spot, other] = tuple(j for j, r in enumerate(found, 1) if r is not apart)
+            self._alike[spot, other] = tuple(
+                j for j, r in enumerate(relations, 1) if r is not apart
+            )
         return self._alike[spot, other]
 
     def answer(self, spot: Spot, other: int) -> Answer:
         """Whether the experiment at a spot tells its structure from another one, wherever the
         place is in that.
         """
-        found = {self.look_up(spot, (other, j))[0] for j in range(1, self.n_masses + 1)}
-        return answer_of(found)
+        relations = {self.look_up(spot, (other, j))[0] for j in range(1, self.n_masses + 1)}
+        return answer_of(relations)
 
     def _rule(self, at: int) -> str:
         return self.links[at].partition("/")[0]

@@ -81,12 +81,12 @@ class Query:
             )
 
     def __repr__(self) -> str:
-        given = [] if self.view is View.POSITIVE else [f"View.{self.view.name}"]
-        given += [f"conditions={self.conditions}"] * (self.conditions != ALL_CONDITIONS)
-        given += [f"markov={self.markov}"] * bool(self.markov) + ["inclusion=False"] * (
+        options = [] if self.view is View.POSITIVE else [f"View.{self.view.name}"]
+        options += [f"conditions={self.conditions}"] * (self.conditions != ALL_CONDITIONS)
+        options += [f"markov={self.markov}"] * bool(self.markov) + ["inclusion=False"] * (
             not self.inclusion
         )
-        return f"Query({', '.join(given)})"
+        return f"Query({', '.join(options)})"
 
     def asks(self, rule: Rule) -> bool:
         """Whether this condition may decide."""

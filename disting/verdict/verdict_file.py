@@ -97,8 +97,8 @@ def as_file(stored: Stored) -> dict[str, Any]:
     query, beside = stored.query, stored.over_complex
     asked = asdict(query) | {"view": query.view.value, "conditions": list(query.conditions)}
     pairs = [
-        {"left": plain_experiment(here), "right": plain_experiment(there)}
-        for here, there in stored.experiments
+        {"left": plain_experiment(left), "right": plain_experiment(right)}
+        for left, right in stored.experiments
     ]
     data = {
         "format": FORMAT,
@@ -139,8 +139,8 @@ def read_file(data: object, beside: Collection[str] = ()) -> Stored:
     keys that it has not; `beside` = those that stand there for another reason.
     """
     if not isinstance(data, dict) or data.get("format") != FORMAT:
-        known = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
-        what = "holds a verdict without its models" if known else "is no file of a verdict"
+        is_verdict = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
+        what = "holds a verdict without its models" if is_verdict else "is no file of a verdict"
         raise InputError(f"it {what}; 'disting compare N:I M:J --json' writes one")
     try:
         stored = _stored(data)
@@ -162,17 +162,17 @@ def differing(data: dict[str, Any], stored: Stored, sides: Sides) -> str:
     """
     again = as_file(stored)
     missing = object()
-    found = [
+    fields = [
         name
         for name in again
         if name != "program" and not same_plain(data.get(name, missing), again[name])
     ]
     told = [v for v in (stored.verdict, stored.over_complex) if v is not None]
     if any((v.left, v.right) != (sides.left.name, sides.right.name) for v in told):
-        found.append("names")
+        fields.append("names")
     if any(v.premises != (sides.left.premise, sides.right.premise) for v in told):
-        found.append("damping, quantity and experiments")
-    return ", ".join(found)
+        fields.append("damping, quantity and experiments")
+    return ", ".join(fields)
 
 
 def plain_experiment(experiment: Experiment) -> dict[str, object]:
@@ -243,26 +243,28 @@ def _query(asked: Mapping[str, Any]) -> Query:
 
 
 def _settings(data: Mapping[str, Any]) -> Settings:
-    found = Settings(**data)
-    types = (type(found.seed), type(found.points), type(found.subset_limit))
-    if types != (str, int, int) or len(found.seed) > LONGEST_SEED:
+    settings = Settings(**data)
+    types = (type(settings.seed), type(settings.points), type(settings.subset_limit))
+    if types != (str, int, int) or len(settings.seed) > LONGEST_SEED:
         raise InputError("settings are a seed and two whole numbers")
-    if not (1 <= found.points <= MOST_POINTS and 0 <= found.subset_limit <= MOST_SUBSETS):
+    if not (1 <= settings.points <= MOST_POINTS and 0 <= settings.subset_limit <= MOST_SUBSETS):
         raise InputError(
             f"a verdict is checked with 1 to {MOST_POINTS} points and {MOST_SUBSETS} subsets at"
             " most"
         )
-    return found
+    return settings
 
 
 def _verdict(data: dict[str, Any]) -> Verdict:
     """The verdict; raises InputError where a field of its evidence is of another type."""
-    found = Verdict.from_dict(data)
-    both = () if found.inclusions is None else (found.inclusions.image, found.inclusions.closure)
-    shares = [x for x in (found.left_positive, found.right_positive) if x is not None]
-    if not all(is_well_typed(x.evidence) for x in (found, *both, *shares)):
+    verdict = Verdict.from_dict(data)
+    both = (
+        () if verdict.inclusions is None else (verdict.inclusions.image, verdict.inclusions.closure)
+    )
+    shares = [x for x in (verdict.left_positive, verdict.right_positive) if x is not None]
+    if not all(is_well_typed(x.evidence) for x in (verdict, *both, *shares)):
         raise InputError("the evidence has a field of another type")
-    return found
+    return verdict
 
 
 def _plain_model(model: Chain | AnyModel) -> dict[str, object]:

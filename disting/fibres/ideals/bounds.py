@@ -89,11 +89,12 @@ def safety_of_empty(
     """
     shape = _shape([a + b for a, b in zip(given.coordinates, other.coordinates, strict=True)])
     n, variables = len(other.parameters), len(given.parameters) + len(other.parameters)
-    found = _related(shape, n, not equal_rank, variables)
+    size = _related(shape, n, not equal_rank, variables)
     minor = sum(shape.degrees[:n])  # of at most n rows, each a row of derivatives
     minor_bits = n * (shape.norm + log2(shape.degrees[0] * max(n, 1)))
     return _safety(
-        Size(n * found.weight + 2 * minor, int(n * found.bits + 2 * minor_bits) + 1), bits
+        Size(n * size.weight + 2 * minor, int(n * size.bits + 2 * minor_bits) + 1),
+        bits,
     )
 
 
@@ -106,10 +107,10 @@ def safety_of_member(given: PolynomialMap, other: PolynomialMap, bits: int = BIT
     """
     shape, first = _shape(other.coordinates), _shape(given.coordinates)
     n = len(other.parameters)
-    found = _related(shape, n + 1, True, n)
-    delta, forms = found.weight, min(n + 1, len(shape.degrees))
+    size = _related(shape, n + 1, True, n)
+    delta, forms = size.weight, min(n + 1, len(shape.degrees))
     put_in = delta * (first.norm + _mixing(delta, len(first.degrees))) + forms * log2(delta + 1)
-    return _safety(Size(delta * first.degrees[0], int(found.bits + put_in) + 1), bits)
+    return _safety(Size(delta * first.degrees[0], int(size.bits + put_in) + 1), bits)
 
 
 def safety_of_one_value(model: PolynomialMap, bits: int = BITS) -> int:

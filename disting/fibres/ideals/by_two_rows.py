@@ -54,8 +54,8 @@ def refuted_by_rows(given: Structure, other: Structure, seed: str) -> ByRows | N
     if not_covered(given, other, f"{seed}:poles"):
         return None
     steps = [vanishing_step(split, receptances(other)) for split in splits(given, gap(other))]
-    found = tuple(step for step in steps if step is not None)
-    return ByRows(True, found) if len(found) == len(steps) else None
+    differing = tuple(step for step in steps if step is not None)
+    return ByRows(True, differing) if len(differing) == len(steps) else None
 
 
 def included_by_rows(
@@ -76,15 +76,15 @@ def _members(
     split: Split, searched: Receptances, seed: str, limits: Limits
 ) -> tuple[RowStep, ...] | None:
     steps = list[RowStep]()
-    for name, wanted, there in _by_size(split, searched):
-        here, most = _ranks(wanted, there, f"rank:{seed}")
-        short = there.degrees[0] - wanted.degrees[0]
-        if here > most or short < 0 or (here == most and short):
+    for name, wanted, reached in _by_size(split, searched):
+        rank, most = _ranks(wanted, reached, f"rank:{seed}")
+        short = reached.degrees[0] - wanted.degrees[0]
+        if rank > most or short < 0 or (rank == most and short):
             return None
-        found = decide(wanted, there, equal_rank=here == most, seed=seed, limits=limits)
-        if not isinstance(found.evidence, Solved) or found.safety < limits.safety:
+        decided = decide(wanted, reached, equal_rank=rank == most, seed=seed, limits=limits)
+        if not isinstance(decided.evidence, Solved) or decided.safety < limits.safety:
             return None
-        steps.append(RowStep(split.name, name, replace(found.evidence, is_normalised=True)))
+        steps.append(RowStep(split.name, name, replace(decided.evidence, is_normalised=True)))
     return tuple(steps)
 
 
@@ -139,18 +139,20 @@ def _are_alike(given: Structure, other: Structure) -> bool:
     return is_plain(given) and is_plain(other) and kinds[0] == kinds[1] and gap(other) > 0
 
 
-def _ranks(wanted: CoefficientMap, there: CoefficientMap, label: str) -> tuple[int, int]:
+def _ranks(wanted: CoefficientMap, reached: CoefficientMap, label: str) -> tuple[int, int]:
     """Generic ranks of both, the largest seen at some points."""
     labels = (label, *(f"{label}:{k}" for k in range(1, RANK_POINTS)))
-    here, most = (max(generic_rank(m, x) for x in labels) for m in (wanted, there))
-    return here, most
+    rank, most = (max(generic_rank(m, x) for x in labels) for m in (wanted, reached))
+    return rank, most
 
 
 def _pairs(split: Split, searched: Receptances) -> list[Pair]:
     """Name of a row, the receptance wanted and the map that is there."""
     return [
-        (name, wanted, there)
-        for (name, wanted), (_, there) in zip(split.receptances.named, searched.named, strict=True)
+        (name, wanted, reached)
+        for (name, wanted), (_, reached) in zip(
+            split.receptances.named, searched.named, strict=True
+        )
     ]
 
 
@@ -165,14 +167,20 @@ def vanishing_step(split: Split, searched: Receptances) -> RowStep | None:
     """A row that a Markov parameter refutes in this split, without any chance; None if there
     is none.
     """
-    found = ((name, vanishing(wanted, there)) for name, wanted, there in _pairs(split, searched))
+    constants = (
+        (name, vanishing(wanted, reached)) for name, wanted, reached in _pairs(split, searched)
+    )
     return next(
-        (RowStep(split.name, name, Vanishing(index)) for name, index in found if index is not None),
+        (
+            RowStep(split.name, name, Vanishing(index))
+            for name, index in constants
+            if index is not None
+        ),
         None,
     )
 
 
-def vanishing(wanted: CoefficientMap, there: CoefficientMap) -> int | None:
+def vanishing(wanted: CoefficientMap, reached: CoefficientMap) -> int | None:
     """Index of a Markov parameter that refutes the row, among its first two; None if there is
     none.
 
@@ -181,12 +189,12 @@ def vanishing(wanted: CoefficientMap, there: CoefficientMap) -> int | None:
     >>> vanishing(*(receptances(c.structure).free for c in chains))
     2
     """
-    first = relative_degree(there)
-    return next((i for i in range(1, first + 2) if _refutes(i, wanted, there)), None)
+    first = relative_degree(reached)
+    return next((i for i in range(1, first + 2) if _refutes(i, wanted, reached)), None)
 
 
-def _refutes(index: int, wanted: CoefficientMap, there: CoefficientMap) -> bool:
-    met, own = (_markov(m, index) for m in (wanted, there))
+def _refutes(index: int, wanted: CoefficientMap, reached: CoefficientMap) -> bool:
+    met, own = (_markov(m, index) for m in (wanted, reached))
     return bool((len(own) == 1 and met.is_zero()) or (own.is_zero() and not met.is_zero()))
 
 
@@ -205,9 +213,9 @@ def _markov(model: CoefficientMap, index: int) -> fmpz_mpoly:
     return scaled[index]
 
 
-def _confirms(shown: Shown, wanted: CoefficientMap, there: CoefficientMap) -> bool:
+def _confirms(shown: Shown, wanted: CoefficientMap, reached: CoefficientMap) -> bool:
     if isinstance(shown, Vanishing):
-        return shown.index > 0 and _refutes(shown.index, wanted, there)
-    ranks = _ranks(wanted, there, "rank:verify")
+        return shown.index > 0 and _refutes(shown.index, wanted, reached)
+    ranks = _ranks(wanted, reached, "rank:verify")
     in_order = ranks[0] == ranks[1] or (ranks[0] < ranks[1] and shown.left_given)
-    return in_order and confirms(shown, wanted, there)
+    return in_order and confirms(shown, wanted, reached)

@@ -38,9 +38,9 @@ def same_by_full_rows(a: Structure, b: Structure, label: str = LABEL) -> FullRow
     if not _comparable(a, b):
         return None
     pairs = zip(rows_of(a), rows_of(b), strict=True)
-    found = [_shared(here, there, label) for here, there in pairs]
-    free = tuple(n for n in found if n is not None)
-    return FullRows(free) if len(free) == len(found) and any(free) else None
+    shared = [_shared(row, other, label) for row, other in pairs]
+    free = tuple(n for n in shared if n is not None)
+    return FullRows(free) if len(free) == len(shared) and any(free) else None
 
 
 def same_receptances(row: Row, other: Row) -> bool:
@@ -78,9 +78,9 @@ class Form:
 @cache
 def _full(row: Row, label: str) -> Form | None:
     """The form of a row's coefficients if it is full."""
-    found = receptance_map(row)
-    varies = [any(any(exponents) for exponents, _ in terms) for terms in found.coordinates]
+    entries = receptance_map(row)
+    varies = [any(any(exponents) for exponents, _ in terms) for terms in entries.coordinates]
     free = tuple(i for i, v in enumerate(varies) if v)
-    constants = tuple(terms for terms, v in zip(found.coordinates, varies, strict=True) if not v)
-    form = Form((len(found.numerator), len(found.coordinates)), free, constants)
-    return form if generic_rank(found, label) == len(free) else None
+    constants = tuple(terms for terms, v in zip(entries.coordinates, varies, strict=True) if not v)
+    form = Form((len(entries.numerator), len(entries.coordinates)), free, constants)
+    return form if generic_rank(entries, label) == len(free) else None

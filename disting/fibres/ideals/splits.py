@@ -118,18 +118,18 @@ def splits(given: Structure, h: int) -> tuple[Split, ...]:
     > 0, if the theorem applies.
     """
     n, g = given.n_masses, gap(given)
-    found = list[Split]()
+    every = list[Split]()
     if h == g:
-        found.append(Split(SAME, receptances(given)))
+        every.append(Split(SAME, receptances(given)))
     if g and h == n - 1 - g:
-        found.append(
+        every.append(
             Split("exchanged", Receptances(_without_rigid_body(given), _with_rigid_body(given)))
         )
     if h == n - 1 and h != g:
-        found.append(
+        every.append(
             Split("rigid", Receptances(_without_rigid_body(given, whole=True), _rigid_body()))
         )
-    return tuple(found)
+    return tuple(every)
 
 
 def _without_rigid_body(structure: Structure, whole: bool = False) -> CoefficientMap:

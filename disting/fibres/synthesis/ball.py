@@ -17,7 +17,7 @@ from flint import acb, acb_poly, arb, ctx
 
 from disting.model.row import Row
 
-Ball = Any  # acb: flint has no usable types
+Ball = Any  # acb; lists of coefficients and of points hold integers beside balls
 Poly = Any  # acb_poly
 
 # widest relative radius of a test ball that may pass as "consistent with zero"
@@ -94,8 +94,8 @@ def roots(p: Poly, degree: int, excluded: Callable[[Ball], bool] = lambda z: Fal
         raise Imprecise("a leading coefficient cannot be told from zero")
     if degree == 1:
         return [-p[0] / p[1]]
-    found = _isolated(p, None)
-    if not found:
+    isolated = _isolated(p, None)
+    if not isolated:
         raise Imprecise("roots could not be isolated")
     slope = p.derivative()
 
@@ -103,21 +103,21 @@ def roots(p: Poly, degree: int, excluded: Callable[[Ball], bool] = lambda z: Fal
         """Each that is needed sharp, as sharp as may be."""
         return [z if excluded(z) else _sharpened(p, slope, z) for z in wide]
 
-    sharp = sharpened(found)
+    sharp = sharpened(isolated)
     for tolerance in _ISOLATION:
         finer = [] if all(z is not None for z in sharp) else _isolated(p, tolerance)
         if not finer:
             break
-        found, sharp = finer, sharpened(finer)
-    return [z if better is None else better for z, better in zip(found, sharp, strict=True)]
+        isolated, sharp = finer, sharpened(finer)
+    return [z if better is None else better for z, better in zip(isolated, sharp, strict=True)]
 
 
 def enclosed(p: Poly, degree: int) -> list[Ball]:
     """Like `roots`, in a fraction of the time, but wide balls: enough to refute."""
-    found = [] if is_boundary(p[degree]) else _isolated(p, _ENCLOSED)
-    if not found:
+    isolated = [] if is_boundary(p[degree]) else _isolated(p, _ENCLOSED)
+    if not isolated:
         raise Imprecise("roots could not be isolated")
-    return found
+    return isolated
 
 
 def _isolated(p: Poly, tolerance: float | None) -> list[Ball]:

@@ -20,17 +20,16 @@ found holds without any chance.
 
 from functools import cache
 from itertools import chain
-from typing import Any
 
-from flint import fmpz, fmpz_poly, nmod_poly
+from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
 
 PRIMES = 400  # tried; a degree m needs about m of them, and r factors about 2^r times as many
 FIRST = 1 << 20
 Shown = set[tuple[int, str]]  # number of the factor, and what is known of its zeros
 
 
-def conjugate_factors(numerator: Any) -> tuple[fmpz_poly, ...]:
-    """The N_i of a polynomial with rational coefficients (fmpq_poly), if the group is proven to be
+def conjugate_factors(numerator: fmpq_poly) -> tuple[fmpz_poly, ...]:
+    """The N_i of a polynomial with rational coefficients, if the group is proven to be
     the product; else ().
 
     >>> from flint import fmpq_poly
@@ -41,10 +40,10 @@ def conjugate_factors(numerator: Any) -> tuple[fmpz_poly, ...]:
     >>> conjugate_factors(fmpq_poly([1, 0, 0, 0, 1]))
     ()
     """
-    _, found = numerator.numer().factor()
-    factors = tuple(sorted((f for f, _ in found), key=lambda f: (f.degree(), str(f))))
+    _, powers = numerator.numer().factor()
+    factors = tuple(sorted((f for f, _ in powers), key=lambda f: (f.degree(), str(f))))
     wanted = {(i, what) for i, f in enumerate(factors) for what in _WANTED[min(f.degree(), 3)]}
-    if any(e > 1 for _, e in found):
+    if any(e > 1 for _, e in powers):
         return ()
     for modulus in _primes():
         if not wanted:
@@ -78,9 +77,9 @@ def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Shown:
 
 @cache
 def _primes() -> tuple[int, ...]:
-    found = list[int]()
+    primes = list[int]()
     candidate = FIRST + 1
-    while len(found) < PRIMES:
-        found += [candidate] if fmpz(candidate).is_prime() else []
+    while len(primes) < PRIMES:
+        primes += [candidate] if fmpz(candidate).is_prime() else []
         candidate += 2
-    return tuple(found)
+    return tuple(primes)

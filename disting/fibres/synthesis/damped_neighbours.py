@@ -131,13 +131,13 @@ def _conjugate_ways(kinds: list[int], size: int) -> Iterable[list[Way]]:
     """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in
     each place stand together.
     """
-    found = defaultdict[tuple[int, ...], list[Way]](list)
+    ways = defaultdict[tuple[int, ...], list[Way]](list)
     for rho in range(len(kinds)):
         others = [i for i in range(len(kinds)) if i != rho]
         for left in combinations(others, size):
             right = tuple(i for i in others if i not in left)
-            found[kinds[rho], *sorted(kinds[i] for i in left)].append((rho, left, right))
-    return found.values()
+            ways[kinds[rho], *sorted(kinds[i] for i in left)].append((rho, left, right))
+    return ways.values()
 
 
 def _branch(branch: Branch, seen: list["Seen"]) -> Iterator[Leaf]:

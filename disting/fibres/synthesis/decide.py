@@ -204,34 +204,34 @@ def _better(first: Exact, second: Exact) -> Exact:
     return first if second.membership is Membership.UNKNOWN else second
 
 
-def _finding(found: Fibre, way: Direction, point: dict[str, fmpq], grounds: Grounds) -> Exact:
+def _finding(whole: Fibre, way: Direction, point: dict[str, fmpq], grounds: Grounds) -> Exact:
     real, positive = (
-        [getattr(s, name) for s in found.solutions].count(Answer.YES)
+        [getattr(s, name) for s in whole.solutions].count(Answer.YES)
         for name in ("real", "positive")
     )
-    width = max((s.width for s in found.solutions), default=0.0)
-    count, bits = len(found.solutions), found.precision_bits
+    width = max((s.width for s in whole.solutions), default=0.0)
+    count, bits = len(whole.solutions), whole.precision_bits
     return Exact(
         membership=_MEANING[grounds],
         direction=way,
         point=point,
-        status=found.status,
+        status=whole.status,
         solutions=count,
         real=real,
         positive=positive,
         precision_bits=bits,
         width=width,
         grounds=grounds,
-        reason=found.reason,
+        reason=whole.reason,
     )
 
 
-def _grounds(given: Chain, other: Chain, point: dict[str, fmpq], found: Fibre) -> Grounds:
+def _grounds(given: Chain, other: Chain, point: dict[str, fmpq], whole: Fibre) -> Grounds:
     """The strongest grounds there are; raises ContradictionError where an identity and an empty
     fibre meet.
     """
     same, dual = canonical(given).chain == canonical(other).chain, are_dual(given, other)
-    if found.status is Status.EMPTY:
+    if whole.status is Status.EMPTY:
         if same or dual:
             raise ContradictionError(
                 f"an empty fibre between chains that are the same: {given} and {other}"
@@ -239,11 +239,11 @@ def _grounds(given: Chain, other: Chain, point: dict[str, fmpq], found: Fibre) -
         return Grounds.REFUTED
     if same or dual:
         return Grounds.RENAMING if same else Grounds.THEOREM
-    if not found.solutions:
+    if not whole.solutions:
         return Grounds.NONE
     if is_untested(other) or is_constructed(given, point, other):
         return Grounds.CONSTRUCTION
-    confirmed = all(s.confirmation is Confirmation.SUBSYSTEM for s in found.solutions)
+    confirmed = all(s.confirmation is Confirmation.SUBSYSTEM for s in whole.solutions)
     return Grounds.SUBSYSTEM if confirmed else Grounds.BALLS
 
 

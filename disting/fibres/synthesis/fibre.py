@@ -132,11 +132,11 @@ def _solutions(chain: Chain, target: Target) -> Iterator[Checked | Dead]:
 
 
 def _multiplied(
-    chain: Chain, found: RowValues, time: dict[str, Ball], target: Target
+    chain: Chain, rows: RowValues, time: dict[str, Ball], target: Target
 ) -> Checked | Dead:
     """The numbers checked; a member of a family that fails refutes nothing but itself."""
-    result = checked(chain, _named(found, chain) | time, found.gauges, target)
-    return BOUNDARY if found.gauges and isinstance(result, Dead) else result
+    result = checked(chain, _named(rows, chain) | time, rows.gauges, target)
+    return BOUNDARY if rows.gauges and isinstance(result, Dead) else result
 
 
 def _q(chain: Chain) -> int:
@@ -171,15 +171,15 @@ def _joined(a: RowValues, b: RowValues) -> RowValues:
     )
 
 
-def _named(found: RowValues, chain: Chain) -> dict[str, Ball]:
+def _named(rows: RowValues, chain: Chain) -> dict[str, Ball]:
     """Values by parameter name, in the structure's order."""
     joints = [i for i in range(chain.n_masses) if i != chain.gap]
-    values = {Mass(i).parameter: m for i, m in enumerate(found.masses, 1)}
-    values |= {Spring(i).parameter: k[0] for i, k in zip(joints, found.springs, strict=True)}
+    values = {Mass(i).parameter: m for i, m in enumerate(rows.masses, 1)}
+    values |= {Spring(i).parameter: k[0] for i, k in zip(joints, rows.springs, strict=True)}
     if chain.damped:
-        values |= {Damper(i).parameter: k[1] for i, k in zip(joints, found.springs, strict=True)}
+        values |= {Damper(i).parameter: k[1] for i, k in zip(joints, rows.springs, strict=True)}
     return values | {
-        GroundDamper(i).parameter: found.all_dampers[i - 1] for i in chain.ground_dampers
+        GroundDamper(i).parameter: rows.all_dampers[i - 1] for i in chain.ground_dampers
     }
 
 
@@ -216,23 +216,23 @@ def _status(solutions: tuple[Solution, ...], tests: Exclusions) -> tuple[Status,
     return Status.EMPTY, "every branch is refuted"
 
 
-def shared(chain: Chain, found: Fibre) -> Fibre:
+def shared(chain: Chain, whole: Fibre) -> Fibre:
     """The fibre of the chain with both dampers from that of the chain without b_1: half and half
     of each solution.
 
     Where d_01 + b_1 = 0, d_01 is at the boundary there.
     """
-    status = Status.INFINITE if found.status is Status.COMPLETE else found.status
+    status = Status.INFINITE if whole.status is Status.COMPLETE else whole.status
     reason = (
         "a family of solutions: d_01 + b_1 alone is determined"
         if status is Status.INFINITE
-        else found.reason
+        else whole.reason
     )
     return replace(
-        found,
+        whole,
         status=status,
         reason=reason,
-        solutions=tuple(_halved(chain, s) for s in found.solutions),
+        solutions=tuple(_halved(chain, s) for s in whole.solutions),
     )
 
 
@@ -266,10 +266,10 @@ def without_lag(t: Target) -> tuple[Target, fmpq] | None:
     return Target(t.numerator * time, denominator), time
 
 
-def lagged(chain: Chain, found: Fibre, time: fmpq) -> Fibre:
+def lagged(chain: Chain, whole: Fibre, time: fmpq) -> Fibre:
     """The fibre of the undamped chain with its lag."""
-    with ctx.workprec(max(found.precision_bits, ctx.prec)):
-        return replace(found, solutions=tuple(_with(chain, s, acb(time)) for s in found.solutions))
+    with ctx.workprec(max(whole.precision_bits, ctx.prec)):
+        return replace(whole, solutions=tuple(_with(chain, s, acb(time)) for s in whole.solutions))
 
 
 def _with(chain: Chain, solution: Solution, time: Ball) -> Solution:

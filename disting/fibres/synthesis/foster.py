@@ -48,7 +48,7 @@ def are_same_by_rows(left: Chain, right: Chain) -> bool:
     if not _alike(left, right) or left.gap != right.gap:
         return False
     pairs = zip(*(rows_of(canonical(c).chain.structure) for c in (left, right)), strict=True)
-    return all(_same(one, other) for one, other in pairs)
+    return all(_same(a, b) for a, b in pairs)
 
 
 def _alike(left: Chain, right: Chain) -> bool:
@@ -56,6 +56,6 @@ def _alike(left: Chain, right: Chain) -> bool:
     return plain and (left.n_masses, left.sensor) == (right.n_masses, right.sensor)
 
 
-def _same(one: Row, other: Row) -> bool:
-    reverse = one.grounded and one == other.mirrored
-    return one == other or one.distance == other.distance == 0 or reverse
+def _same(left: Row, right: Row) -> bool:
+    reverse = left.grounded and left == right.mirrored
+    return left == right or left.distance == right.distance == 0 or reverse

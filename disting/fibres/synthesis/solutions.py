@@ -14,7 +14,7 @@ Values = dict[str, Ball]
 
 
 def listed(
-    chain: Chain, found: list[Checked], target: Target, *, complete: bool, confirm: bool
+    chain: Chain, leaves: list[Checked], target: Target, *, complete: bool, confirm: bool
 ) -> tuple[Solution, ...]:
     """Solutions with their properties. A complete list is closed under conjugation; otherwise
     nothing is known to be real.
@@ -22,7 +22,7 @@ def listed(
     `confirm`: whether those that are no members of a family are looked at by `confirmation`.
     """
     solutions = (
-        _solution(c, [x.values for x in found if x is not c or not complete]) for c in found
+        _solution(c, [x.values for x in leaves if x is not c or not complete]) for c in leaves
     )
     return tuple(
         (

@@ -11,7 +11,7 @@ from disting.fibres.synthesis.ball import Receptance
 from disting.model.row import Row
 from disting.model.structure import Structure
 
-Exact = Any  # fmpq_poly: flint has no usable types
+Exact = Any  # fmpq_poly; what its stub says of complex_roots is not so
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,25 +7,17 @@ Whether an identifiable function has one value for all parameters with the same 
 several, is seen at one random point. A difference there is one for generic points, where the
 solutions vary continuously; agreement at exactly known solutions, which are rational functions of
 the point, is generic but for a probability like that of their number.
-
-A scaling leaves the behaviour as it is: p_i -> t^w_i p_i for all t, with integer weights w.
-Numerator and denominator written out are sums of monomials p^a with non-zero coefficients. If all
-monomials of both have one weight w.a, the quotient does not change: an exact proof. The weights
-are the integer kernel of the differences of exponents. As w_i p_i is in the kernel of the Jacobian
-at every point, a few points prove that there are none, without writing anything out.
 """
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from flint import acb, fmpq
 
 from disting.algebra.certainty import Certainty, Grade
 from disting.algebra.sampling import enough
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import expanded
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.result import Answer, Status
 from disting.model.chain import Chain, Sensor
@@ -38,6 +30,7 @@ from disting.questions.identifiability.basis import Basis, basis
 from disting.questions.identifiability.formula import Formula, monomial
 from disting.questions.identifiability.functions import Candidate
 from disting.questions.identifiability.parts import Combination, Level, Origin, Renaming, Scaling
+from disting.questions.identifiability.scalings import scalings
 from disting.questions.identifiability.solutions import (
     Listing,
     Member,
@@ -47,12 +40,8 @@ from disting.questions.identifiability.solutions import (
 )
 from disting.questions.identifiability.tangent import (
     Tangent,
-    integer_kernel,
-    maybe_scaled,
     most_invariants,
     proof_tangents,
-    search_tangents,
-    short_vectors,
 )
 
 
@@ -83,11 +72,11 @@ def identifiabilities(
 ) -> list[Identifiability]:
     """The same for many chains, in order; each canonical form is looked at once."""
     formed = [(chain, canonical(chain)) for chain in chains]
-    known = {
+    answers = {
         form: _canonically(form, settings or Settings())
         for form in dict.fromkeys(form.chain for _, form in formed)
     }
-    return [as_given(known[form.chain], form, chain) for chain, form in formed]
+    return [as_given(answers[form.chain], form, chain) for chain, form in formed]
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,9 +88,9 @@ class _Rank:
     scalings: tuple[Scaling, ...]
 
 
-def as_given(found: Identifiability, form: Form, chain: Chain) -> Identifiability:
+def as_given(answer: Identifiability, form: Form, chain: Chain) -> Identifiability:
     """The finding on a canonical form in the names of a chain that has this form."""
-    return renamed(found, {here: given for given, here in form.renaming.items()}, chain)
+    return renamed(answer, {new: old for old, new in form.renaming.items()}, chain)
 
 
 def _canonically(chain: Chain, settings: Settings) -> Identifiability:
@@ -111,27 +100,27 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
     rank = max(t.rank for t in proof)
     seen = basis(structure, proof, rank, settings.seed)
     determined = _rank(structure, proof, rank, seen)
-    known = listing(chain, max(len(t.rows) for t in proof), settings.seed)
-    _refuse_contradictions(chain, rank, known)
-    level, grade = judged(len(chain.parameters), rank, determined.grade, known)
+    solutions = listing(chain, max(len(t.rows) for t in proof), settings.seed)
+    _refuse_contradictions(chain, rank, solutions)
+    level, grade = judged(len(chain.parameters), rank, determined.grade, solutions)
     return Identifiability(
         parameters=chain.parameters,
         rank=rank,
         rank_grade=determined.grade,
         level=level,
         level_grade=grade,
-        least=known.least,
-        most=known.most,
-        count_grade=known.grade,
-        alternatives=tuple(m.said for m in known.members),
-        singles=tuple(combination(c, known) for c in seen.singles),
-        basis=tuple(combination(c, known) for c in seen.chosen),
+        least=solutions.least,
+        most=solutions.most,
+        count_grade=solutions.grade,
+        alternatives=tuple(m.said for m in solutions.members),
+        singles=tuple(combination(c, solutions) for c in seen.singles),
+        basis=tuple(combination(c, solutions) for c in seen.chosen),
         safety=seen.safety,
         scalings=determined.scalings,
         renamings=renamings(chain),
         self_dual=is_self_dual(chain),
-        point=tuple((name, str(value)) for name, value in known.point.items()),
-        reason=_reason(level, known),
+        point=tuple((name, str(value)) for name, value in solutions.point.items()),
+        reason=_reason(level, solutions),
     )
 
 
@@ -142,47 +131,57 @@ def _rank(structure: Structure, proof: Sequence[Tangent], rank: int, seen: Basis
     parameters = len(structure.parameters)
     if rank == parameters:
         return _Rank(rank, (Certainty.PROVEN, 0), ())
-    found = scalings(structure)
-    proven = rank in (parameters - len(found), most_invariants(structure))
-    return _Rank(rank, (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, seen.safety), found)
+    seen_scalings = scalings(structure)
+    proven = rank in (parameters - len(seen_scalings), most_invariants(structure))
+    return _Rank(
+        rank,
+        (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, seen.safety),
+        seen_scalings,
+    )
 
 
-def judged(parameters: int, rank: int, rank_grade: Grade, known: Listing) -> tuple[Level, Grade]:
+def judged(
+    parameters: int, rank: int, rank_grade: Grade, solutions: Listing
+) -> tuple[Level, Grade]:
     """Level from rank and listing; GLOBAL only where it is sure that a single solution is the
     only one.
     """
     if rank < parameters:
         return Level.NOT, rank_grade
-    if sum(m.said.certainty is Certainty.THEOREM for m in known.members) > 1:
+    if sum(m.said.certainty is Certainty.THEOREM for m in solutions.members) > 1:
         return Level.LOCAL, (Certainty.THEOREM, 0)
-    if known.most is None or (known.most == 1 and known.grade[0] is Certainty.NUMERICAL):
+    if solutions.most is None or (
+        solutions.most == 1 and solutions.grade[0] is Certainty.NUMERICAL
+    ):
         return Level.UNKNOWN, rank_grade
-    if known.most == 1:
-        return Level.GLOBAL, known.grade
-    return Level.LOCAL, known.grade if known.least > 1 else (Certainty.NUMERICAL, 0)
+    if solutions.most == 1:
+        return Level.GLOBAL, solutions.grade
+    return Level.LOCAL, solutions.grade if solutions.least > 1 else (Certainty.NUMERICAL, 0)
 
 
-def _reason(level: Level, known: Listing) -> str:
+def _reason(level: Level, solutions: Listing) -> str:
     """Why the number of solutions is not known."""
-    if level is Level.UNKNOWN and known.most == 1:
+    if level is Level.UNKNOWN and solutions.most == 1:
         return "one solution is found, and not proven to be the only one"
-    return known.reason if level is Level.UNKNOWN or known.status is Status.NOT_COVERED else ""
+    return (
+        solutions.reason if level is Level.UNKNOWN or solutions.status is Status.NOT_COVERED else ""
+    )
 
 
-def _refuse_contradictions(chain: Chain, rank: int, known: Listing) -> None:
+def _refuse_contradictions(chain: Chain, rank: int, solutions: Listing) -> None:
     """A family of solutions and a full rank, or a finite fibre and a smaller one, cannot both
     be.
     """
     full = rank == len(chain.parameters)
-    if known.status is (Status.INFINITE if full else Status.COMPLETE):
+    if solutions.status is (Status.INFINITE if full else Status.COMPLETE):
         raise ContradictionError(
-            f"rank {rank} of {len(chain.parameters)} parameters and a fibre that is {known.status}:"
-            f" {chain}"
+            f"rank {rank} of {len(chain.parameters)} parameters and a fibre that is"
+            f" {solutions.status}: {chain}"
         )
 
 
-def _to_json(found: Identifiability) -> str:
-    return json.dumps(found.to_dict(), separators=(",", ":"))
+def _to_json(answer: Identifiability) -> str:
+    return json.dumps(answer.to_dict(), separators=(",", ":"))
 
 
 def _from_json(text: str) -> Identifiability:
@@ -192,24 +191,25 @@ def _from_json(text: str) -> Identifiability:
 IDENTIFIABILITY = Question("identifiability", _canonically, _to_json, _from_json)
 
 
-def renamed(found: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
+def renamed(answer: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
     """`names` leads from the canonical parameters to those of `chain`, whose order is kept
     everywhere.
     """
     place = {name: i for i, name in enumerate(chain.parameters)}
     order = [monomial(**{name: 1}) for name in chain.parameters]
     singles = sorted(
-        (_combination(c, names, place) for c in found.singles), key=lambda c: order.index(c.formula)
+        (_combination(c, names, place) for c in answer.singles),
+        key=lambda c: order.index(c.formula),
     )
     return replace(
-        found,
+        answer,
         parameters=chain.parameters,
         singles=tuple(singles),
-        basis=tuple(_combination(c, names, place) for c in found.basis),
-        scalings=tuple(_scaling(s, names, place) for s in found.scalings),
-        renamings=tuple(_renaming(r, names, place) for r in found.renamings),
+        basis=tuple(_combination(c, names, place) for c in answer.basis),
+        scalings=tuple(_scaling(s, names, place) for s in answer.scalings),
+        renamings=tuple(_renaming(r, names, place) for r in answer.renamings),
         point=tuple(
-            sorted(((names[n], v) for n, v in found.point), key=lambda pair: place[pair[0]])
+            sorted(((names[n], v) for n, v in answer.point), key=lambda pair: place[pair[0]])
         ),
     )
 
@@ -238,30 +238,30 @@ def _renaming(r: Renaming, names: Mapping[str, str], place: Mapping[str, int]) -
 Judgement = tuple[Answer, Certainty]
 
 
-def combination(candidate: Candidate, known: Listing) -> Combination:
+def combination(candidate: Candidate, solutions: Listing) -> Combination:
     """The candidate with the answer that the listed solutions give."""
-    return Combination(candidate.formula, candidate.name, *_judged(candidate, known))
+    return Combination(candidate.formula, candidate.name, *_judged(candidate, solutions))
 
 
-def _judged(candidate: Candidate, known: Listing) -> Judgement:
+def _judged(candidate: Candidate, solutions: Listing) -> Judgement:
     """Different at a solution that exists: NO. Equal at all exact ones, none other: YES. The
     rest rests on balls or is open.
     """
     if candidate.name:
         return Answer.YES, Certainty.THEOREM  # a coefficient is what an experiment shows
-    here = candidate.formula.value(known.point)
+    own = candidate.formula.value(solutions.point)
     apart = [
         m.said.certainty
-        for m in known.members
-        if not _same(here, candidate.formula.value(m.values))
+        for m in solutions.members
+        if not _same(own, candidate.formula.value(m.values))
     ]
     for certainty in (Certainty.THEOREM, Certainty.PROVEN, Certainty.NUMERICAL):
         if certainty in apart:
             return Answer.NO, certainty
-    if known.status not in (Status.COMPLETE, Status.INFINITE):
+    if solutions.status not in (Status.COMPLETE, Status.INFINITE):
         return Answer.UNKNOWN, Certainty.NUMERICAL
     return Answer.YES, (
-        known.grade[0] if known.most == _exact(known.members) else Certainty.NUMERICAL
+        solutions.grade[0] if solutions.most == _exact(solutions.members) else Certainty.NUMERICAL
     )
 
 
@@ -269,30 +269,5 @@ def _exact(members: tuple[Member, ...]) -> int:
     return sum(m.said.origin is not Origin.OTHER for m in members)
 
 
-def _same(here: fmpq, there: Any) -> bool:
-    return here == there if isinstance(there, fmpq) else bool(there.overlaps(acb(here)))
-
-
-POINTS = 4
-
-
-def scalings(structure: Structure, seed: str = "disting") -> tuple[Scaling, ...]:
-    """A basis of the scaling symmetries, few parameters first.
-
-    >>> from disting.model.chain import Chain
-    >>> [s.text for s in scalings(Chain(3, 2, 1, 3, 2, 3, damped=False).structure)]
-    []
-    """
-    if not maybe_scaled(list(search_tangents(structure, seed, POINTS))):
-        return ()
-    powers = [p[1:] for part in expanded(structure) for p in part.monoms()]
-    differences = [[a - b for a, b in zip(p, powers[0], strict=True)] for p in powers[1:]]
-    names = [p for p in structure.parameters if p != "Td"]
-    found = [_signed(v) for v in short_vectors(integer_kernel(differences, len(names)))]
-    shown = sorted(found, key=lambda v: (sum(map(bool, v)), [-x for x in v]))
-    return tuple(Scaling(tuple((n, w) for n, w in zip(names, v, strict=True) if w)) for v in shown)
-
-
-def _signed(vector: list[int]) -> list[int]:
-    first = next(x for x in vector if x)
-    return vector if first > 0 else [-x for x in vector]
+def _same(left: fmpq, right: fmpq | acb) -> bool:
+    return left == right if isinstance(right, fmpq) else bool(right.overlaps(acb(left)))

@@ -132,13 +132,13 @@ class Identifiability(Shown):
         raise TypeError("identifiability is not true or false; look at its level")
 
 
-def _sentence(found: Identifiability) -> str:
+def _sentence(answer: Identifiability) -> str:
     """One sentence: how many parameters are determinable, and what else has the same behaviour."""
-    many = len(found.parameters)
+    many = len(answer.parameters)
     head = f"{many} parameter{'s' * (many > 1)}"
-    if found.level is Level.NOT:
-        return f"{head}, only {found.rank} determinable: {_listed(found.basis)}."
-    return f"{head}, all determinable; {_rest(found)}."
+    if answer.level is Level.NOT:
+        return f"{head}, only {answer.rank} determinable: {_listed(answer.basis)}."
+    return f"{head}, all determinable; {_rest(answer)}."
 
 
 def _number(count: int) -> str:
@@ -158,43 +158,43 @@ def _listed(basis: tuple[Combination, ...]) -> str:
     return ", ".join([*formulas, f"{what} {', '.join(named)}"] if named else formulas)
 
 
-def _rest(found: Identifiability) -> str:
-    if found.level is Level.GLOBAL:
+def _rest(answer: Identifiability) -> str:
+    if answer.level is Level.GLOBAL:
         return "no other non-zero parameters, real or complex, give the same behaviour"
-    if found.level is Level.UNKNOWN:
+    if answer.level is Level.UNKNOWN:
         return (
             "finitely many parameter vectors give the same behaviour, how many is not known"
-            f" ({found.reason})"
+            f" ({answer.reason})"
         )
-    return f"{_count(found)} give the same behaviour{_known(found)}{_point(found)}"
+    return f"{_count(answer)} give the same behaviour{_known(answer)}{_point(answer)}"
 
 
-def _count(found: Identifiability) -> str:
+def _count(answer: Identifiability) -> str:
     """How many vectors, complex ones included unless all are positive."""
-    if found.most is None:
-        return f"at least {_number(found.least)} positive parameter vectors"
-    if found.most > found.least:
-        return f"{_number(found.most)} parameter vectors (not all proven to exist)"
+    if answer.most is None:
+        return f"at least {_number(answer.least)} positive parameter vectors"
+    if answer.most > answer.least:
+        return f"{_number(answer.most)} parameter vectors (not all proven to exist)"
     kind = (
         "positive"
-        if all(a.certainty is Certainty.THEOREM for a in found.alternatives)
+        if all(a.certainty is Certainty.THEOREM for a in answer.alternatives)
         else "complex"
     )
-    return f"{_number(found.most)} {kind} parameter vectors"
+    return f"{_number(answer.most)} {kind} parameter vectors"
 
 
-def _known(found: Identifiability) -> str:
-    exchanges = [f"exchanging {r.text} changes nothing" for r in found.renamings]
-    dual = ["each is the dual (mirror image at the gap) of another"] * found.self_dual
+def _known(answer: Identifiability) -> str:
+    exchanges = [f"exchanging {r.text} changes nothing" for r in answer.renamings]
+    dual = ["each is the dual (mirror image at the gap) of another"] * answer.self_dual
     return f": {' and '.join([*exchanges, *dual])}" if exchanges or dual else ""
 
 
-def _point(found: Identifiability) -> str:
+def _point(answer: Identifiability) -> str:
     """Real and positive ones, which depend on the point, unless theorems name all."""
-    if found.most is None or all(a.certainty is Certainty.THEOREM for a in found.alternatives):
+    if answer.most is None or all(a.certainty is Certainty.THEOREM for a in answer.alternatives):
         return ""
     return (
-        f"; with random values {_number(found.real)} of them real, {_number(found.positive)}"
+        f"; with random values {_number(answer.real)} of them real, {_number(answer.positive)}"
         " positive"
     )
 

@@ -68,7 +68,7 @@ class ParameterIdentifiability:
 
     def named(self, level: Level) -> tuple[str, ...]:
         """The parameters of this level."""
-        return tuple(name for name, found in self.levels.items() if found == level)
+        return tuple(name for name, own in self.levels.items() if own == level)
 
     @property
     def sentence(self) -> str:
@@ -116,9 +116,9 @@ class ParameterIdentifiability:
         raise TypeError("identifiability is not true or false; look at its levels")
 
 
-def encoded(found: ParameterIdentifiability) -> str:
+def encoded(answer: ParameterIdentifiability) -> str:
     """As text, for a cache."""
-    return json.dumps(found.to_dict(), separators=(",", ":"))
+    return json.dumps(answer.to_dict(), separators=(",", ":"))
 
 
 def decoded(text: str) -> ParameterIdentifiability:
@@ -163,7 +163,7 @@ def identifiable_columns(seen: Sequence[Sample]) -> tuple[int, tuple[int, ...]]:
 
 def by_parameter(
     parameters: Sequence[str],
-    known: Local,
+    local: Local,
     model: PolynomialMap,
     settings: Settings,
     sure: Sequence[str] = (),
@@ -171,21 +171,21 @@ def by_parameter(
     """Levels from the Jacobian and the ideal of a generic fibre; `sure` are known to be global and
     are none of the map's.
     """
-    asked = [name for name in known.names if name not in sure]
-    found = one_value(model, asked, seed=settings.seed)
+    asked = [name for name in local.names if name not in sure]
+    values = one_value(model, asked, seed=settings.seed)
     levels = dict.fromkeys(asked, Level.UNKNOWN) | dict.fromkeys(sure, Level.GLOBAL)
-    levels |= dict.fromkeys(found.one, Level.GLOBAL) | dict.fromkeys(found.several, Level.LOCAL)
-    full = known.rank == len(parameters)
+    levels |= dict.fromkeys(values.one, Level.GLOBAL) | dict.fromkeys(values.several, Level.LOCAL)
+    full = local.rank == len(parameters)
     unique = full and set(levels.values()) <= {Level.GLOBAL}
-    certainty, bits = joint([known.safety, found.safety])
+    certainty, bits = joint([local.safety, values.safety])
     return ParameterIdentifiability(
         levels={name: levels.get(name, Level.NOT) for name in parameters},
-        rank=known.rank,
-        least=2 if found.several else 1,
+        rank=local.rank,
+        least=2 if values.several else 1,
         most=1 if unique else None,
         certainty=certainty,
         safety=bits,
-        reason=found.reason,
+        reason=values.reason,
     )
 
 

@@ -17,7 +17,7 @@ from disting.questions.identifiability.tangent import Tangent, proof_tangents
 POINTS = 3
 
 
-def confirms(found: Identifiability, chain: Chain, seed: str = "verify") -> bool:
+def confirms(answer: Identifiability, chain: Chain, seed: str = "verify") -> bool:
     """Whether the ranks, the combinations, the symmetries and the number of solutions are true of
     the chain.
 
@@ -26,49 +26,49 @@ def confirms(found: Identifiability, chain: Chain, seed: str = "verify") -> bool
     True
     """
     fresh = proof_tangents(chain.structure, seed, POINTS)
-    ranks = found.parameters == chain.parameters and max(
+    ranks = answer.parameters == chain.parameters and max(
         t.rank for t in fresh
-    ) == found.rank == len(found.basis)
+    ) == answer.rank == len(answer.basis)
     return (
         ranks
-        and all(_seen(found, t) for t in fresh)
-        and _renamed(found, chain)
-        and _counted(found, chain)
+        and all(_seen(answer, t) for t in fresh)
+        and _renamed(answer, chain)
+        and _counted(answer, chain)
     )
 
 
-def _seen(found: Identifiability, at: Tangent) -> bool:
+def _seen(answer: Identifiability, at: Tangent) -> bool:
     """The combinations lie in the row space and are independent; of the parameters, only those
     listed lie in it.
     """
-    slopes = [c.formula.gradient(at.values, at.modulus) for c in found.basis]
+    slopes = [c.formula.gradient(at.values, at.modulus) for c in answer.basis]
     units = {name: [int(name == other) for other in at.values] for name in at.values}
     singles = {monomial(**{name: 1}) for name, unit in units.items() if at.sees(unit)}
-    independent = matrix(slopes, len(at.values), at.modulus).rank() == found.rank
+    independent = matrix(slopes, len(at.values), at.modulus).rank() == answer.rank
     return (
-        all(map(at.sees, slopes)) and independent and singles == {c.formula for c in found.singles}
+        all(map(at.sees, slopes)) and independent and singles == {c.formula for c in answer.singles}
     )
 
 
-def _renamed(found: Identifiability, chain: Chain) -> bool:
+def _renamed(answer: Identifiability, chain: Chain) -> bool:
     """Every renaming is an identity of formulas."""
     plain = {name: name for name in chain.parameters}
     return all(
         is_renaming(chain.structure, chain.structure, plain | dict(r.moved))
-        for r in found.renamings
+        for r in answer.renamings
     )
 
 
-def _counted(found: Identifiability, chain: Chain) -> bool:
+def _counted(answer: Identifiability, chain: Chain) -> bool:
     """As many solutions at the stored point as are listed, or as a theorem says; nothing to
     check where they are not all.
     """
-    if found.most is None or found.most > MOST_LISTED:
-        return found.most is None or found.most == found.least == foster_count(chain)
+    if answer.most is None or answer.most > MOST_LISTED:
+        return answer.most is None or answer.most == answer.least == foster_count(chain)
     plain = replace(chain, dead_time=False, damped=chain.damped and chain.n_masses > 1)
-    point = {name: fraction(value) for name, value in found.point}
+    point = {name: fraction(value) for name, value in answer.point}
     return (
         len(fibre(plain, target(plain.structure, point)).solutions)
-        == found.most
-        == len(found.alternatives)
+        == answer.most
+        == len(answer.alternatives)
     )

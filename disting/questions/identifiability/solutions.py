@@ -75,16 +75,17 @@ def listing(chain: Chain, invariants: int, seed: str) -> Listing:
         point = rational_point(
             chain, about(f"identifiability:{seed}:{draw}", chain), point_bits(chain)
         )
-        found = (
+        whole = (
             Fibre(Status.NOT_COVERED)
             if _many(plain)
             else fibre(plain, target(plain.structure, point))
         )
-        if found.status is not Status.DEGENERATE:
+        if whole.status is not Status.DEGENERATE:
             break
-    known = _listing(plain, invariants - chain.dead_time, point, found)
+    solutions = _listing(plain, invariants - chain.dead_time, point, whole)
     return replace(
-        known, members=tuple(replace(m, values={**point, **m.values}) for m in known.members)
+        solutions,
+        members=tuple(replace(m, values={**point, **m.values}) for m in solutions.members),
     )
 
 
@@ -98,32 +99,32 @@ def _many(chain: Chain) -> bool:
     return (foster_count(chain) or 0) > MOST_LISTED
 
 
-def _listing(chain: Chain, invariants: int, point: Mapping[str, fmpq], found: Fibre) -> Listing:
+def _listing(chain: Chain, invariants: int, point: Mapping[str, fmpq], whole: Fibre) -> Listing:
     exact = images(chain, {name: point[name] for name in chain.parameters})
     if _many(chain):
         count = foster_count(chain) or 0
-        return Listing(point, tuple(exact), found.status, count, count, (Certainty.THEOREM, 0), "")
-    if found.status is not Status.COMPLETE:
+        return Listing(point, tuple(exact), whole.status, count, count, (Certainty.THEOREM, 0), "")
+    if whole.status is not Status.COMPLETE:
         certainty = (
-            Certainty.PROVEN if found.solutions and is_untested(chain) else Certainty.NUMERICAL
+            Certainty.PROVEN if whole.solutions and is_untested(chain) else Certainty.NUMERICAL
         )
-        others = [_other(s, certainty) for s in found.solutions]
+        others = [_other(s, certainty) for s in whole.solutions]
         return Listing(
             point,
             (*exact, *others),
-            found.status,
+            whole.status,
             len(exact),
             None,
             (Certainty.THEOREM, 0),
-            found.reason,
+            whole.reason,
         )
     others = [
-        _other(s, _existence(chain, s, invariants)) for s in _unmatched(found.solutions, exact)
+        _other(s, _existence(chain, s, invariants)) for s in _unmatched(whole.solutions, exact)
     ]
     least = len(exact) + sum(m.said.certainty is not Certainty.NUMERICAL for m in others)
-    grade = _grade(chain, found)
+    grade = _grade(chain, whole)
     return Listing(
-        point, (*exact, *others), found.status, least, len(found.solutions), grade, found.reason
+        point, (*exact, *others), whole.status, least, len(whole.solutions), grade, whole.reason
     )
 
 
@@ -133,12 +134,12 @@ def renamings(chain: Chain) -> tuple[Renaming, ...]:
     >>> [r.text for r in renamings(Chain(3, act_plus=2, meas_plus=2, damped=False))]
     ['k12 ↔ k23, m1 ↔ m3']
     """
-    found: dict[tuple[tuple[str, str], ...], Renaming] = {}
+    by_pairs: dict[tuple[tuple[str, str], ...], Renaming] = {}
     for form in forms(chain):
         moved = tuple((a, b) for a, b in form.renaming.items() if a != b)
         if form.chain == chain and moved:
-            found.setdefault(moved, Renaming(moved, tuple(s.value for s in form.symmetries)))
-    return tuple(found.values())
+            by_pairs.setdefault(moved, Renaming(moved, tuple(s.value for s in form.symmetries)))
+    return tuple(by_pairs.values())
 
 
 def is_self_dual(chain: Chain) -> bool:
@@ -151,13 +152,13 @@ def images(chain: Chain, point: Mapping[str, fmpq]) -> list[Member]:
     positive.
     """
     symmetric = renamings(chain)
-    known = [Member(point, _exact(Origin.GIVEN, ""))]
-    known += [Member(_moved(point, r), _exact(Origin.SYMMETRY, r.text)) for r in symmetric]
+    members = [Member(point, _exact(Origin.GIVEN, ""))]
+    members += [Member(_moved(point, r), _exact(Origin.SYMMETRY, r.text)) for r in symmetric]
     if is_self_dual(chain):
         image = dual(chain, point)
-        known.append(Member(image, _exact(Origin.DUALITY, "")))
-        known += [Member(_moved(image, r), _exact(Origin.DUALITY, r.text)) for r in symmetric]
-    return known
+        members.append(Member(image, _exact(Origin.DUALITY, "")))
+        members += [Member(_moved(image, r), _exact(Origin.DUALITY, r.text)) for r in symmetric]
+    return members
 
 
 def _exact(origin: Origin, note: str) -> Alternative:
@@ -202,19 +203,19 @@ def _existence(chain: Chain, solution: Solution, invariants: int) -> Certainty:
     return Certainty.PROVEN if square or is_untested(chain) else Certainty.NUMERICAL
 
 
-def _grade(chain: Chain, found: Fibre) -> Grade:
+def _grade(chain: Chain, whole: Fibre) -> Grade:
     """Of the statement that a generic point has no more solutions than were listed, and no
     fewer than those that exist.
     """
     if foster_count(chain) is not None:
-        if foster_count(chain) != len(found.solutions):
+        if foster_count(chain) != len(whole.solutions):
             raise ContradictionError(
                 f"Foster's theorem gives {foster_count(chain)} solutions, not"
-                f" {len(found.solutions)}"
+                f" {len(whole.solutions)}"
             )
         return Certainty.THEOREM, 0
-    simple = all(s.confirmation is Confirmation.SUBSYSTEM for s in found.solutions)
-    bounded = simple and not found.tests.boundary
+    simple = all(s.confirmation is Confirmation.SUBSYSTEM for s in whole.solutions)
+    bounded = simple and not whole.tests.boundary
     return (Certainty.BOUNDED, safety_of_point(chain) - 1) if bounded else (Certainty.NUMERICAL, 0)
 
 

@@ -112,22 +112,6 @@ def most_invariants(structure: Structure) -> int:
     return sum(map(len, powers(structure))) - 1 + structure.dead_time
 
 
-def maybe_scaled(seen: Sequence[Tangent]) -> bool:
-    """Whether some weights w have w_i p_i in the kernel at all points seen; False is a proof that
-    no scaling exists.
-
-    J diag(p) w = 0 at all points, which a full rank of these matrices on top of each other rules
-    out, modulo a prime too.
-    """
-    modulus, size = seen[0].modulus, len(seen[0].values)
-    rows = [
-        [g * x % modulus for g, x in zip(row, t.values.values(), strict=True)]
-        for t in seen
-        for row in t.rows
-    ]
-    return int(nmod_mat(len(rows), size, [x for row in rows for x in row], modulus).rank()) < size
-
-
 def _logarithms(t: Tangent) -> Slopes:
     inverse = [pow(x, -1, t.modulus) for x in t.values.values()]
     return [[x if i == j else 0 for j in range(len(inverse))] for i, x in enumerate(inverse)]
@@ -169,19 +153,3 @@ def short_vectors(vectors: Sequence[Sequence[int]]) -> list[list[int]]:
         if vectors
         else []
     )
-
-
-def integer_kernel(rows: Sequence[Sequence[int]], columns: int) -> list[list[int]]:
-    """A basis of the integer vectors v with row . v = 0 for all rows.
-
-    >>> short_vectors(integer_kernel([[1, -1, 0]], 3))
-    [[0, 0, 1], [1, 1, 0]]
-    """
-    # the transforming matrix of the Hermite form of the transpose has them below the rank: append
-    # the identity
-    size = len(rows)
-    appended = [
-        [row[j] for row in rows] + [int(i == j) for i in range(columns)] for j in range(columns)
-    ]
-    reduced = fmpz_mat(appended).hnf().tolist()
-    return [[int(x) for x in row[size:]] for row in reduced if not any(row[:size])]

@@ -61,15 +61,15 @@ def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
-    one, other = small.canonical.chain, large.canonical.chain
-    found = included(one, other, left_is_larger)
-    if found is not None:
+    first, second = small.canonical.chain, large.canonical.chain
+    finding = included(first, second, left_is_larger)
+    if finding is not None:
         inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
-        return InclusionFinding(inside, Certainty.PROVEN, evidence=found)
-    told = by_elements(one, other, not left_is_larger)
-    if told is not None and (told.inclusion is not Inclusion.NEITHER or fewer_poles(one, other)):
+        return InclusionFinding(inside, Certainty.PROVEN, evidence=finding)
+    told = by_elements(first, second, not left_is_larger)
+    if told is not None and (told.inclusion is not Inclusion.NEITHER or fewer_poles(first, second)):
         return told
-    if not fewer_poles(one, other):
+    if not fewer_poles(first, second):
         return InclusionFinding(
             Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles"
         )
@@ -86,20 +86,20 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
         safety = exclusion_safety(large) if len(points) > 1 else 0
         grade = Certainty.BOUNDED if safety else Certainty.PROVEN
         return InclusionFinding(Inclusion.NEITHER, grade, safety, PoleSharing(False, label, points))
-    found = contained(small, large, settings.seed)
-    if found is None:
+    inside = contained(small, large, settings.seed)
+    if inside is None:
         return InclusionFinding(
             Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
         )
-    solved = found.solved
+    solved = inside.solved
     evidence = LimitFibre(
         left_is_larger=False,
-        steps=found.steps,
+        steps=inside.steps,
         small_given=solved.left_given,
         labels=solved.labels,
         solutions=solved.solutions,
     )
-    return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, found.safety, evidence)
+    return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, inside.safety, evidence)
 
 
 def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meeting | None:
@@ -121,9 +121,9 @@ def _indirect(small: Chain, large: Chain, left_is_larger: bool) -> Iterator[Limi
     """
     for limits in row_limits(small, large, counting=True):
         yield Limit(left_is_larger, limits)
-    for one, other in product(twins(small), twins(large)):
-        for limits in row_limits(one, other, counting=False):
-            yield Limit(left_is_larger, limits, tuple(one.indices), tuple(other.indices))
+    for low, high in product(twins(small), twins(large)):
+        for limits in row_limits(low, high, counting=False):
+            yield Limit(left_is_larger, limits, tuple(low.indices), tuple(high.indices))
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -147,18 +147,18 @@ def row_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple[
     wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
     for chosen in permutations(given, len(wanted)):
         pairs = list(zip(chosen, wanted, strict=True))
-        found = [_row_limit(a, given[a], b, wanted[b], counting) for a, b in pairs]
-        if all(limit is not None for limit in found):
-            yield tuple(limit for limit in found if limit is not None)
+        limits = [_row_limit(a, given[a], b, wanted[b], counting) for a, b in pairs]
+        if all(limit is not None for limit in limits):
+            yield tuple(limit for limit in limits if limit is not None)
 
 
 def refuted(small: ChainSide, large: ChainSide, left_is_larger: bool) -> InclusionFinding | None:
     """What degrees and ranks say against the inclusion of a chain with fewer poles; None if
     nothing.
     """
-    one, other = small.canonical.chain, large.canonical.chain
-    if exceeds(one, other):
-        counts = Counts(*ordered(degrees_of(one), degrees_of(other), not left_is_larger))
+    first, second = small.canonical.chain, large.canonical.chain
+    if exceeds(first, second):
+        counts = Counts(*ordered(degrees_of(first), degrees_of(second), not left_is_larger))
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
     if small.rank >= large.rank:
         ranks = TooLarge(*ordered(small.rank, large.rank, not left_is_larger))
@@ -190,7 +190,7 @@ def _row_limit(given: str, row: Row, wanted: str, target: Row, counting: bool) -
     if target in ways and target in follows(row, ways[target]):
         return RowLimit(given, wanted, ways[target])
     for below, steps in ways.items() if counting else ():
-        found = room(target.structure, below.structure)
-        if found.suffices and below in follows(row, steps):
-            return RowLimit(given, wanted, steps, tuple(map(int, astuple(found))))
+        space = room(target.structure, below.structure)
+        if space.suffices and below in follows(row, steps):
+            return RowLimit(given, wanted, steps, tuple(map(int, astuple(space))))
     return None

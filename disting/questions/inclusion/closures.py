@@ -76,9 +76,9 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
         for some in _by_split(given, other, large).values()
     ]
     for rows in splits:
-        known = [one.step for _, one in rows if one is not None]
-        if known and len(known) == len(rows) and all(step.why in SUPPORTS for step in known):
-            return RowsInside(True, tuple(known)), 0
+        steps = [one.step for _, one in rows if one is not None]
+        if steps and len(steps) == len(rows) and all(step.why in SUPPORTS for step in steps):
+            return RowsInside(True, tuple(steps)), 0
     if not _covered(given, other, f"{seed}:{small}:poles"):
         return None
     against = _against(splits, seed)
@@ -92,12 +92,12 @@ def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Shown] | None:
     """What refutes one row of every split, by ideals only where nothing else does; None if a split
     has no such row.
     """
-    found = [
+    refuted = [
         next((one for _, one in rows if one is not None and one.step.why not in SUPPORTS), None)
         for rows in splits
     ]
     open_rows = [[wanted for wanted, one in rows if one is None] for rows in splits]
-    missing = [rows for one, rows in zip(found, open_rows, strict=True) if one is None]
+    missing = [rows for one, rows in zip(refuted, open_rows, strict=True) if one is None]
     if not all(any(map(as_large, rows)) for rows in missing):
         return None  # of one split nothing will be found
     dear = []
@@ -107,7 +107,7 @@ def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Shown] | None:
             return None
         dear.append(one)
     rest = iter(dear)
-    return [next(rest) if one is None else one for one in found]
+    return [next(rest) if one is None else one for one in refuted]
 
 
 def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) -> bool:
@@ -158,26 +158,26 @@ def _covered(given: Structure, other: Structure, label: str) -> bool:
 def _by_split(given: Structure, other: Structure, large: Chain) -> dict[str, list[Wanted]]:
     rows, own = canonical_rows(large.structure), canonical_rows(given)
     if gap(other) == 0:
-        wanted, there = normalised(given), normalised(other)
+        wanted, searched = normalised(given), normalised(other)
         return {
             WHOLE: (
-                [Wanted(split=WHOLE, name=WHOLE, receptance=wanted, there=there, row=rows[FREE])]
-                if wanted.degrees[1] == there.degrees[1]
+                [Wanted(split=WHOLE, name=WHOLE, receptance=wanted, there=searched, row=rows[FREE])]
+                if wanted.degrees[1] == searched.degrees[1]
                 else []
             )
         }
-    found = {}
+    ways = {}
     for split in splits(given, gap(other)):
         pairs = zip(split.receptances.named, receptances(other).named, strict=True)
-        found[split.name] = [
+        ways[split.name] = [
             Wanted(
                 split=split.name,
                 name=name,
                 receptance=wanted,
-                there=there,
+                there=searched,
                 row=rows[name],
                 given=own[name] if split.name == SAME else None,
             )
-            for (name, wanted), (_, there) in pairs
+            for (name, wanted), (_, searched) in pairs
         ]
-    return found
+    return ways

@@ -70,8 +70,8 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
         case DeadTime():
             return (a.dead_time, b.dead_time) == (evidence.left_given, not evidence.left_given)
         case LargerProjection():
-            here, there = ordered(evidence.left, evidence.right, left_is_smaller)
-            return here > there and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
+            first, second = ordered(evidence.left, evidence.right, left_is_smaller)
+            return first > second and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
         case FullImage():
             larger, free = (a if evidence.left_is_larger else b), evidence.free
             same = evidence.left_is_larger != left_is_smaller and _same_elsewhere(free, a, b)
@@ -123,8 +123,8 @@ def _across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainS
             return same and small.rank >= large.rank and fewer_poles(one, other)
         case Limit():
             a, b = _twin(one, evidence.smaller), _twin(other, evidence.larger)
-            known = a is not None and b is not None and _follow(evidence.parts, a, b)
-            return evidence.left_is_larger == left_is_larger and known
+            followed = a is not None and b is not None and _follow(evidence.parts, a, b)
+            return evidence.left_is_larger == left_is_larger and followed
         case Meeting():
             told = Room(evidence.rank, evidence.coordinates, evidence.factors, evidence.same_mass)
             again = room(rational_part(one), rational_part(other), "verify")
@@ -200,12 +200,12 @@ def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
         list(samples(ChainModel(c.structure), Representation.TF, 0, POINTS, "inclusion"))
         for c in (a, b)
     ]
-    here, there = (
+    small_rank, large_rank = (
         max(s.rank(tuple(i for i, x in enumerate(s.labels) if x in rows)) for s in each)
         for each in seen
     )
     poles = {sum(x[0] == "a" for x in each[0].labels) for each in seen}
-    return (here, there) if len(poles) == 1 or rows == ("Td",) else None
+    return (small_rank, large_rank) if len(poles) == 1 or rows == ("Td",) else None
 
 
 def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
@@ -224,20 +224,20 @@ def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
     )
 
 
-def _fall_apart(small: Chain, large: Chain, here: int, there: int) -> bool:
+def _fall_apart(small: Chain, large: Chain, small_rank: int, large_rank: int) -> bool:
     """Whether, written out, the first one's relative degree is `here` at least, the second one's
     always `there`, smaller; or the first one's `here`, the second one's never below `there`,
     larger.
 
     That is so if both leading coefficients are products of elements; or that of the denominator.
     """
-    one, other = (coefficient_map(_receptance(c)) for c in (small, large))
-    (low, poles), (top, others) = one.degrees, other.degrees
-    if len(other.denominator[-1]) > 1 or others - top != there:
+    first, second = (coefficient_map(_receptance(c)) for c in (small, large))
+    (low, poles), (top, others) = first.degrees, second.degrees
+    if len(second.denominator[-1]) > 1 or others - top != large_rank:
         return False
-    if here < there:
-        return poles - low == here
-    return len(other.numerator[top]) == 1 and poles - low >= here > there
+    if small_rank < large_rank:
+        return poles - low == small_rank
+    return len(second.numerator[top]) == 1 and poles - low >= small_rank > large_rank
 
 
 def _receptance(chain: Chain) -> Structure:

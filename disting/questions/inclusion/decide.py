@@ -91,9 +91,9 @@ def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
         return by_sizes(left, right)
     first = left.rank < right.rank
     small, large = (left, right) if first else (right, left)
-    found = by_elements(small.canonical.chain, large.canonical.chain, first)
-    if found is not None:
-        return found
+    finding = by_elements(small.canonical.chain, large.canonical.chain, first)
+    if finding is not None:
+        return finding
     profiles = (s.profile(Representation.TF, 0) for s in (small, large))
     return by_profiles(*profiles, left_is_smaller=first)
 
@@ -102,13 +102,13 @@ def implied_image(
     left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
     """IMAGE where it follows from CLOSURE or is not asked for; None where it is to be asked for."""
-    one, other = left.chain, right.chain
-    if closure.inclusion is Inclusion.NEITHER or one.sensor is not other.sensor:
+    first, second = left.chain, right.chain
+    if closure.inclusion is Inclusion.NEITHER or first.sensor is not second.sensor:
         return closure
-    if one.dead_time != other.dead_time:
-        time = DeadTime(one.dead_time)
+    if first.dead_time != second.dead_time:
+        time = DeadTime(first.dead_time)
         return InclusionFinding(Inclusion.NEITHER, Certainty.THEOREM, evidence=time)
-    if one.n_masses != other.n_masses:
+    if first.n_masses != second.n_masses:
         return InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED)
     return None
 
@@ -128,20 +128,20 @@ def joined(
 ) -> Inclusions:
     """Both statements: by ideals where nothing is known; equivalents are limits."""
     if needs_ideals(image, closure):
-        found = left.answerer(IDEALS, by_rank(left, right), left.settings)
+        decided = left.answerer(IDEALS, by_rank(left, right), left.settings)
         image, closure = (
-            f if left.rank < right.rank else turned(f) for f in (found.image, found.closure)
+            f if left.rank < right.rank else turned(f) for f in (decided.image, decided.closure)
         )
     follows = not closure.is_known and image.is_known and image.inclusion is not Inclusion.NEITHER
     return Inclusions(image, image if follows else closure)
 
 
-def turned(found: InclusionFinding) -> InclusionFinding:
+def turned(finding: InclusionFinding) -> InclusionFinding:
     """The finding on the pair in the other order; for findings whose left model is the smaller
     one.
     """
-    evidence = None if found.evidence is None else found.evidence.turned
-    return replace(found, inclusion=found.inclusion.turned, evidence=evidence)
+    evidence = None if finding.evidence is None else finding.evidence.turned
+    return replace(finding, inclusion=finding.inclusion.turned, evidence=evidence)
 
 
 def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:

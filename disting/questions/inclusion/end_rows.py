@@ -42,9 +42,7 @@ polynomials of the formal degrees e - 1 and e - 2, vanishes for all models with 
 of the row, and for all their limits.
 """
 
-from typing import Any
-
-from disting.algebra.fractionfree import polynomial, resultant
+from disting.algebra.fractionfree import Modular, polynomial, resultant
 from disting.model.row import Row
 
 
@@ -79,7 +77,7 @@ def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int
     return 0 if int(d[0]) or int(d[1]) else _free(n, d.right_shift(2), e)
 
 
-def _free(n: Any, energy: Any, e: int) -> int:
+def _free(n: Modular, energy: Modular, e: int) -> int:
     """Res(U, V) of the module's text for N and E."""
     s = polynomial([0, 1], energy.modulus())
     a, b = int(energy[e]), int(n[e])

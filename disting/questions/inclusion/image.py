@@ -46,8 +46,8 @@ def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding
     exact = refuted_by_rows(rational_part(small), rational_part(large), settings.seed)
     if exact is not None:
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=exact)
-    found = _by_synthesis(small, large, settings)
-    return found if found.is_known else _by_ideal(small, large, settings, found)
+    decided = _by_synthesis(small, large, settings)
+    return decided if decided.is_known else _by_ideal(small, large, settings, decided)
 
 
 def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
@@ -56,15 +56,15 @@ def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFi
     )
     if any(c.lag or c.dead_time for c in (small, large)) or small.damped != large.damped:
         return unknown
-    found = member(small, large, settings.seed)
-    if found.membership is Membership.EXCLUDED:
-        told, inclusion = found.decision(safety_of_point(large)), Inclusion.NEITHER
+    equivalent = member(small, large, settings.seed)
+    if equivalent.membership is Membership.EXCLUDED:
+        told, inclusion = equivalent.decision(safety_of_point(large)), Inclusion.NEITHER
     else:
-        told = found.decision(safety_of_equivalent(small, large))
+        told = equivalent.decision(safety_of_equivalent(small, large))
         inclusion = Inclusion.LEFT_IN_RIGHT
     if told.membership is Membership.UNKNOWN:
         return unknown
-    return InclusionFinding(inclusion, Certainty.BOUNDED, told.safety, found.evidence)
+    return InclusionFinding(inclusion, Certainty.BOUNDED, told.safety, equivalent.evidence)
 
 
 def _by_ideal(
@@ -72,18 +72,18 @@ def _by_ideal(
 ) -> InclusionFinding:
     """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
     maps = (normalised(rational_part(c)) for c in (small, large))
-    found = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
-    if not isinstance(found.evidence, Refuted) or found.safety < LEAST_SAFETY:
+    decided = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
+    if not isinstance(decided.evidence, Refuted) or decided.safety < LEAST_SAFETY:
         return otherwise
-    evidence = replace(found.evidence, is_normalised=True)
-    return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, found.safety, evidence)
+    evidence = replace(decided.evidence, is_normalised=True)
+    return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, decided.safety, evidence)
 
 
 def safety_of_equivalent(small: Chain, large: Chain) -> int:
     """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B bits a coordinate: one equivalent
     tells of generic ones.
     """
-    here, there = (powers(rational_part(c)) for c in (small, large))
-    coefficients = sum(len(a | b) for a, b in zip(here, there, strict=True))
+    small_powers, large_powers = (powers(rational_part(c)) for c in (small, large))
+    coefficients = sum(len(a | b) for a, b in zip(small_powers, large_powers, strict=True))
     degree = max(3 * large.n_masses + 2, len(large.parameters) + 1)
     return point_bits(large) - ceil((coefficients + 1) * log2(degree) + log2(DRAWS)) - 1

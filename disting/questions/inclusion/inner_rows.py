@@ -25,9 +25,7 @@ without a wall keeps its momentum), so all x_z add up to 0: R_(e-1) = 0, and the
 is e/2 - 2, else e/2 - 1.
 """
 
-from typing import Any
-
-from disting.algebra.fractionfree import interpolated, polynomial, resultant
+from disting.algebra.fractionfree import Modular, interpolated, polynomial, resultant
 from disting.model.row import Row
 
 
@@ -59,7 +57,7 @@ def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> i
     )
 
 
-def _in_x(n: Any, d: Any, e: int, power: int, modulus: int) -> list[int]:
+def _in_x(n: Modular, d: Modular, e: int, power: int, modulus: int) -> list[int]:
     """Coefficients of R, interpolated."""
     t = n.derivative().left_shift(power) - e * n.left_shift(power - 1)
     top = e + power - 2

@@ -51,11 +51,11 @@ def contained(small: Chain, large: Chain, seed: str) -> Contained | None:
         return None
     target = position(small)
     for steps, rows in islice(_results(target, large), MODELS):
-        found = _decided(target, joined(rows), seed)
-        safety = found.safety - ceil(log2(MODELS))  # any of the models tried may mislead
-        solved = found.evidence
+        decided = _decided(target, joined(rows), seed)
+        safety = decided.safety - ceil(log2(MODELS))  # any of the models tried may mislead
+        solved = decided.evidence
         if (
-            found.membership is not Membership.MEMBER
+            decided.membership is not Membership.MEMBER
             or not isinstance(solved, Solved)
             or safety < LEAST_SAFETY
         ):

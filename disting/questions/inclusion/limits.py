@@ -79,26 +79,24 @@ def reached(row: Row) -> dict[Row, tuple[Step, ...]]:
     """All canonical rows that limits of a canonical row lead to, itself included, each with a
     shortest way there.
     """
-    found: dict[Row, tuple[Step, ...]] = {row: ()}
+    ways: dict[Row, tuple[Step, ...]] = {row: ()}
     level = [row]
     while level:
-        ends = [
-            (s.row.canonical, (*found[here], s.step)) for here in level for s in specialised(here)
-        ]
+        ends = [(s.row.canonical, (*ways[at], s.step)) for at in level for s in specialised(at)]
         level = []
         for below, steps in ends:
-            if below not in found:
-                found[below] = steps
+            if below not in ways:
+                ways[below] = steps
                 level.append(below)
-    return found
+    return ways
 
 
 def follows(row: Row, steps: tuple[Step, ...]) -> set[Row]:
     """The canonical rows that these steps lead to, each limit proven as an identity."""
     rows = {row}
     for step in steps:
-        ends = [(here, s) for here in rows for s in specialised(here) if s.step == step]
-        rows = {s.row.canonical for here, s in ends if is_limit(here, s)}
+        ends = [(at, s) for at in rows for s in specialised(at) if s.step == step]
+        rows = {s.row.canonical for at, s in ends if is_limit(at, s)}
     return rows
 
 
@@ -165,13 +163,13 @@ def _moved(row: Row, s: Specialised) -> dict[str, list[str]] | None:
     So each is a sum of given parameters of its own and takes all values; None if one would be of
     no given parameter.
     """
-    found: dict[str, list[str]] = {name: [] for name in s.row.structure.parameters}
+    names: dict[str, list[str]] = {name: [] for name in s.row.structure.parameters}
     for e in row.structure.elements:
         name = _name(e, s.nodes)
         is_gone = e == s.element or (s.element.kind == "k" and e == Damper(s.element.at))
-        if name in found and not is_gone:
-            found[name].append(e.parameter)
-    return found if all(found.values()) else None
+        if name in names and not is_gone:
+            names[name].append(e.parameter)
+    return names if all(names.values()) else None
 
 
 def _name(e: Element, nodes: tuple[int | None, ...]) -> str:

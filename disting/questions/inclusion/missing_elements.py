@@ -28,12 +28,12 @@ def by_elements(small: Chain, large: Chain, left_is_smaller: bool) -> InclusionF
         return without_dead_time(left_is_smaller)
     if len(small.parameters) >= len(large.parameters):
         return None
-    found = (
+    elements = (
         places
         for ports in _ways(small, large)
         for places in minors(small.structure, large.structure, dict(ports))
     )
-    places = next(found, None)
+    places = next(elements, None)
     return None if places is None else missing(places, left_is_smaller)
 
 

@@ -146,14 +146,14 @@ def _excludes(
     small: Chain, large: Chain, label: str, point: tuple[int, ...], *, by_equation: bool
 ) -> bool:
     modulus = prime(label)
-    found = model_at(small, point, modulus)
-    if found is None:
+    split = model_at(small, point, modulus)
+    if split is None:
         return False
-    b = _bounds(small, large, found.n.degree())
+    b = _bounds(small, large, split.n.degree())
     row = canonical_rows(large.structure)[GROUNDED]
     equation = row_equation(row, label) if by_equation else None
     shape = tuple(sorted(i // step_of(large) for i in p) for p in powers(row.structure))
-    allowed = (_solutions(found.n, s, b, modulus) for s in _sharings(found, b, modulus))
+    allowed = (_solutions(split.n, s, b, modulus) for s in _sharings(split, b, modulus))
     return b.factor < 0 or (
         b.direct and not any(_stands(x, b, shape, equation) for some in allowed for x in some)
     )
@@ -169,12 +169,12 @@ def _bounds(small: Chain, large: Chain, degree: int) -> Bounds:
     return Bounds(first, second, first - fall_first, second - fall_second, zeros, poles, factor)
 
 
-def _sharings(found: Split, b: Bounds, modulus: int) -> Iterator[Sharing]:
+def _sharings(split: Split, b: Bounds, modulus: int) -> Iterator[Sharing]:
     """All ways to distribute the roots of d."""
-    one, t = constant(1, modulus), variable(modulus)
-    for chosen in product((COMMON, FIRST, SECOND), repeat=len(found.factors)):
-        parts = [one, one, one]
-        for place, factor in zip(chosen, found.factors, strict=True):
+    unit, t = constant(1, modulus), variable(modulus)
+    for chosen in product((COMMON, FIRST, SECOND), repeat=len(split.factors)):
+        parts = [unit, unit, unit]
+        for place, factor in zip(chosen, split.factors, strict=True):
             parts[place] = parts[place] * factor
         for at_first, at_second in product(range(b.zeros + 1), repeat=2):
             common = b.zeros - at_first - at_second

@@ -80,7 +80,7 @@ def exceed(small: Degrees, large: Degrees) -> bool:
     >>> exceed((2, 2), (2, 3)), exceed((3, 3), (2, 4)), exceed((0, 0), (-1, 0))
     (False, True, True)
     """
-    return any(here > there for here, there in zip(small, large, strict=True))
+    return any(own > other for own, other in zip(small, large, strict=True))
 
 
 def _larger_rows(small: Profile, large: Profile) -> Labels | None:
@@ -126,10 +126,12 @@ def by_relative_degrees(small: Chain, large: Chain) -> InclusionFinding | None:
     right one does, or slower; None if it need not.
     """
     falls = row_falls(large)
-    here, there = min(row_falls(small)), min(falls)
-    if here == there or (here > there and len(falls) == 2 and falls[0] == falls[1]):
+    small_fall, large_fall = min(row_falls(small)), min(falls)
+    if small_fall == large_fall or (
+        small_fall > large_fall and len(falls) == 2 and falls[0] == falls[1]
+    ):
         return None
-    evidence = RelativeDegrees(False, here, there)
+    evidence = RelativeDegrees(False, small_fall, large_fall)
     return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=evidence)
 
 

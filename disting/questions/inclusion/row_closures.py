@@ -78,19 +78,19 @@ class Shown(NamedTuple):
 def shown(wanted: Wanted, label: str) -> Shown | None:
     """What settles a row at little cost, the cheapest first; None if nothing does."""
     named = f"{label}:{label_of(wanted.row)}"
-    found = next(filter(None, (test(wanted, named) for test in _TESTS)), None)
-    if found is None:
+    finding = next(filter(None, (test(wanted, named) for test in _TESTS)), None)
+    if finding is None:
         return None
-    bits = _safety(wanted.row) if found[0] is Why.EQUATION else 0
-    return Shown(RowLimits(wanted.split, wanted.name, *found), bits)
+    bits = _safety(wanted.row) if finding[0] is Why.EQUATION else 0
+    return Shown(RowLimits(wanted.split, wanted.name, *finding), bits)
 
 
 def by_dimension(wanted: Wanted, seed: str) -> Shown | None:
     """Whether rows of one dimension differ, by ideals: up to some seconds; None if nothing is
     found.
     """
-    found = _dimension(wanted, seed)
-    return found and Shown(RowLimits(wanted.split, wanted.name, *found), SAFETY)
+    step = _dimension(wanted, seed)
+    return step and Shown(RowLimits(wanted.split, wanted.name, *step), SAFETY)
 
 
 def as_large(wanted: Wanted) -> tuple[CoefficientMap, str] | None:
@@ -110,7 +110,7 @@ def holds(step: RowLimits, wanted: Wanted) -> bool:
     if step.why is Why.COEFFICIENT:
         pairs = zip("ba", _support(wanted.receptance), _support(wanted.there), strict=True)
         return any(
-            step.detail == f"{letter}{i}" for letter, here, there in pairs for i in here - there
+            step.detail == f"{letter}{i}" for letter, own, others in pairs for i in own - others
         )
     if step.why is Why.EQUATION:
         return _equation(wanted, step.detail) is not None
@@ -145,7 +145,7 @@ def _inside(wanted: Wanted, label: str) -> tuple[Why, str] | None:
 
 def _coefficient(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     pairs = zip("ba", _support(wanted.receptance), _support(wanted.there), strict=True)
-    more = [f"{letter}{i}" for letter, here, there in pairs for i in sorted(here - there)]
+    more = [f"{letter}{i}" for letter, own, others in pairs for i in sorted(own - others)]
     return (Why.COEFFICIENT, more[-1]) if more else None
 
 
@@ -175,23 +175,25 @@ def _dimension(wanted: Wanted, seed: str, bits: int = SAFETY) -> tuple[Why, str]
 @lru_cache(maxsize=REMEMBERED)
 def _differ_by_shares(given: Row, there: Row, seed: str, bits: int) -> bool:
     """Whether two rows of one dimension differ; many pairs of chains ask about the same two."""
-    found = told_apart(factored(given), factored(there), seed)
-    return found is not None and found[1] >= bits
+    apart = told_apart(factored(given), factored(there), seed)
+    return apart is not None and apart[1] >= bits
 
 
 @lru_cache(maxsize=REMEMBERED)
 def _differ_by_ideals(wanted: CoefficientMap, there: CoefficientMap, seed: str, bits: int) -> bool:
     """The same of what is wanted of a row."""
     limits = replace(DIMENSION_LIMITS, safety=bits)
-    found = decide(wanted, there, equal_rank=True, seed=seed, limits=limits, members=False)
-    return found.membership is Membership.EXCLUDED and found.safety >= bits
+    decided = decide(wanted, there, equal_rank=True, seed=seed, limits=limits, members=False)
+    return decided.membership is Membership.EXCLUDED and decided.safety >= bits
 
 
 def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     modulus = prime(label)
     coefficients = _at(wanted.receptance, label, modulus)
-    found = (made(wanted.row, *coefficients, modulus) for made in (end_resultant, inner_resultant))
-    return (Why.RESULTANT, "") if any(found) else None
+    resultants = (
+        made(wanted.row, *coefficients, modulus) for made in (end_resultant, inner_resultant)
+    )
+    return (Why.RESULTANT, "") if any(resultants) else None
 
 
 def _equation(wanted: Wanted, label: str) -> tuple[Why, str] | None:

@@ -63,10 +63,10 @@ def row_equation(row: Row, label: str) -> RowEquation | None:
     the largest block.
     """
     block, modulus = _block(row), prime(label)
-    found = (
+    equation = (
         _kernel_vector(block, _models(row, len(block), label, modulus), modulus) if block else None
     )
-    return None if found is None else RowEquation(block, found, modulus)
+    return None if equation is None else RowEquation(block, equation, modulus)
 
 
 def label_of(row: Row) -> str:
@@ -119,21 +119,21 @@ def _values(block: Block, models: NDArray[np.uint64], modulus: int) -> list[list
     prime of SEARCH_BITS.
     """
     factors = models[: len(block) + MORE, np.array(block)]
-    found = factors[:, :, 0]
+    values = factors[:, :, 0]
     for k in range(1, factors.shape[2]):
-        found = found * factors[:, :, k] % np.uint64(modulus)
-    rows: list[list[int]] = found.tolist()
+        values = values * factors[:, :, k] % np.uint64(modulus)
+    rows: list[list[int]] = values.tolist()
     return rows
 
 
 def _blocks(weights: list[tuple[int, int]], degree: int) -> list[Block]:
     """The monomials of one degree, sorted into blocks."""
-    found = defaultdict(list)
+    blocks = defaultdict(list)
     for monomial in combinations_with_replacement(range(len(weights)), degree):
-        found[sum(weights[i][0] for i in monomial), sum(weights[i][1] for i in monomial)].append(
+        blocks[sum(weights[i][0] for i in monomial), sum(weights[i][1] for i in monomial)].append(
             monomial
         )
-    return [tuple(block) for _, block in sorted(found.items())]
+    return [tuple(block) for _, block in sorted(blocks.items())]
 
 
 def _kernel_vector(
@@ -148,8 +148,8 @@ def _kernel_vector(
 
 def _nullspace(rows: list[list[int]], modulus: int) -> tuple[Any, int]:
     """Columns that span the kernel of a matrix modulo a prime, and how many they are."""
-    found: tuple[Any, int] = matrix(rows, len(rows[0]), modulus).nullspace()
-    return found
+    kernel: tuple[Any, int] = matrix(rows, len(rows[0]), modulus).nullspace()
+    return kernel
 
 
 def _models(row: Row, count: int, label: str, modulus: int) -> list[tuple[int, ...]]:
@@ -181,7 +181,7 @@ def model_at(row: Row, point: Sequence[int], modulus: int) -> tuple[int, ...]:
 
 
 def _product(monomial: Monomial, coefficients: tuple[int, ...], modulus: int) -> int:
-    found = 1
+    product = 1
     for i in monomial:
-        found = found * coefficients[i] % modulus
-    return found
+        product = product * coefficients[i] % modulus
+    return product

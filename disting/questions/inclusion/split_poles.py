@@ -4,8 +4,8 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
+from disting.algebra.fractionfree import Modular
 from disting.algebra.quotient import constant, variable
 from disting.algebra.sampling import prime, residues
 from disting.behaviour.chain_model import degrees, quotient
@@ -13,7 +13,7 @@ from disting.model.chain import Chain, Sensor
 
 ATTEMPTS = 1000  # points tried until one is found
 REMEMBERED = 256
-Polynomial = Any
+Polynomial = Modular
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ def split_model(chain: Chain, label: str) -> Split | None:
     modulus, count = prime(label), len(accelerated(chain).parameters)
     points = (tuple(residues(f"{label}:{k}:{chain}", count, modulus)) for k in range(ATTEMPTS))
     return next(
-        (found for point in points if (found := model_at(chain, point, modulus)) is not None), None
+        (model for point in points if (model := model_at(chain, point, modulus)) is not None), None
     )
 
 

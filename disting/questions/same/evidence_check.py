@@ -108,10 +108,10 @@ def _fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
         point = {name: fraction(value) for name, value in evidence.point}
     except (ValueError, ZeroDivisionError):
         return False  # no numbers
-    found = fibre(searched, target(given.structure, point))
+    solutions = fibre(searched, target(given.structure, point))
     if evidence.grounds == Grounds.REFUTED:
-        return found.status is Status.EMPTY
-    return len(found.solutions) == evidence.solutions > 0
+        return solutions.status is Status.EMPTY
+    return len(solutions.solutions) == evidence.solutions > 0
 
 
 def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
@@ -125,10 +125,10 @@ def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
 def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
     """Both once more."""
     given, other = (a, b) if evidence.with_left_given else (b, a)
-    known = evidence.with_one.share in (Share.ALWAYS, Share.SOMETIMES) and proves(
+    witnessed = evidence.with_one.share in (Share.ALWAYS, Share.SOMETIMES) and proves(
         evidence.with_one, given, other
     )
-    return known and confirms_real(
+    return witnessed and confirms_real(
         evidence.without, *((a, b) if evidence.without_left_given else (b, a))
     )
 
@@ -144,8 +144,8 @@ def _shares(evidence: Shared, a: Chain, b: Chain) -> bool:
 def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
     """Both numbers once more, at fresh points."""
     fresh = Settings(seed="verify")
-    found = [
+    answers = [
         (identifiability(chain, fresh), n)
         for chain, n in ((left, evidence.left), (right, evidence.right))
     ]
-    return all(n % 2 == 1 and x.least == x.most == n for x, n in found)
+    return all(n % 2 == 1 and x.least == x.most == n for x, n in answers)

@@ -84,9 +84,9 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """
     alike = (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
     for method in METHODS.values() if alike else OF_ANY_CHAINS.values():
-        found = method(a, b, settings)
-        if found is not None:
-            return found
+        finding = method(a, b, settings)
+        if finding is not None:
+            return finding
     if not alike:
         note = "the exact decision compares chains of equal size and sensor"
         return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
@@ -141,9 +141,9 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     a, b = (replace(c, dead_time=False) for c in (a, b))
     if a.damped != b.damped:
         return None
-    found = decide(a, b, settings.seed)
-    searched = b if found.direction is Direction.LEFT_IN_RIGHT else a
-    told = found.decision(safety_of_point(searched))
+    decided_by_fibre = decide(a, b, settings.seed)
+    searched = b if decided_by_fibre.direction is Direction.LEFT_IN_RIGHT else a
+    told = decided_by_fibre.decision(safety_of_point(searched))
     return None if told.membership is Membership.UNKNOWN else decided(told)
 
 
@@ -165,15 +165,15 @@ def by_shares(
     """What the shares of the numerator's roots refute; a dead time that both have is a factor
     of its own.
     """
-    found = chains_told_apart(rational_part(a), rational_part(b), settings.seed, tries)
-    if found is None or found[1] < LEAST_SAFETY:
+    apart = chains_told_apart(rational_part(a), rational_part(b), settings.seed, tries)
+    if apart is None or apart[1] < LEAST_SAFETY:
         return None
     return Finding(
         rule=EXACT,
         outcome=Outcome.FAILS,
         certainty=Certainty.BOUNDED,
-        safety=found[1],
-        evidence=found[0],
+        safety=apart[1],
+        evidence=apart[0],
     )
 
 
@@ -195,16 +195,16 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     """
     reasons: list[str] = []
     for coordinates in (coefficient_map, normalised):
-        here, there = (coordinates(rational_part(c)) for c in (a, b))
-        if here.degrees != there.degrees:
+        first, second = (coordinates(rational_part(c)) for c in (a, b))
+        if first.degrees != second.degrees:
             return Finding(
                 EXACT, Outcome.INAPPLICABLE, note="the degrees differ (conditions 1 and 2)"
             )
-        found = ideals.decide(here, there, equal_rank=True, seed=settings.seed, limits=limits)
-        if found.evidence and found.safety >= limits.safety:
-            evidence = replace(found.evidence, is_normalised=coordinates is normalised)
-            return decided(replace(found, evidence=evidence))
-        reasons.append(found.reason)
+        decision = ideals.decide(first, second, equal_rank=True, seed=settings.seed, limits=limits)
+        if decision.evidence and decision.safety >= limits.safety:
+            evidence = replace(decision.evidence, is_normalised=coordinates is normalised)
+            return decided(replace(decision, evidence=evidence))
+        reasons.append(decision.reason)
     return Finding(
         EXACT,
         Outcome.ABANDONED,
@@ -212,12 +212,14 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     )
 
 
-def decided(found: Decision[FibreAt | Solved | Refuted]) -> Finding:
+def decided(decision: Decision[FibreAt | Solved | Refuted]) -> Finding:
     """What a fibre tells of two models of equal rank; ABANDONED with the reason if nothing."""
-    if found.membership is Membership.UNKNOWN:
-        return Finding(EXACT, Outcome.ABANDONED, note=found.reason)
-    outcome = Outcome.HOLDS if found.membership is Membership.MEMBER else Outcome.FAILS
-    return Finding(EXACT, outcome, Certainty.BOUNDED, safety=found.safety, evidence=found.evidence)
+    if decision.membership is Membership.UNKNOWN:
+        return Finding(EXACT, Outcome.ABANDONED, note=decision.reason)
+    outcome = Outcome.HOLDS if decision.membership is Membership.MEMBER else Outcome.FAILS
+    return Finding(
+        EXACT, outcome, Certainty.BOUNDED, safety=decision.safety, evidence=decision.evidence
+    )
 
 
 def resting_on_ranks(finding: Finding, left: Profile, right: Profile) -> Finding:

@@ -43,27 +43,27 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     ABANDONED where it is silent.
     """
     for method in (by_theorem, by_full_rows):
-        known = method(a, b, settings)
-        if known is not None:
-            return known
+        finding = method(a, b, settings)
+        if finding is not None:
+            return finding
     try:
         with _limited(SECONDS):
-            found = by_synthesis(a, b, settings)
+            by_fibre = by_synthesis(a, b, settings)
     except _OutOfTime:
         return Finding(
             EXACT, Outcome.ABANDONED, note=f"the synthesis takes more than {SECONDS:g} s"
         )
     return (
         Finding(EXACT, Outcome.ABANDONED, note="the synthesis proves nothing")
-        if found is None
-        else found
+        if by_fibre is None
+        else by_fibre
     )
 
 
 def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """What shares and ideals say where the synthesis has no method, in a second to some minutes."""
-    found = by_shares(a, b, settings)
-    return by_ideals(a, b, settings, LIMITS) if found is None else found
+    apart = by_shares(a, b, settings)
+    return by_ideals(a, b, settings, LIMITS) if apart is None else apart
 
 
 def quick_profile(chain: Chain, settings: Settings) -> Profile:

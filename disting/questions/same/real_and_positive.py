@@ -152,8 +152,8 @@ def real_finding(left: Chain, right: Chain, asked: Asked) -> Finding:
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
     if real_factors(left, right):
         return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=RealFactors())
-    found = _by_witnesses(left, right, asked)
-    return by_counts(asked.counted(left), asked.counted(right)) if found is None else found
+    finding = _by_witnesses(left, right, asked)
+    return by_counts(asked.counted(left), asked.counted(right)) if finding is None else finding
 
 
 def _by_witnesses(left: Chain, right: Chain, asked: Asked) -> Finding | None:
@@ -161,8 +161,8 @@ def _by_witnesses(left: Chain, right: Chain, asked: Asked) -> Finding | None:
     equivalent.
     """
     pairs = witness_ways(left, right)
-    found = ((given is left, asked.lacking(given, other)) for given, other in pairs)
-    left_given, without = next((x for x in found if x[1]), (False, ()))
+    lacking = ((given is left, asked.lacking(given, other)) for given, other in pairs)
+    left_given, without = next((x for x in lacking if x[1]), (False, ()))
     for given, other in pairs if without else ():
         with_one = asked.positive(given, other)
         if with_one.certainty and with_one.share in (Share.ALWAYS, Share.SOMETIMES):
@@ -210,5 +210,5 @@ def resting_on(finding: Finding, equal: Grade, why: Evidence | None = None) -> F
     return replace(finding, certainty=certainty, safety=safety)
 
 
-def _is_odd(found: Identifiability) -> bool:
-    return found.least == found.most and found.least % 2 == 1
+def _is_odd(answer: Identifiability) -> bool:
+    return answer.least == answer.most and answer.least % 2 == 1

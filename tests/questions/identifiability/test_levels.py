@@ -22,9 +22,10 @@ from disting.questions.identifiability import (
     identifiabilities,
     identifiability,
 )
-from disting.questions.identifiability.analysis import judged, scalings
+from disting.questions.identifiability.analysis import judged
+from disting.questions.identifiability.scalings import integer_kernel, scalings
 from disting.questions.identifiability.solutions import Listing, foster_count, images
-from disting.questions.identifiability.tangent import integer_kernel, short_vectors
+from disting.questions.identifiability.tangent import short_vectors
 
 
 def levels(n_masses, damped):
