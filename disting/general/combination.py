@@ -27,6 +27,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from disting.errors import InputError
+from disting.general.listed import is_in_one_variable
 from disting.general.model import Model, Terms
 from disting.general.target import rational_values, target, value_at
 
@@ -72,6 +73,8 @@ def _scaled(
     """All c_i/g_i; None where the models have other coefficients, or at p fewer or common roots."""
     mine, theirs = _coefficients(given), _coefficients(other)
     if [bool(t) for t in mine] != [bool(t) for t in theirs]:
+        return None
+    if not is_in_one_variable(given.powers, other.powers):
         return None
     try:
         goal = target(given, rational_values(given, values))
