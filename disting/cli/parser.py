@@ -236,10 +236,17 @@ def parser(*, whole: bool = True) -> argparse.ArgumentParser:
     return top
 
 
+BEGIN = """begin with:
+  a measurement  disting fit FILE.csv, or disting fit --demo without one
+  a machine      disting report 3, and "Describe your machine" on the page it writes
+  two models     disting compare 3:1 3:11
+"""
+
+
 def epilog() -> str:
-    """The conditions, and what exit statuses mean."""
+    """Where to begin, the conditions, and what exit statuses mean."""
     rows = (f"  {r.name}  {r.title}: {r.text}" for r in RULES.values() if r.is_condition)
-    return "\n".join(["conditions:", *rows, "", STATUS])
+    return "\n".join([BEGIN, "conditions that verdicts name:", *rows, "", STATUS])
 
 
 def _add_command(to: Subparsers, command: Command, whole: bool) -> None:
