@@ -293,6 +293,9 @@ class _Parser(argparse.ArgumentParser):
         if rest:
             options = [name for action in self._actions for name in _offered(action)]
             meant = [near(word.partition("=")[0], options) for word in rest if word[0:1] == "-"]
+            own = [word for word in args or () if word.lower().endswith(".json")]
+            if own and not meant:  # names of models after the file that holds them
+                meant = [f"; a model of a file is written {own[0]}:NAME"]
             self.error(f"unrecognized arguments: {' '.join(rest)}{''.join(meant)}")
         return found, rest
 
