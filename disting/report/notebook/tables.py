@@ -8,6 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
+from disting.catalogs.sizes_files import SizesCatalog
 from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
 from disting.fit.judge.candidate import Candidate
@@ -251,6 +252,12 @@ def _models(shown: ModelList) -> str:
         table(["model", "parameters", "transfer function"], rows),
         more(len(shown), "models", "Iterate over it for all."),
     )
+
+
+@table_of.register
+def _sizes(shown: SizesCatalog) -> str:
+    rows = [(c.name, plural(len(c.family), "model")) for c in shown.catalogs]
+    return block(line(f"{shown.name}: all pairs of", bold=True), table(["catalogue", ""], rows))
 
 
 def _formula(shown: Model | MatrixModel) -> str:
