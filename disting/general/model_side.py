@@ -37,6 +37,7 @@ from disting.general.model_inclusions import (
     n_elements,
     numberings,
 )
+from disting.general.network_model import NetworkModel, behaviour_of
 from disting.general.readings import readings, told
 from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
@@ -84,9 +85,9 @@ class ComparedModel(Side[AnyModel]):
     """A model with one transfer function or with a matrix of them."""
 
     @property
-    def model(self) -> GeneralModel:
+    def model(self) -> GeneralModel | NetworkModel:
         """The transfer functions, whatever they are called."""
-        return GeneralModel(unnamed(self.subject))
+        return behaviour_of(self.subject)
 
     @property
     def chain(self) -> Chain | None:
@@ -253,7 +254,7 @@ def positive_question(
 
 
 def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
-    return left.model.model, right.model.model
+    return unnamed(left.subject), unnamed(right.subject)
 
 
 def _unnamed(
@@ -287,7 +288,7 @@ def _constants(left: AnyModel, right: AnyModel) -> Finding:
     """Transfer functions without parameters: unequal numbers, known exactly, tell the models
     apart.
     """
-    values = [GeneralModel(model).constants(None) for model in (left, right)]
+    values = [behaviour_of(model).constants(None) for model in (left, right)]
     differing = tuple(
         label for label, x in values[0].items() if label in values[1] and x != values[1][label]
     )
