@@ -1,6 +1,5 @@
 """A network at a point of its values, without polynomials in them: numerator and denominator of the
-transfer function with their derivatives modulo a prime, and, over the integers, which powers of s
-occur.
+transfer function with their derivatives modulo a prime.
 
     G(s) = s^q c^T P^-1 b,   D = det P,   N = s^q c^T adj(P) b
 
@@ -12,19 +11,15 @@ vector, x = P^-1 b, y = P^-1 c and h = v^T P^-1 v:
 The degree in s is at most the sum of the highest powers of all rows; so many numbers s and one
 more give the coefficients. Reciprocal networks without gears: P is symmetric. Node 0 has no row.
 A value that divides enters as 1/p; both sides are multiplied by it.
-
-Every coefficient is a sum of products of values, one for each tree (D) or each forest (N), and all
-have one sign where both ports are between the same two nodes or end at the ground. So they do not
-cancel, and what is not zero where all values are 1 is not zero. There the coefficients are whole
-numbers, read as the digits of D and N at s = 2^B, with 2^B above their sum.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from flint import fmpz_mat, nmod_mat, nmod_poly
+from flint import nmod_mat, nmod_poly
 
+from disting.algebra.quotient import Quotient, lowest_terms
 from disting.network.network import Network
 
 REMEMBERED = 1024  # assemblies
@@ -205,52 +200,12 @@ def _turned(
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Counts:
-    """How many terms the coefficients of s^0, s^1, .. of both sides have, where none cancel, and
-    the largest degree of a term in the values.
+def quotient_at(of: Assembly, point: Sequence[int], modulus: int) -> Quotient:
+    """N/D in lowest terms at a point without zeros; both sides are zero where P cannot be
+    inverted.
     """
-
-    num: tuple[int, ...]
-    den: tuple[int, ...]
-    degree: int
-
-
-@lru_cache(maxsize=REMEMBERED)
-def counts(of: Assembly) -> Counts:
-    """Those of an assembly whose `sign` is not 0."""
-    num, den = _digits(of, [e.power for e in of.entries])
-    divide = sum(e.divides for e in of.entries)
-    others = _digits(of, [int(not e.divides) for e in of.entries])
-    # of n factors k do not divide: these are left, and the values that divide but for n - k
-    degrees = [
-        2 * (len(side) - 1) + divide - n
-        for side, n in zip(others, (of.size - 1, of.size), strict=True)
-        if side
-    ]
-    return Counts((0,) * of.gained + num if num else (), den, max(degrees))
-
-
-def _digits(of: Assembly, powers: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Coefficients of c^T adj P b and det P, but for a sign, with the number s^power for each
-    entry.
-    """
-    bits = max(_at_ones(of, [1] * len(powers))).bit_length()
-    sides = _at_ones(of, [1 << bits * power for power in powers])
-    mask = (1 << bits) - 1
-    num, den = (
-        tuple(side >> at & mask for at in range(0, side.bit_length(), bits)) for side in sides
-    )
-    return num, den
-
-
-def _at_ones(of: Assembly, terms: Sequence[int]) -> tuple[int, int]:
-    """c^T adj P b times its sign, and det P, over the integers."""
-    rows = of.rows(terms)
-    edges = [[0] * of.size for _ in range(2)]
-    for edge, port in zip(edges, (of.force, of.sensor), strict=True):
-        for i, x in port:
-            edge[i] = x
-    above = [[*row, x] for row, x in zip(rows, edges[0], strict=True)]
-    bordered = fmpz_mat([*above, [*(-x for x in edges[1]), 0]])
-    return of.sign * int(bordered.det()), int(fmpz_mat(rows).det())
+    found = sides_at(of, point, modulus)
+    if found is None:
+        zero = nmod_poly([0], modulus)
+        return Quotient(zero, zero, (), ())
+    return lowest_terms(found.num, found.den, found.num_derivatives, found.den_derivatives)
