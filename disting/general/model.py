@@ -31,7 +31,7 @@ from disting.model.names import name_of, names_another
 from disting.model.presentation import Shown, plural, summary
 from disting.network.chains import as_chain, of_chain
 from disting.network.expansion import transfer_functions as network_functions
-from disting.network.forests import counts_of
+from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
 
 MOST_SYMBOLS = 300
@@ -164,9 +164,7 @@ class Model(Shown):
     @property
     def written_fields(self) -> dict[str, object]:
         """All fields; of a network whose terms are counted all but the terms, which follow."""
-        network = self.network
-        counted = network is not None and counts_of(network, self.powers.halves) is not None
-        left_out = TERMS if counted else ()
+        left_out = () if self._counts is None else TERMS
         return {f.name: getattr(self, f.name) for f in fields(self) if f.name not in left_out}
 
     if not TYPE_CHECKING:  # other names that are missing are still found by the checker of types
@@ -225,7 +223,22 @@ class Model(Shown):
     @property
     def degrees(self) -> tuple[int, int]:
         """Degrees of numerator and denominator in s, or in v."""
+        if self._counts is not None:
+            return self._counts.degrees
         return len(self.numerator_terms) - 1, len(self.denominator_terms) - 1
+
+    @property
+    def n_terms(self) -> int:
+        """Number of the terms of all coefficients."""
+        if self._counts is not None:
+            return sum((*self._counts.num, *self._counts.den))
+        return sum(map(len, (*self.numerator_terms, *self.denominator_terms)))
+
+    @property
+    def _counts(self) -> Counts | None:
+        """What is known of a network without its terms."""
+        network = self.network
+        return None if network is None else counts_of(network, self.powers.halves)
 
     def __str__(self) -> str:
         return f"G(s) = {printed(self.expression(evaluate=False))}"

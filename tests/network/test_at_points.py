@@ -2,22 +2,26 @@
 values, derivatives and profiles.
 """
 
+import pickle
 import random
 
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from disting import Query, View, compare
 from disting.algebra.sampling import prime
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.errors import InputError
 from disting.general.any_model import of_network, unnamed
 from disting.general.behaviour import GeneralModel
+from disting.general.expansion import TooLargeError
 from disting.general.network_model import NetworkModel, behaviour_of
 from disting.model.question import Settings
 from disting.network.families import family_of
 from disting.network.notation import network_of
+from disting.verdict.result import Relation
 from tests.network.drawn import built, descriptions
 
 
@@ -27,6 +31,8 @@ def agrees(model, draw):
     if not isinstance(at_points, NetworkModel):
         return False
     assert at_points.parameters == written.parameters
+    terms = sum(map(len, (*model.numerator_terms, *model.denominator_terms)))
+    assert (model.n_terms, model.degrees) == (terms, written.degrees[0])
     assert (at_points.degrees, at_points.n_states) == (written.degrees, written.n_states)
     for markov in (None, 4):
         assert at_points.constants(markov) == written.constants(markov)
@@ -89,3 +95,29 @@ def test_what_is_not_seen_has_no_derivatives() -> None:
 @pytest.mark.parametrize("text", ["R0-p(W1,R1)", "R0-p(R1,C1)-W1"])
 def test_half_powers(text) -> None:
     assert agrees(of_network(network_of(text)), random.Random(3))
+
+
+def test_terms_are_written_out_when_they_are_asked_for() -> None:
+    network = network_of("1=2=3, 2=4; F1; S4")
+    late, soon = of_network(network), of_network(network)
+    whole = late.n_terms, late.degrees, str(soon)
+    assert soon == late and hash(soon) == hash(late) and str(late) == whole[2]
+    assert pickle.loads(pickle.dumps(of_network(network))) == soon  # as workers get it
+    with pytest.raises(AttributeError, match="no attribute 'numerators'"):
+        _ = late.numerators
+
+
+LARGE = "=".join(map(str, range(1, 11)))
+
+
+@pytest.mark.parametrize(
+    ("branch", "relation"),
+    [("6=11, 11=12", Relation.UNDECIDED), ("5=11", Relation.DISTINGUISHABLE)],
+)
+def test_networks_with_too_many_terms(branch, relation) -> None:
+    """Profiles may tell them apart; what needs the terms is left open, and said."""
+    left, right = (network_of(f"{LARGE}, {b}; F1; S10") for b in ("5=11, 11=12", branch))
+    found = compare(left, right, query=Query(View.EXACT, inclusion=False))
+    assert found.relation is relation
+    with pytest.raises(TooLargeError, match="grow too large"):
+        _ = of_network(left).numerator
