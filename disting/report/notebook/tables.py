@@ -265,8 +265,9 @@ def _formula(shown: Model | MatrixModel) -> str:
     if isinstance(shown, MatrixModel):
         outputs, inputs = shown.shape
         return f"{plural(outputs, 'output')}, {plural(inputs, 'input')}"
-    terms = sum(map(len, (*shown.numerator_terms, *shown.denominator_terms)))
-    return str(shown) if terms <= 30 else f"{plural(shown.n_states, 'state')}, {terms} terms"
+    if shown.n_terms <= 30:
+        return str(shown)
+    return f"{plural(shown.n_states, 'state')}, {shown.n_terms} terms"
 
 
 @table_of.register(Further)
