@@ -318,5 +318,5 @@ def test_a_resonance_between_two_lines_is_named(step, said):
     values = {"m1": 1.0, "m2": 1e-3, "k12": 36.0, "d12": 1e-5}
     hertz = 30.2 + step * np.arange(-12.3, 13)
     found = select(response(drive, values, 2 * np.pi * hertz, noise=1e-5), [drive])
-    named = [line for line in suspicions(found) if "both between two lines" in line]
+    named = [line for line in suspicions(found) if "Both lie between two measured lines" in line]
     assert bool(named) == said, suspicions(found)
