@@ -190,7 +190,9 @@ def test_the_bench_and_its_demonstration_are_explained():
     found = select(train, [replace(DRIVE, dead_time=True)], test=test)
     assert found.explanation.chi2 == pytest.approx(0.860, abs=0.01) and found.explanation.explains
     assert found.explanation.scatter.source == "the difference of training and test data"
-    assert any("the machine changed between them, for example its friction" in s for s in suspicions(found))
+    assert any(
+        "the machine changed between them, for example its friction" in s for s in suspicions(found)
+    )
 
 
 @pytest.mark.parametrize("noise", [0.003, 0.01, 0.03])
