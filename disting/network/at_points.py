@@ -130,9 +130,11 @@ def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
     numbers, seen = list[int](), list[list[int]]()
     for s in range(1, 2 * wanted + 1):
         row = _at_number(of, values, s, modulus)
-        if row and len(seen) < wanted:
+        if row:
             numbers.append(s)
             seen.append(row)
+        if len(seen) == wanted:
+            break
     if len(seen) < wanted:
         return None
     powers = nmod_mat(

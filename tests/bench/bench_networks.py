@@ -18,10 +18,12 @@ from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation, drawn
 from disting.errors import InputError
 from disting.general.any_model import of_network
-from disting.general.behaviour import GeneralModel
+from disting.general.network_model import behaviour_of
 from disting.model.question import Settings
+from disting.network.at_points import assembly
 from disting.network.chains import of_chain
 from disting.network.families import circuits, family_of
+from disting.network.forests import counts, counts_of
 from disting.network.notation import network_of
 from disting.simulation import frequency_response
 from disting.verdict.result import Relation
@@ -118,7 +120,10 @@ def networks_of_size(n):
 
 
 def profiled(network):
-    return one_profile(GeneralModel(of_network(network)))
+    """The model made of the network and its profile, nothing kept from before."""
+    for kept in (assembly, counts, counts_of):
+        kept.cache_clear()
+    return one_profile(behaviour_of(of_network(network)))
 
 
 def one_profile(model):
@@ -159,7 +164,7 @@ def test_growth(benchmark) -> None:
             row.append(said)
         rows.append(tuple(row))
     table(
-        "One profile with its expansion, CPU, in times of the chain's recurrence in brackets",
+        "One profile, CPU, in times of the chain's recurrence in brackets",
         ("masses", "chain", "the chain as a network", "with a branch", "with a loop"),
         rows,
     )

@@ -80,7 +80,7 @@ def test_no_expression_ends_the_interpreter():
     done = subprocess.run(
         [sys.executable, "-c", CRASHED], capture_output=True, text=True, check=False
     )
-    assert done.returncode == 1 and "InputError: the expressions grow too large" in done.stderr
+    assert done.returncode == 1 and "TooLargeError: the expressions grow too large" in done.stderr
 
 
 def drawn(source, depth):
