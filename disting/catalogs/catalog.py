@@ -244,7 +244,7 @@ class Catalog(Shown):
             "view": view.value,
             "verdicts": verdicts,
         }
-        return json.dumps(plain, ensure_ascii=False) + "\n"
+        return json.dumps(plain, ensure_ascii=False, separators=(",", ":")) + "\n"
 
     def _row(self, record: Record, group: int) -> ModelRow:
         number, (numerator, denominator) = record["model"], record["degrees"]

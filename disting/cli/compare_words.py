@@ -175,10 +175,9 @@ def in_letters(
     if chain is not None:
         return text_drawing(chain)
     entries = side.entries if isinstance(side, MatrixModel) else (side,)
-    parts = [terms for e in entries for terms in (*e.numerator_terms, *e.denominator_terms)]
     circuit = side.network is not None and side.network.sort is Sort.CIRCUIT
     letter = "Z" if circuit else "G"  # an impedance is called so
-    if sum(map(len, parts)) <= most_terms:
+    if sum(e.n_terms for e in entries) <= most_terms:
         return letter + str(side).removeprefix("G")
     if isinstance(side, MatrixModel):
         return "{}(s) with {} outputs and {} inputs{}".format(letter, *side.shape, longer)

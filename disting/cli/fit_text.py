@@ -134,7 +134,11 @@ def _set(found: Selection) -> Iterator[str]:
         )
         for twin in m.twins:
             values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
-            free = f" (one of a family, {twin.free_choices} free)" if twin.free_choices else ""
+            free = (
+                f" (one of many sets of values, {twin.free_choices} free)"
+                if twin.free_choices
+                else ""
+            )
             yield f"    may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
         if m.open:
             yield f"    not decided: {', '.join(m.open)}"

@@ -236,10 +236,17 @@ def parser(*, whole: bool = True) -> argparse.ArgumentParser:
     return top
 
 
+BEGIN = """begin with:
+  a measurement  disting fit FILE.csv, or disting fit --demo without one
+  a machine      disting report 3, and "Describe your machine" on the page it writes
+  two models     disting compare 3:1 3:11
+"""
+
+
 def epilog() -> str:
-    """The conditions, and what exit statuses mean."""
+    """Where to begin, the conditions, and what exit statuses mean."""
     rows = (f"  {r.name}  {r.title}: {r.text}" for r in RULES.values() if r.is_condition)
-    return "\n".join(["conditions:", *rows, "", STATUS])
+    return "\n".join([BEGIN, "conditions that verdicts name:", *rows, "", STATUS])
 
 
 def _add_command(to: Subparsers, command: Command, whole: bool) -> None:
@@ -286,6 +293,9 @@ class _Parser(argparse.ArgumentParser):
         if rest:
             options = [name for action in self._actions for name in _offered(action)]
             meant = [near(word.partition("=")[0], options) for word in rest if word[0:1] == "-"]
+            own = [word for word in args or () if word.lower().endswith(".json")]
+            if own and not meant:  # names of models after the file that holds them
+                meant = [f"; a model of a file is written {own[0]}:NAME"]
             self.error(f"unrecognized arguments: {' '.join(rest)}{''.join(meant)}")
         return found, rest
 

@@ -1,5 +1,20 @@
 """Equivalent models with their values: what else a measured system could be, as numbers and as
 formulas.
+
+>>> from disting.equivalence import equivalents, explicit_map, gate
+>>> values = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 50, "d12": "0.1", "d23": "0.3"}
+>>> found = equivalents("3:1", values, "3:11")  # Equivalents, a Listing for each structure
+>>> (member,) = found.listings[0].members
+>>> member.text["m1"], member.signs.value, member.origin.value  # of Signs, Origin
+('4.8', 'positive', 'duality theorem')
+>>> str(explicit_map("3:1", "3:11").at(values)["m1"])  # of a Map
+'24/5'
+
+Before many candidates are fitted a Gate says which are the same:
+
+>>> from disting import network_of
+>>> gate([network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")]).kept
+('R0-p(R1,C1)',)
 """
 
 from disting.equivalence.duplicates import Gate as Gate

@@ -4,6 +4,16 @@
 `machine_model` what it reveals, `exact` decides what conditions leave open, `machine_side`
 makes a measured chain a side of a comparison, `places` tells which mass of one model is which of
 the other.
+
+>>> from disting import Chain
+>>> from disting.experiments import moved, named, ways
+>>> asked = named("sensor=2")  # a Named experiment
+>>> ways(Chain(2), Chain(2), [asked])  # each of them Places
+[((2, 1),), ((2, 2),)]
+>>> moved(asked.experiment, ((2, 1),))
+Experiment(sensor=1)
+
+`confirms` finds evidence of a verdict under experiments again, as `disting.verify` does.
 """
 
 from disting.experiments.changes import GENERIC as GENERIC

@@ -21,6 +21,7 @@ from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import NoEquivalent, Point, Witnesses
 from disting.general import listed
+from disting.general.combination import excludes
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
 from disting.general.formulas import explicit, fit
@@ -82,8 +83,10 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
         return _sometimes(_witnesses(left, right, having, lacking, domain))
     if not lacking and all(one and (one.covering or one.path()) for one in ways):
         return _always(ways, domain)
-    if domain is Domain.POSITIVE and (found := _by_lists(left, right, seed, LISTED)):
-        return _sometimes(found)
+    if domain is Domain.POSITIVE:
+        found = _by_lists(left, right, seed, LISTED) or _by_combination(left, right, seed, having)
+        if found:
+            return _sometimes(found)
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
@@ -134,7 +137,11 @@ def _has_none(
     if domain is Domain.POSITIVE and listed.lacking(given, values, other):
         return True
     one = way(given, other, domain)
-    return bool(one and one.lacking(values))
+    if one and one.lacking(values):
+        return True
+    if domain is not Domain.POSITIVE or not isinstance(given, Model):
+        return False
+    return isinstance(other, Model) and excludes(given, values, other)
 
 
 def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
@@ -229,6 +236,22 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
             lacking.append((left_given, _written(values), ()))
         if having and lacking:
             return _witnesses(left, right, having[0], lacking[0], Domain.POSITIVE)
+    return None
+
+
+def _by_combination(
+    left: AnyModel, right: AnyModel, seed: str, having: Found | None
+) -> Witnesses | None:
+    """With a point that has a positive equivalent, one that has none by a combination of the
+    equations.
+    """
+    if having is None or not (isinstance(left, Model) and isinstance(right, Model)):
+        return None
+    for left_given, given, other in ((True, left, right), (False, right, left)):
+        for values in islice(points(given, Domain.POSITIVE, seed), LISTED):
+            if excludes(given, values, other):
+                lacking = left_given, _written(values), ()
+                return _witnesses(left, right, having, lacking, Domain.POSITIVE)
     return None
 
 

@@ -93,22 +93,9 @@ class GeneralModel:
         return tuple(value for value, _ in rows), list(zip(*slopes, strict=True))
 
     def minor_size(self, markov: int | None) -> Size:
-        """Bounds for the cleared minors of the Jacobian, from the degrees and coefficients that the
-        transfer functions have: those of the largest entry, where a difference of two denominators
-        has both leading coefficients below it, so twice the power.
-
-        Coefficients of numerator and denominator have a degree of d at most in the parameters, and
-        numbers whose sizes sum to 2^h at most. Entry i of the summary is a polynomial over power w
-        of the leading coefficient: w = 1 for coefficients of the monic form, w = i + 1 for Markov
-        parameters, whose recurrence adds at most 2^i products of w coefficients (i counts from
-        G_-k, if the numerator has a degree larger by k). So a cleared derivative has degree (w + 1)
-        d and numbers whose sizes add up to 2 w d 2^(i + (w + 1) h).
-        """
-        above = max(0, *(top - bottom for top, bottom in self.degrees))
-        power, rank = 2 if markov is None else markov + above + 2, len(self.parameters)
-        sizes = [size_of_minors(power, *_largest(entry), rank) for entry in self.model.entries]
-        twice = 1 + (len(sizes) > 1)
-        return Size(twice * max(s.degree for s in sizes), twice * max(s.bits for s in sizes))
+        """Bounds for the cleared minors of the Jacobian."""
+        largest = [_largest(entry) for entry in self.model.entries]
+        return summary_size(self.degrees, largest, len(self.parameters), markov)
 
     def constants(self, markov: int | None) -> Mapping[str, str]:
         """The exact values of those that are proven constant."""
@@ -124,6 +111,27 @@ class GeneralModel:
             named = (label(n, i, shared) if self.is_numbered else n for n in known)
             found |= dict(zip(named, map(str, known.values()), strict=True))
         return found
+
+
+def summary_size(
+    degrees: Sequence[Degrees], largest: Sequence[tuple[int, int]], rank: int, markov: int | None
+) -> Size:
+    """Bounds for the cleared minors of the Jacobian, from the degrees and coefficients that the
+    transfer functions have: those of the largest entry, where a difference of two denominators
+    has both leading coefficients below it, so twice the power.
+
+    Coefficients of numerator and denominator have a degree of d at most in the parameters, and
+    numbers whose sizes sum to 2^h at most. Entry i of the summary is a polynomial over power w
+    of the leading coefficient: w = 1 for coefficients of the monic form, w = i + 1 for Markov
+    parameters, whose recurrence adds at most 2^i products of w coefficients (i counts from
+    G_-k, if the numerator has a degree larger by k). So a cleared derivative has degree (w + 1)
+    d and numbers whose sizes add up to 2 w d 2^(i + (w + 1) h).
+    """
+    above = max(0, *(top - bottom for top, bottom in degrees))
+    power = 2 if markov is None else markov + above + 2
+    sizes = [size_of_minors(power, *entry, rank) for entry in largest]
+    twice = 1 + (len(sizes) > 1)
+    return Size(twice * max(s.degree for s in sizes), twice * max(s.bits for s in sizes))
 
 
 def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> tuple[int, list[int]]:
@@ -187,6 +195,13 @@ def _constants(model: Model, markov: int | None) -> dict[str, Fraction]:
         [_ratio(terms, lead) for terms in side]
         for side in (model.numerator_terms, model.denominator_terms)
     )
+    return known_invariants(top, bottom, markov)
+
+
+def known_invariants(
+    top: list[Known], bottom: list[Known], markov: int | None
+) -> dict[str, Fraction]:
+    """The same from what is known of the coefficients over the leading one."""
     sides = {"b": top, "a": bottom[:-1]} if markov is None else {"G": _series(top, bottom, markov)}
     first = {"b": 0, "a": 0, "G": min(0, len(bottom) - len(top))}
     named = (

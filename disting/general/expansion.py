@@ -29,6 +29,14 @@ TOO_LARGE = (
     " powers or states"
 )
 
+
+class TooLargeError(InputError):
+    """Raised before what would grow too large is multiplied out."""
+
+    def __init__(self) -> None:
+        super().__init__(TOO_LARGE)
+
+
 Term = tuple[Fraction, dict[str, int]]
 """A number times powers of symbols."""
 Operation = Callable[[RationalFunction, RationalFunction], RationalFunction]
@@ -71,7 +79,7 @@ class Expansion:
         if bits > LONGEST or any(
             x + y > HIGHEST_DEGREE for x, y in zip(a.degrees(), b.degrees(), strict=True)
         ):
-            raise InputError(TOO_LARGE)
+            raise TooLargeError
         return a * b
 
     def ratio(self, num: fmpz_mpoly, den: fmpz_mpoly) -> RationalFunction:
@@ -114,7 +122,7 @@ class Expansion:
         terms, degrees = len(base), [n * int(d) for d in base.degrees()]
         bits = n * (_bits(base) + max(terms, 1).bit_length())
         if max(degrees, default=0) > HIGHEST_DEGREE or (bits > LONGEST and not base.is_one()):
-            raise InputError(TOO_LARGE)
+            raise TooLargeError
         most = min(comb(n + terms - 1, n) if terms else 1, prod(d + 1 for d in degrees))
         return most * max(terms, 1) * (1 + bits // 64)
 
@@ -151,7 +159,7 @@ class Expansion:
             for name, n in term[1].items():
                 powers[name] = powers.get(name, 0) + n
             if _length(number) > LONGEST or any(n > HIGHEST_DEGREE for n in powers.values()):
-                raise InputError(TOO_LARGE)
+                raise TooLargeError
         return number, powers
 
     def _gathered(self, terms: Sequence[Term]) -> RationalFunction:
@@ -167,14 +175,14 @@ class Expansion:
             total[key] = total.get(key, Fraction(0)) + number
             below = lcm(below, number.denominator)
             if below.bit_length() > LONGEST:
-                raise InputError(TOO_LARGE)
+                raise TooLargeError
         whole = {key: int(number * below) for key, number in total.items() if number}
         return self.ratio(self.one.context().from_dict(whole), self.one * below)
 
     def _spend(self, work: float) -> None:
         self.left -= STEP + work * (1 + len(self.ring) // 8)
         if self.left < 0:
-            raise InputError(TOO_LARGE)
+            raise TooLargeError
 
 
 def _over(num: fmpz_mpoly, den: fmpz_mpoly) -> RationalFunction:

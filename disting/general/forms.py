@@ -22,9 +22,9 @@ from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced
 from disting.evidence.seen import seen
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed
-from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import confirms_models
+from disting.general.network_model import behaviour_of
 from disting.general.replacement import simplest_network
 from disting.model.question import Domain
 from disting.network.inverse import at_inverse
@@ -122,7 +122,7 @@ def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
 
 def _rank(model: AnyModel) -> int:
     """At least so large is the dimension of its functions: a rank modulo a prime."""
-    return seen(GeneralModel(model)).rank(Representation.TF)
+    return seen(behaviour_of(model)).rank(Representation.TF)
 
 
 def _with_network(model: AnyModel, network: Network) -> AnyModel:

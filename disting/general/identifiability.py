@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty, graded
 from disting.errors import of_type
 from disting.general.any_model import cells_of, map_of
-from disting.general.behaviour import GeneralModel
 from disting.general.exponents import determined, may_be_others
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import OTHER_ORDER, ComparedModel
+from disting.general.network_model import behaviour_of
 from disting.model.presentation import summary
 from disting.model.question import Question, Settings
 from disting.questions.identifiability import (
@@ -65,7 +65,7 @@ def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> Loc
     ((), 2)
     """
     of_type(model, AnyModel, "of transfer functions it is asked of a Model or a MatrixModel")
-    found = local(GeneralModel(model), settings)
+    found = local(behaviour_of(model), settings)
     return LocalIdentifiability(
         model.parameters, found.rank, found.names, *graded(not found.safety, found.safety)
     )
@@ -80,7 +80,7 @@ def parameter_identifiability(model: AnyModel, settings: Settings) -> ParameterI
     '3 parameters, all globally identifiable.'
     """
     own = tuple(f"p{i + 1}" for i in range(len(model.parameters)))
-    known = local(GeneralModel(model), settings)
+    known = local(behaviour_of(model), settings)
     names = tuple(own[model.parameters.index(name)] for name in known.names)
     found = by_parameter(own, replace(known, names=names), map_of(model), settings)
     found = replace(found, levels=dict(zip(model.parameters, found.levels.values(), strict=True)))

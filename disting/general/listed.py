@@ -69,7 +69,7 @@ def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
     if not (isinstance(given, Model) and isinstance(other, Model)):
         return False
     network = other.network
-    if not _is_in_one_variable(given.powers, other.powers):
+    if not is_in_one_variable(given.powers, other.powers):
         return False
     if network is None or not network.sign_of_one_port or len(network.seen) > MOST_ELEMENTS:
         return False
@@ -82,7 +82,7 @@ def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
     return minors is not None and all(positive(goal, m) == () for m in minors)
 
 
-def _is_in_one_variable(one: Powers, other: Powers) -> bool:
+def is_in_one_variable(one: Powers, other: Powers) -> bool:
     """Whether both count powers of the same v."""
     weights = zip(one.weights, other.weights, strict=False)
     return one.halves == other.halves and all(a == b for (_, a), (_, b) in weights)

@@ -10,7 +10,8 @@ and its coefficients say exactly which of them vanish or are constant.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
@@ -30,9 +31,11 @@ from disting.model.names import name_of, names_another
 from disting.model.presentation import Shown, plural, summary
 from disting.network.chains import as_chain, of_chain
 from disting.network.expansion import transfer_functions as network_functions
+from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
 
 MOST_SYMBOLS = 300
+TERMS = ("numerator_terms", "denominator_terms")
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,14 +149,37 @@ class Model(Shown):
         """
         if network.shape != (1, 1):
             raise InputError("this network has several inputs or outputs: it is a MatrixModel")
-        ((ratio,),) = network_ratios(network)
-        powers = network_powers([ratio], network)
-        made = _model(ratio, network.parameters, network.name, powers)
+        if counts_of(network, network.halves) is None:
+            ((ratio,),) = network_ratios(network)
+            powers = network_powers([ratio], network)
+            made = _model(ratio, network.parameters, network.name, powers)
+        else:
+            made = _unwritten(network)
         object.__setattr__(made, "network", network)
         chain = as_chain(network)
         if chain is not None and not names_another(network.name, chain):
             object.__setattr__(made, "chain", chain)
         return made
+
+    @property
+    def written_fields(self) -> dict[str, object]:
+        """All fields; of a network whose terms are counted all but the terms, which follow."""
+        left_out = () if self._counts is None else TERMS
+        return {f.name: getattr(self, f.name) for f in fields(self) if f.name not in left_out}
+
+    if not TYPE_CHECKING:  # other names that are missing are still found by the checker of types
+
+        def __getattr__(self, name: str) -> object:
+            """The terms of a network that are only counted are written out when they are first
+            asked for; raises InputError where they are too many.
+            """
+            if name not in TERMS:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            ((ratio,),) = network_ratios(self.network)
+            written = _model(ratio, self.parameters, self.name, self.powers)
+            for side in TERMS:
+                object.__setattr__(self, side, getattr(written, side))
+            return getattr(self, name)
 
     @property
     def numerator(self) -> tuple[fmpz_mpoly, ...]:
@@ -197,7 +223,22 @@ class Model(Shown):
     @property
     def degrees(self) -> tuple[int, int]:
         """Degrees of numerator and denominator in s, or in v."""
+        if self._counts is not None:
+            return self._counts.degrees
         return len(self.numerator_terms) - 1, len(self.denominator_terms) - 1
+
+    @property
+    def n_terms(self) -> int:
+        """Number of the terms of all coefficients."""
+        if self._counts is not None:
+            return sum((*self._counts.num, *self._counts.den))
+        return sum(map(len, (*self.numerator_terms, *self.denominator_terms)))
+
+    @property
+    def _counts(self) -> Counts | None:
+        """What is known of a network without its terms."""
+        network = self.network
+        return None if network is None else counts_of(network, self.powers.halves)
 
     def __str__(self) -> str:
         return f"G(s) = {printed(self.expression(evaluate=False))}"
@@ -268,6 +309,20 @@ def _model(
     if not parameters:
         raise InputError("a parametric model has at least one parameter")
     return entry_of(ratio, parameters, name, powers)
+
+
+def _unwritten(network: Network) -> Model:
+    """The model of a network whose terms are counted, but not written out yet."""
+    made = object.__new__(Model)
+    for name, value in (
+        ("parameters", network.parameters),
+        ("name", network.name),
+        ("powers", Powers(network.halves)),
+        ("network", network),
+        ("chain", None),
+    ):
+        object.__setattr__(made, name, value)
+    return made
 
 
 def entry_of(

@@ -15,10 +15,10 @@ from disting.fibres.ideals import Limits, seen_again
 from disting.general.admissible import are_one_ports
 from disting.general.admissible import confirms as confirms_points
 from disting.general.any_model import is_renamed, maps_of
-from disting.general.behaviour import GeneralModel
 from disting.general.formulas import is_explicit, is_without
 from disting.general.matrix_model import AnyModel
 from disting.general.model_inclusions import numberings
+from disting.general.network_model import behaviour_of
 from disting.model.question import Settings
 from disting.questions.same.exact import by_labels
 
@@ -35,8 +35,8 @@ def confirms_models(
     Raises NotSeenError where a contradiction takes too long.
     """
     pair = SeenPair(
-        left=seen(GeneralModel(left)),
-        right=seen(GeneralModel(right)),
+        left=seen(behaviour_of(left)),
+        right=seen(behaviour_of(right)),
         renames=partial(is_renamed, left, right),
         found_again=partial(_found_again, left=left, right=right),
         numberings=lambda left_is_part: numberings(
@@ -78,7 +78,7 @@ def exact_again(
 
 def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
     """Whether these are constants of both models that differ, by their exact values."""
-    sides = [GeneralModel(model).constants(None) for model in (left, right)]
+    sides = [behaviour_of(model).constants(None) for model in (left, right)]
     told = (evidence.left, evidence.right)
     found = [tuple(map(side.get, evidence.labels)) for side in sides]
     differ = all(a != b for a, b in zip(*found, strict=True))

@@ -13,8 +13,8 @@ from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import Minor
-from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import AnyModel
+from disting.general.network_model import behaviour_of
 from disting.model.question import Settings
 from disting.network.branches import branches, rest_of, taken_away
 from disting.network.minors import Places, is_minor, left_out, minors
@@ -54,7 +54,7 @@ def confirms_inclusion(
         return evidence.left_is_part == left_is_smaller and _is_what_remains(evidence, *pair)
     if not _by_degrees(left, right):
         return False
-    fresh = [profile(GeneralModel(m), Representation.TF, 0, FRESH) for m in (left, right)]
+    fresh = [profile(behaviour_of(m), Representation.TF, 0, FRESH) for m in (left, right)]
     found = _by_profiles((fresh[0], fresh[1]), left_is_smaller)
     return found is not None and found.evidence == evidence
 

@@ -28,6 +28,7 @@ from disting.general import model_evidence
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
+from disting.general.expansion import TooLargeError
 from disting.general.exponents import determined
 from disting.general.forms import by_forms, by_inverse, confirms_forms
 from disting.general.matrix_model import AnyModel
@@ -37,6 +38,7 @@ from disting.general.model_inclusions import (
     n_elements,
     numberings,
 )
+from disting.general.network_model import NetworkModel, behaviour_of
 from disting.general.readings import readings, told
 from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
@@ -46,6 +48,7 @@ from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
+TOO_MANY_TERMS = "the transfer functions have too many terms"
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
@@ -84,9 +87,9 @@ class ComparedModel(Side[AnyModel]):
     """A model with one transfer function or with a matrix of them."""
 
     @property
-    def model(self) -> GeneralModel:
+    def model(self) -> GeneralModel | NetworkModel:
         """The transfer functions, whatever they are called."""
-        return GeneralModel(unnamed(self.subject))
+        return behaviour_of(self.subject)
 
     @property
     def chain(self) -> Chain | None:
@@ -132,8 +135,8 @@ class ComparedModel(Side[AnyModel]):
     @property
     def rank(self) -> int:
         """Number of determinable parameters, exponents too."""
-        size = len(self.subject.powers.weights)
-        return self.transfer_profile.rank + determined(cells_of(self.subject), size)[0]
+        size, found = len(self.subject.powers.weights), self.transfer_profile.rank
+        return found + determined(cells_of(self.subject), size)[0] if size else found
 
     @property
     def n_elements(self) -> int | None:
@@ -145,8 +148,19 @@ class ComparedModel(Side[AnyModel]):
         return next(numberings(self.subject, other.subject), None)
 
     def is_renamed(self, other: "ComparedModel", renaming: dict[str, str]) -> bool:
-        """Whether renaming the parameters turns this transfer function into the other: exact."""
-        return is_renamed(self.subject, other.subject, renaming)
+        """Whether renaming the parameters turns this transfer function into the other: exact, by
+        the terms.
+        """
+        written = self.is_writable and other.is_writable
+        return written and is_renamed(self.subject, other.subject, renaming)
+
+    @cached_property
+    def is_writable(self) -> bool:
+        """Whether its terms, in which exact decisions are made, are not too many."""
+        try:
+            return all(e.numerator_terms is not None for e in self.subject.entries)
+        except TooLargeError:
+            return False
 
     def exact(self, other: "ComparedModel") -> Finding:
         """The exact decision, for equal ranks and degrees."""
@@ -159,6 +173,8 @@ class ComparedModel(Side[AnyModel]):
             )
         if one.rank == 0:
             return _constants(self.subject, other.subject)
+        if not (self.is_writable and other.is_writable):
+            return Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
         found = self.answerer(EXACTLY, _models(self, other), self.settings)
         return self._in_every_order(other, resting_on_ranks(found, one, there))
 
@@ -208,6 +224,8 @@ class ComparedModel(Side[AnyModel]):
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
+        if not (self.is_writable and other.is_writable):
+            return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
         if domain is Domain.POSITIVE and _replaceable(self, other):
             return Finding(
                 ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(REPLACEMENT)
@@ -241,7 +259,13 @@ class ComparedModel(Side[AnyModel]):
     def prepare_admissible(cls, pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
         known = domain is Domain.POSITIVE
-        left = [(a, b) for a, b in pairs if not (_renamed(a, b) or (known and _replaceable(a, b)))]
+        left = [
+            (a, b)
+            for a, b in pairs
+            if not (_renamed(a, b) or (known and _replaceable(a, b)))
+            and a.is_writable
+            and b.is_writable
+        ]
         ask(ADMISSIBLY[domain], [_unnamed(a, b, domain) for a, b in left])
 
 
@@ -253,7 +277,7 @@ def positive_question(
 
 
 def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
-    return left.model.model, right.model.model
+    return unnamed(left.subject), unnamed(right.subject)
 
 
 def _unnamed(
@@ -269,14 +293,18 @@ def _unnamed(
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
-    """Whether the exact decision is asked: ranks and degrees are equal, and something varies."""
+    """Whether the exact decision is asked: ranks and degrees are equal, something varies, and the
+    terms are not too many.
+    """
     one, other = left.transfer_profile, right.transfer_profile
-    return one.rank == other.rank > 0 and one.degrees == other.degrees
+    alike = one.rank == other.rank > 0 and one.degrees == other.degrees
+    return alike and left.is_writable and right.is_writable
 
 
 def _replaceable(left: ComparedModel, right: ComparedModel) -> bool:
     """Whether both are networks that give the same functions, special ones aside."""
-    return replaceable(left.subject, right.subject)
+    written = left.is_writable and right.is_writable
+    return written and replaceable(left.subject, right.subject)
 
 
 def _renamed(left: ComparedModel, right: ComparedModel) -> bool:
@@ -287,7 +315,7 @@ def _constants(left: AnyModel, right: AnyModel) -> Finding:
     """Transfer functions without parameters: unequal numbers, known exactly, tell the models
     apart.
     """
-    values = [GeneralModel(model).constants(None) for model in (left, right)]
+    values = [behaviour_of(model).constants(None) for model in (left, right)]
     differing = tuple(
         label for label, x in values[0].items() if label in values[1] and x != values[1][label]
     )

@@ -21,6 +21,8 @@ ProfileOf = Callable[[AnyModel], Profile]
 def readings(model: AnyModel) -> list[AnyModel]:
     """The model with its exponents in the other orders in which the same powers occur."""
     size = len(model.powers.weights)
+    if not size:
+        return []
     return [in_powers(model, model.powers, order) for order in orders(cells_of(model), size)]
 
 

@@ -56,7 +56,7 @@ def target(model: Model, values: Sequence[tuple[str, Fraction]]) -> Target:
     """
     point = [x for _, x in values]
     num, den = (
-        fmpq_poly([_fmpq(_at(c, point)) for c in side])
+        fmpq_poly([_fmpq(value_at(c, point)) for c in side])
         for side in (model.numerator_terms, model.denominator_terms)
     )
     if den.degree() < model.degrees[1]:
@@ -99,7 +99,8 @@ def _number(name: str, entry: object) -> Fraction:
     )
 
 
-def _at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
+def value_at(terms: Terms, point: Sequence[Fraction]) -> Fraction:
+    """The value of a coefficient."""
     total = Fraction(0)
     for exponents, number in terms:
         term = Fraction(number)

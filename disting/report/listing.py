@@ -9,6 +9,7 @@ from functools import cached_property
 from itertools import combinations
 
 from disting.errors import InputError
+from disting.general.any_model import unnamed
 from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
@@ -168,7 +169,7 @@ def judged(
         )
         for view in VIEWS
     }
-    asked = [(subject.model.model,) for subject in subjects]
+    asked = [(unnamed(subject.subject),) for subject in subjects]
     engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
     known = tuple(engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked)
     return JudgedList(found.models, decided, known)

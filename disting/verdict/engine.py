@@ -22,10 +22,10 @@ from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
 from disting.experiments import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
-from disting.general.any_model import on_one_variable, unnamed
-from disting.general.behaviour import GeneralModel
+from disting.general.any_model import on_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
+from disting.general.network_model import behaviour_of
 from disting.general.readings import settled
 from disting.model.chain import Chain
 from disting.model.presentation import summary
@@ -84,8 +84,7 @@ class Engine:
 
         def profile_of(model: AnyModel) -> Profile:
             """That of its transfer functions."""
-            of = GeneralModel(unnamed(model))
-            return self.profile(of, Representation.TF, 0, self.settings)
+            return self.profile(behaviour_of(model), Representation.TF, 0, self.settings)
 
         matched = [settled(model, profile_of) for model in on_one_variable(models)]
         named = zip(names or [m.name for m in models], matched, strict=True)

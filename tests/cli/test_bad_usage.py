@@ -176,3 +176,8 @@ def test_files_that_hold_no_data(capsys, tmp_path, name, content, says):
 def test_no_file_and_a_folder_are_told_apart(capsys, tmp_path):
     assert f"there is no file {tmp_path}/none.csv" in refused(capsys, "fit", f"{tmp_path}/none.csv")
     assert f"{tmp_path} is a folder" in refused(capsys, "fit", str(tmp_path))
+
+
+def test_names_after_their_file_are_told_how_they_are_written(capsys):
+    said = refused(capsys, "compare", "vessels.json", "leaks first", "leaks second")
+    assert "leaks second; a model of a file is written vessels.json:NAME" in said

@@ -3,12 +3,15 @@
 import subprocess
 import sys
 from dataclasses import replace
+from importlib import import_module
+from pkgutil import walk_packages
 from xml.etree import ElementTree
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 
+import disting
 from disting import (
     Chain,
     DistingError,
@@ -22,13 +25,19 @@ from disting import (
     compare,
     equivalents,
     explicit_map,
+    gate,
     global_identifiability,
+    network_of,
 )
 from disting.catalogs.next_files import next_catalog
+from disting.catalogs.sizes_files import sizes_catalog
 from disting.fit import figure_1, plan, predicted, select
+from disting.fit.networks import fit_networks
 from disting.measurement import FrequencyResponse
+from disting.model.presentation import Shown
 from disting.questions.identifiability import identifiability
 from disting.report import chain_svg
+from disting.report.notebook.network_tables import table_of
 
 mpl.use("Agg")
 DRIVE = Chain(2, damped=True, ground_dampers=(1,))
@@ -84,6 +93,31 @@ def test_everything_with_a_table_is_well_formed_and_short(found):
         html = one._repr_html_()
         assert len(html) < LARGEST, type(one)
         parsed(html)
+
+
+def test_whatever_is_shown_as_a_table_has_one():
+    """No kind of object breaks a cell that ends with it."""
+    every = [
+        m.name for m in walk_packages(disting.__path__, "disting.") if "__main__" not in m.name
+    ]
+    kinds = {x for name in every for x in vars(import_module(name)).values() if isinstance(x, type)}
+    tabled = [kind for kind in kinds if issubclass(kind, Shown) and kind is not Shown]
+    unknown = table_of.registry[object]
+    assert len(tabled) > 15
+    assert [kind.__name__ for kind in tabled if table_of.dispatch(kind) is unknown] == []
+
+
+def test_candidates_before_a_fit_and_networks_are_shown():
+    cell, other = network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")
+    found = gate([cell, other])
+    said = text(found._repr_html_())
+    assert "1 model to be fitted" in said and "the same" in said and "p(R0,R1-C1)" in said
+    assert "indistinguishable" in text(found.duplicates[0]._repr_html_())
+    omega = np.logspace(0, 3, 30)
+    noisy = 1 + 1e-3 * np.random.default_rng(1).normal(size=(30, 2)) @ [1, 1j]
+    data = FrequencyResponse(omega, (1 + 2 / (1 + 0.02j * omega)) * noisy, sensor="position")
+    assert "is the simplest that explains" in text(fit_networks(data, [cell, other])._repr_html_())
+    assert "chains-5-damped" in text(sizes_catalog(damped=True)._repr_html_())
 
 
 def test_a_chain_shows_the_drawing_of_the_pages_on_its_own_paper():

@@ -15,7 +15,7 @@ from disting.fit.judge.structural import with_structure
 from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.candidates import reference
-from disting.fit.search.descent import fine
+from disting.fit.search.descent import Indices, fine
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.joint import AnyCost
 from disting.fit.search.whitened import Whitened
@@ -124,7 +124,7 @@ def explains(found: Estimate, task: Task, most: Real) -> bool:
     own, size = _scatter_about(found, task), np.abs(task.cost.measured.G)
     sigma = np.minimum(own.sigma, most * size)
     known = replace(own, rho=sigma / (np.sqrt(2) * own.size))
-    missed = _expected(found, task, task.cost, known, known)
+    missed = _expected(found, task, None, known, known)
     response = _cross_validated(found, task, values_of(found, task))
     residual = Whitened(task.cost, known).residual(response)
     return explained(task.cost, residual, missed, known).explains
@@ -191,7 +191,7 @@ def _candidate(
     residual = cost.residual(response)
     near = (box.high - p <= AT_BOUND * p) | ((box.low > 0) & (p - box.low <= AT_BOUND * p))
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
-    missed = _expected(found, task, cost, *known)
+    missed = _expected(found, task, test, *known)
     whitened = Whitened(cost, known[1]).residual(response)
     return Candidate(
         chain,
@@ -207,16 +207,34 @@ def _candidate(
 
 
 def _expected(
-    found: Estimate, task: Task, judging: AnyCost, inside: Scatter, outside: Scatter
+    found: Estimate, task: Task, test: AnyCost | None, inside: Scatter, outside: Scatter
 ) -> Real:
     """What the whitened residuals on the judged data are expected to be, shape (n_y,): 1, and the
-    errors of the parameters.
+    errors of the parameters. Without test data these are errors of a fit without the line: what one
+    line alone determines, as the height of a narrow resonance, the others do not foretell.
     """
     p, free = values_of(found, task), task.box(task.names(found.chain)).free
-    columns = task.cost.of(task.plant(found.chain), p)[1][:, free]
+    plant, sigma, judging = task.plant(found.chain), task.cost.scatter(inside), test or task.cost
     there = replace(task, cost=judging).plant(found.chain)
     seen = Whitened(judging, outside).of(there, p)[1][:, free]
-    return expected(columns, task.cost.scatter(inside), seen, np.ones(len(seen)))
+    ones = np.ones(len(seen))
+    if test is not None:
+        return expected(task.cost.of(plant, p)[1][:, free], sigma, seen, ones)
+    rows = np.concatenate([np.tile(fold, 2) for fold in _folds(task.cost)])
+    for fold in range(FOLDS):
+        kept = _without(task, fold).cost.of(plant, p)[1][:, free]
+        ones[rows == fold] = expected(kept, sigma, seen[rows == fold], ones[rows == fold])
+    return ones
+
+
+def _folds(cost: AnyCost) -> list[Indices]:
+    """To which fold each line of each response belongs: lines are dealt out in turn."""
+    return [np.arange(len(part.measured)) % FOLDS for part in cost.parts]
+
+
+def _without(task: Task, fold: int) -> Task:
+    """The task without the lines of one fold."""
+    return replace(task, cost=task.cost.without(np.concatenate(_folds(task.cost)) == fold))
 
 
 def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:
@@ -224,16 +242,14 @@ def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:
 
 
 def _cross_validated(found: Estimate, task: Task, p: Real) -> Complex:
-    """The response at each line of the fit to the other folds, lines dealt out in turn; shape
-    (n_f,).
-    """
+    """The response at each line of the fit to the other folds, shape (n_f,)."""
     if not task.box(task.names(found.chain)).free.any():
         return _at(found.chain, task, task.cost, p)  # no fit sees any line
-    cost, plant = task.cost, task.plant(found.chain)
-    at = np.concatenate([np.arange(len(part.measured)) % FOLDS for part in cost.parts])
+    plant = task.plant(found.chain)
+    at = np.concatenate(_folds(task.cost))
     whole = np.empty(len(at), dtype=np.complex128)
     for fold in range(FOLDS):
-        kept = replace(task, cost=cost.without(at == fold))
+        kept = _without(task, fold)
         box = kept.box(task.names(found.chain))
         there, _ = fine(kept.plant(found.chain), kept.cost, box, p, FOLD_GAIN)
         whole[at == fold] = plant.response(there)[at == fold]

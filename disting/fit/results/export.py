@@ -252,11 +252,11 @@ def predicted(
     chain: Chain, values: dict[str, float], omega: Real, sign: int = 1
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
     """Response of a fitted chain, or of the same chain with other ports, at angular frequencies
-    [rad/s]. Raises InputError for missing, unknown or negative values. Raises it too for a sign
-    that is not 1 or -1.
+    [rad/s]; values that it has no parameter for are left out. Raises InputError for missing or
+    negative values, and for a sign that is not 1 or -1.
 
     >>> abs(predicted(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
     [0.5, 0.5]
     """
-    p = np.array(list(checked(chain, values).values()))
-    return Plant(chain.structure, omega, sign).response(p)
+    own = checked(chain, {name: values[name] for name in chain.parameters if name in values})
+    return Plant(chain.structure, omega, sign).response(np.array(list(own.values())))

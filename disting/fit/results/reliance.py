@@ -31,7 +31,7 @@ from disting.model.structure import Structure
 
 LINES = 400  # of a response that is drawn, at most
 WIDE, WIDE_LEVEL = 1.5, 3.0  # ratio of the ends of a range, and dB, from which on a note says why
-FAMILY = "of a family of equivalents one was looked at"
+FAMILY = "of many equivalents one was looked at"
 BETWEEN = "the structures lie apart: disting next tells what to measure"
 WITHIN = "known badly: more periods or lines help"
 OUTER = 2.5  # percent of the draws on either side that a range leaves out

@@ -225,7 +225,7 @@ def _least(found: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
 def _origin(one: Left) -> str:
     if one.fitted:
         return "fitted"
-    family = f", one of a family, {one.free} free" * bool(one.free)
+    family = f", one of many sets of values, {one.free} free" * bool(one.free)
     like = ", ".join(reference(chain) for chain in one.like)
     return f"with the fitted response of {like}{family}"
 

@@ -16,8 +16,8 @@ from disting.model.chain import Chain
 from disting.network.network import Network
 from disting.report.drawing import chain_svg
 from disting.report.network_drawing import network_svg
+from disting.report.notebook.network_tables import table_of  # with those of `tables`
 from disting.report.notebook.plots import drawn_on
-from disting.report.notebook.tables import table_of
 from disting.simulation.mechanics import checked, frequency_response
 
 

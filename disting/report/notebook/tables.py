@@ -8,6 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
+from disting.catalogs.sizes_files import SizesCatalog
 from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
 from disting.fit.judge.candidate import Candidate
@@ -253,13 +254,20 @@ def _models(shown: ModelList) -> str:
     )
 
 
+@table_of.register
+def _sizes(shown: SizesCatalog) -> str:
+    rows = [(c.name, plural(len(c.family), "model")) for c in shown.catalogs]
+    return block(line(f"{shown.name}: all pairs of", bold=True), table(["catalogue", ""], rows))
+
+
 def _formula(shown: Model | MatrixModel) -> str:
     """G(s), where it is short enough to be read."""
     if isinstance(shown, MatrixModel):
         outputs, inputs = shown.shape
         return f"{plural(outputs, 'output')}, {plural(inputs, 'input')}"
-    terms = sum(map(len, (*shown.numerator_terms, *shown.denominator_terms)))
-    return str(shown) if terms <= 30 else f"{plural(shown.n_states, 'state')}, {terms} terms"
+    if shown.n_terms <= 30:
+        return str(shown)
+    return f"{plural(shown.n_states, 'state')}, {shown.n_terms} terms"
 
 
 @table_of.register(Further)

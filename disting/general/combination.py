@@ -1,0 +1,129 @@
+"""Points around which no positive values of another model have the same transfer function, by a
+combination of the equations all of whose coefficients are positive. Ports, kinds of elements and
+the number of unknowns do not matter, nor how many complex equivalents there are.
+
+Let c_i(q) be the coefficients of numerator and denominator of the searched model, those left out
+that are always zero, g_i the values of the same coefficients of the given model at p. If numerator
+and denominator are coprime at p and of full degree, q is an equivalent of p only if all
+
+    f_ij = c_i(q)/g_i - c_j(q)/g_j
+
+vanish: then c(q) is a multiple of g.
+THEOREM. Let x_ijm be numbers such that h = sum x_ijm m f_ij, over i < j and monomials m, has a
+positive coefficient at every monomial of any m c_i. Then no p near by has a positive equivalent.
+Proof. h(q) > 0 for q > 0, but it is 0 at an equivalent. For p near by the coefficients of h, which
+has no other monomials, are still positive, and numerator and denominator are coprime still.
+
+The numbers are found by a linear program, rounded to fractions, and put in exactly: what is found
+is proven, whoever finds it. As m the monomials of the c_i serve: if the c_i are positive, their map
+extends to the compact space of limits of all monomials of the c_i, where they do not vanish
+together. If no limit is a multiple of g, the sum of the f_ij^2 is positive there, and such numbers
+exist for products of enough of these monomials (a theorem of Polya); one is tried.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations
+
+from disting.errors import InputError
+from disting.general.listed import is_in_one_variable
+from disting.general.model import Model, Terms
+from disting.general.target import rational_values, target, value_at
+
+MOST = 3000  # numbers that are looked for
+ROUNDED = 10**9  # largest denominator of one
+Exponents = tuple[int, ...]
+Polynomial = dict[Exponents, Fraction]
+
+
+def excludes(given: Model, values: dict[str, Fraction], other: Model) -> bool:
+    """Whether no point around this one has a positive equivalent in the other model, as far as a
+    combination shows it.
+
+    >>> from disting.general.any_model import of_network
+    >>> from disting.network import network_of
+    >>> star, loop = "1~2, 1~3; F1; S2", "1~2, 1~3, 2~3; F1; S2"
+    >>> star, loop = (of_network(network_of(text)) for text in (star, loop))
+    >>> values = {name: Fraction(1) for name in loop.parameters} | {"k12": Fraction(1, 20)}
+    >>> excludes(loop, values, star)
+    True
+    """
+    rows = _scaled(given, values, other)
+    if rows is None:
+        return False
+    monomials = sorted({e for row in rows for e in row})
+    if len(monomials) * len(rows) * (len(rows) - 1) // 2 > MOST:
+        return False
+    products = list(_products(rows, monomials))
+    places = {e: at for at, e in enumerate(sorted({e for p in products for e in p}))}
+    numbers = _numbers(products, places)
+    if numbers is None:
+        return False
+    total: Polynomial = defaultdict(Fraction)
+    for number, product in zip(numbers, products, strict=True):
+        for e, c in product.items():
+            total[e] += number * c
+    return all(total[e] > 0 for e in places)
+
+
+def _scaled(
+    given: Model, values: dict[str, Fraction], other: Model
+) -> tuple[Polynomial, ...] | None:
+    """All c_i/g_i; None where the models have other coefficients, or at p fewer or common roots."""
+    mine, theirs = _coefficients(given), _coefficients(other)
+    if [bool(t) for t in mine] != [bool(t) for t in theirs]:
+        return None
+    if not is_in_one_variable(given.powers, other.powers):
+        return None
+    try:
+        goal = target(given, rational_values(given, values))
+    except InputError:
+        return None
+    if (len(goal.numerator) - 1, len(goal.denominator) - 1) != given.degrees:
+        return None
+    point = [values[name] for name in given.parameters]
+    numbers = [value_at(terms, point) for terms in mine if terms]
+    if not all(numbers):
+        return None
+    return tuple(
+        {e: Fraction(int(c)) / g for e, c in terms}
+        for terms, g in zip(filter(None, theirs), numbers, strict=True)
+    )
+
+
+def _coefficients(model: Model) -> tuple[Terms, ...]:
+    return (*model.numerator_terms, *model.denominator_terms)
+
+
+def _products(rows: Sequence[Polynomial], monomials: Sequence[Exponents]) -> Iterator[Polynomial]:
+    """Yield all m f_ij, over their largest coefficient; those that cancel are kept as 0, as
+    they do not near by.
+    """
+    for one, other in combinations(rows, 2):
+        terms: Polynomial = defaultdict(Fraction)
+        for row, sign in ((one, 1), (other, -1)):
+            for e, c in row.items():
+                terms[e] += sign * c
+        largest = max(map(abs, terms.values()))
+        for m in monomials if largest else ():
+            yield {tuple(map(sum, zip(e, m, strict=True))): c / largest for e, c in terms.items()}
+
+
+def _numbers(
+    products: Sequence[Polynomial], places: dict[Exponents, int]
+) -> tuple[Fraction, ...] | None:
+    """Numbers by which they add up to coefficients of 1 or more, rounded; None without any."""
+    import numpy as np  # imported late: all three take longer than most of what is asked
+    from scipy.optimize import linprog
+    from scipy.sparse import coo_matrix
+
+    entries = [(places[e], at, float(c)) for at, p in enumerate(products) for e, c in p.items()]
+    rows, columns, coefficients = zip(*entries, strict=True)
+    matrix = coo_matrix((coefficients, (rows, columns)), shape=(len(places), len(products)))
+    found = linprog(
+        np.zeros(len(products)), A_ub=-matrix, b_ub=-np.ones(len(places)), bounds=(None, None)
+    )
+    if not found.success:
+        return None
+    return tuple(Fraction(float(x)).limit_denominator(ROUNDED) for x in found.x)
