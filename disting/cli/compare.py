@@ -40,10 +40,11 @@ from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named, damping_option, name_of, read
 from disting.model.question import Domain, Settings
 from disting.network.notation import network_of
-from disting.verdict.comparison import compare, determinable, names_of
+from disting.verdict.comparison import compare
 from disting.verdict.meaning import undetermined
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
+from disting.verdict.sides import determinable, names_of
 
 Known = tuple[str, int, int]
 """The name of a model, how much of it is determined, how many parameters it has."""

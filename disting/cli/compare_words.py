@@ -14,10 +14,10 @@ from disting.model.drawing import text_drawing
 from disting.model.question import Domain
 from disting.network.element import Sort
 from disting.questions.inclusion import Inclusion, InclusionFinding
-from disting.verdict.comparison import names_of
 from disting.verdict.everywhere import Answer, Everywhere
 from disting.verdict.meaning import RESPONSE, shown
 from disting.verdict.result import Relation, Verdict
+from disting.verdict.sides import names_of
 
 MOST_TERMS = 30  # of a transfer function that is written out
 

@@ -33,12 +33,12 @@ from disting.model.names import damping_option
 from disting.model.presentation import plural
 from disting.network.families import family_of
 from disting.questions.inclusion import ONE_SIDED, Sense
-from disting.verdict.comparison import refuse_ports
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.joint import family_safety, joint_in_words
 from disting.verdict.proof import prove_all
 from disting.verdict.result import Relation
+from disting.verdict.sides import refuse_ports
 
 MOST_TOLD = 20  # pairs that are told one by one
 LISTS = "a family of networks such as machines-3"

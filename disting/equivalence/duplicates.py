@@ -25,7 +25,6 @@ from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 from disting.questions.identifiability import ParameterIdentifiability
 from disting.schemas import Format
-from disting.verdict.comparison import Given, refuse_ports
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.further import further
@@ -33,6 +32,7 @@ from disting.verdict.further_words import AnyFurther, to_dict
 from disting.verdict.network_placement import further_networks
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
+from disting.verdict.sides import Given, refuse_ports
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,10 +24,10 @@ from disting.report.listing import Listing, judged
 from disting.report.network_motion import motion_page_of, page_of_motion
 from disting.report.payload import payload
 from disting.report.words import SAID, VIEW_TITLES
-from disting.verdict.comparison import Given, refuse_ports
 from disting.verdict.engine import Engine
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
+from disting.verdict.sides import Given, refuse_ports
 
 HEADING = re.compile(r"<h1>(.*?)</h1>", re.DOTALL)
 LISTED_PAIRS = 1000  # told one by one below the matrix

@@ -15,10 +15,10 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.verdict.cascade import decide, follows, over_domain
-from disting.verdict.comparison import Sides
 from disting.verdict.proof import proven_again
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
+from disting.verdict.sides import Sides
 
 SECONDS = 60.0  # for a proof that took ten
 LIMITS, SHARES = "which is a limit of the other", "positive equivalents"

@@ -17,10 +17,11 @@ from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.presentation import plural, summary
 from disting.schemas import Format
-from disting.verdict.comparison import NOT_CHAINS, both_places, compare
+from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
+from disting.verdict.sides import NOT_CHAINS, both_places
 from disting.verdict.verdict_file import (
     DAMAGED,
     MOST_EXPERIMENTS,

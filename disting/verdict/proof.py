@@ -21,10 +21,10 @@ from disting.model.chain import Sensor
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.verdict.chain_side import ComparedChain
-from disting.verdict.comparison import Given, models_named, sides_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Verdict
+from disting.verdict.sides import Given, models_named, sides_of
 
 SECONDS = 10.0  # for one proof
 # these invariants of this model have this rank at most

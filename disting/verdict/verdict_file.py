@@ -28,10 +28,11 @@ from disting.model.names import name_of, names_another
 from disting.model.question import Domain, Settings
 from disting.questions.inclusion import Inclusion, Inclusions
 from disting.schemas import Format
-from disting.verdict.comparison import Sides, asked_of, both_places, compare, models_named, sides_of
+from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
+from disting.verdict.sides import Sides, both_places, models_named, sides_of
 
 FORMAT = Format.VERDICT.value
 PLAIN = ("left", "right", "relation")  # by which a verdict without its models is known

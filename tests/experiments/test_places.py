@@ -5,7 +5,7 @@ import pytest
 from disting import Chain, Engine, Experiment, Family, InputError, Query, View, compare_everywhere
 from disting.cli import main
 from disting.experiments import moved, named, ways
-from disting.verdict.comparison import sides_of
+from disting.verdict.sides import sides_of
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Standing, verify
 

@@ -1,0 +1,198 @@
+"""The two sides of a comparison: what a caller names, as models that questions can be asked of,
+under the experiments in which both are measured, and what each is called.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from disting.conditions.side import AnySide
+from disting.errors import InputError, of_type, shown
+from disting.experiments import Experiment, MeasuredChain
+from disting.general.any_model import as_chain, of_network
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.model.chain import Chain, Sensor, as_sensor
+from disting.model.names import chains_named, name_of
+from disting.network import Network, network_of
+from disting.network.notation import notations_of
+from disting.verdict.engine import Engine
+
+NAMED = "experiments are a list of Experiment, or of pairs of them, left and right"
+SIDES = 2
+Given = Chain | AnyModel | Network | str
+"""What can be compared: a text is the name of a chain, or a network in a notation."""
+NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
+
+
+def models_named(
+    left: Given,
+    right: Given,
+    damped: bool | None,
+    sensor: Sensor | str | None,
+) -> tuple[Chain | AnyModel, Chain | AnyModel]:
+    """Both models, names as the chains that they mean, texts as the networks; raises InputError."""
+    wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
+    for side in (left, right):
+        of_type(side, Chain | str | AnyModel | Network, wanted)
+    beside = next((m.sensor for m in (left, right) if isinstance(m, Chain)), Sensor.ACCELERATION)
+    quantity = beside if sensor is None else as_sensor(sensor)
+    read = [model_of(m, quantity) for m in (left, right)]
+    given = [m for m in read if isinstance(m, Chain | str)]
+    chains = iter(chains_named(given, damped=damped, sensor=sensor))
+    a, b = (next(chains) if isinstance(m, Chain | str) else m for m in read)
+    return a, b
+
+
+def model_of(given: Given, quantity: Sensor) -> Chain | AnyModel | str:
+    """A network as its transfer functions; chains, models and names as they are."""
+    if isinstance(given, str) and notations_of(given):
+        given = network_of(given, quantity=quantity)
+    return of_network(given) if isinstance(given, Network) else given
+
+
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """What is compared: both models by the names that they have beside each other, and what is to
+    be known of experiments that tell nothing.
+    """
+
+    left: AnySide
+    right: AnySide
+    notes: tuple[str, ...] = ()
+
+
+def sides_of(
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
+    experiments: Sequence[tuple[Experiment, Experiment]],
+    engine: Engine,
+) -> Sides:
+    """Two models as they are, or two chains under all experiments, each named for the left and for
+    the right one; raises InputError.
+    """
+    if not experiments:
+        return Sides(*plain_sides(left, right, engine))
+    if not (isinstance(left, Chain) and isinstance(right, Chain)):
+        raise InputError(NOT_CHAINS)
+    chains = zip((left, right), zip(*experiments, strict=True), strict=True)
+    a, b = (MeasuredChain(chain, side) for chain, side in chains)
+    plain = plain_sides(left, right, engine)
+    silent = [i for i in a.silent if i in b.silent]
+    telling = [i for i in range(len(experiments)) if i not in silent]
+    notes = [f"nothing is learned from experiment {i + 1}: its sensor never moves" for i in silent]
+    # as they are: what a verdict's evidence says is then of the chains that were given
+    if len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b)):
+        return Sides(*plain, tuple(notes))
+    left_name, right_name = names_under(plain[0].name, plain[1].name, experiments)
+    return Sides(
+        engine.measured_subject(left_name, a), engine.measured_subject(right_name, b), tuple(notes)
+    )
+
+
+def determinable(
+    left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
+) -> tuple[tuple[str, int, int], ...]:
+    """Of both models, as `compare` names them: how many functions of the parameters are determined,
+    and how many parameters there are, exponents among them.
+
+    >>> from disting import Family
+    >>> determinable(*(Family(2)[i] for i in (1, 2)), Engine())
+    (('2:1', 4, 4), ('2:2', 3, 4))
+    """
+    sides = plain_sides(left, right, engine)
+    return tuple((side.name, side.rank, _n_parameters(side.subject)) for side in sides)
+
+
+def _n_parameters(model: Chain | AnyModel | MeasuredChain) -> int:
+    if isinstance(model, MeasuredChain):
+        return len(model.chain.parameters)
+    exponents = () if isinstance(model, Chain) else model.powers.weights
+    return len(model.parameters) + len(exponents)
+
+
+def both_places(
+    experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
+) -> tuple[tuple[Experiment, Experiment], ...]:
+    """Each once, for the left and for the right model."""
+    asked = [e if isinstance(e, tuple) else (e, e) for e in of_type(experiments, Iterable, NAMED)]
+    for pair in asked:
+        if len(pair) != SIDES or not all(isinstance(e, Experiment) for e in pair):
+            raise InputError(f"{NAMED}, not {shown(pair)}")
+    return tuple(dict.fromkeys(asked))
+
+
+def plain_sides(
+    left: Chain | AnyModel, right: Chain | AnyModel, engine: Engine
+) -> tuple[AnySide, AnySide]:
+    """Two chains as chains, whoever names them, whatever else as two general models; by two
+    names.
+    """
+    left_name, right_name = names_beside(left, right)
+    a, b = as_chain(left), as_chain(right)
+    if a is not None and b is not None:
+        return engine.subject(left_name, a), engine.subject(right_name, b)
+    models = [_model(left), _model(right)]
+    refuse_ports(models)
+    one, other = engine.general_subjects(models, (left_name, right_name))
+    return one, other
+
+
+def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, str]:
+    """What two models are called beside each other."""
+    if isinstance(left, Chain) and isinstance(right, Chain):
+        return names_of(left, right)
+    left_name, right_name = (name_of(m) if isinstance(m, Chain) else m.name for m in (left, right))
+    return (
+        (f"{left_name} 1", f"{right_name} 2")
+        if left_name == right_name
+        else (left_name, right_name)
+    )
+
+
+def names_of(left: Chain, right: Chain) -> tuple[str, str]:
+    """What two chains are called beside each other: by their names, those that have one name, of
+    which one is damped, with damping and quantity.
+
+    >>> names_of(Chain(9), Chain(9, damped=False))
+    ('9:1 (damped, acceleration)', '9:1 (undamped, acceleration)')
+    """
+    names = name_of(left), name_of(right)
+    if names[0] == names[1] and left != right:
+        return f"{names[0]} ({left.premise})", f"{names[1]} ({right.premise})"
+    return names
+
+
+def names_under(
+    left: str, right: str, experiments: Sequence[tuple[Experiment, Experiment]]
+) -> tuple[str, str]:
+    """What two chains are called under experiments: one and the same chain by those that differ.
+
+    >>> names_under("3:1", "3:1", [(Experiment(sensor=2), Experiment(sensor=3))])
+    ('3:1 with sensor 2', '3:1 with sensor 3')
+    """
+    differing = [pair for pair in experiments if pair[0] != pair[1]]
+    if left != right or not differing:
+        return left, right
+    a, b = (" and with ".join(map(_done, side)) for side in zip(*differing, strict=True))
+    return f"{left} with {a}", f"{right} with {b}"
+
+
+def _done(experiment: Experiment) -> str:
+    """What is done in it."""
+    return experiment.text if experiment != Experiment() else "nothing done"
+
+
+def refuse_ports(models: Sequence[AnyModel]) -> None:
+    """Raises InputError for models of which not all have the same inputs and outputs."""
+    shapes = {m.shape: m.name for m in models}
+    if len(shapes) > 1:
+        told = [f"{name} has {p} x {m}" for (p, m), name in list(shapes.items())[:2]]
+        raise InputError(
+            f"models are compared that have the same outputs and inputs: {' and '.join(told)}"
+        )
+
+
+def _model(model: Chain | AnyModel) -> AnyModel:
+    if not isinstance(model, Chain):
+        return model
+    return Model.from_chain(model, name=name_of(model))
