@@ -1,6 +1,7 @@
 """What holds for all structures that a fit leaves: the true machine is within, twins count."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,6 +15,9 @@ from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.report.fit.selection_json import selection_to_dict
 from tests.fit.drives import response
+from tests.fit.monte_carlo import drive as bench_drive
+from tests.fit.monte_carlo import measured as bench_data
+from tests.fit.monte_carlo import truth as bench_truth
 
 ROW = Chain(3, damped=True)
 VALUES = {"m1": 1.0, "m2": 0.6, "m3": 0.4, "k12": 3e4, "k23": 2e4, "d12": 8.0, "d23": 3.0}
@@ -101,3 +105,16 @@ def test_a_file_of_the_fit_holds_the_statements(left):
     assert (
         ends["gain margin"] is None
     )  # collocated velocity without dead time: as much as one likes
+
+
+def test_draws_fit_the_data_where_a_parameter_is_not_determined():
+    """Along a valley that bends the covariance leads away from the data, by a hundred times J."""
+    machine = bench_drive(3, 9)
+    larger = replace(bench_truth(machine), n_masses=4)
+    found = select(bench_data(machine, 1), [larger])
+    (candidate,) = found.candidates
+    drawn_all = draws(candidate, found.task)
+    plant = found.task.plant(larger)
+    j = found.task.cost.total(plant.response(drawn_all))
+    assert len(drawn_all) > 50 and np.all(j <= 1.2 * candidate.estimate.j)
+    assert np.ptp(np.log(drawn_all), axis=0).max() > 0.5

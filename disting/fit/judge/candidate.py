@@ -27,6 +27,7 @@ from disting.model.question import Settings
 FOLDS = 5  # of the cross-validation
 FOLD_GAIN = 1e-6  # relative gain of cost at which the fit of a fold ends
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
+OUTSIDE = 0.05  # probability of true values outside of what is said of them
 WITNESSES = 5  # best candidates that help to see how much the data scatter
 
 Scatters = tuple[Scatter, Scatter]

@@ -25,7 +25,7 @@ import numpy as np
 from scipy.stats import t as t_distribution
 
 from disting.fit.judge.admissible import FROM_ZERO
-from disting.fit.judge.candidate import Candidate, values_of
+from disting.fit.judge.candidate import OUTSIDE, Candidate, values_of
 from disting.fit.judge.exclusion import FELT, limit
 from disting.fit.judge.practical import covariance
 from disting.fit.noise.covariance import equal
@@ -36,7 +36,6 @@ from disting.fit.search.starts import natural, scale
 from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Real
 
-OUTSIDE = 0.05  # probability of a value outside
 STRAIGHT = 0.05  # relative standard error up to which Q is as good as a parabola
 MOST_LIKELY = 0.01  # of Q above its minimum
 ZERO = 1e-4  # share of its natural size at which an element is as good as not there

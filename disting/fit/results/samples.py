@@ -1,5 +1,11 @@
 """Parameters drawn from what a fit knows of them: normal in their logarithms, with their covariance
-(`practical.covariance`).
+(`practical.covariance`). Where the data determine a direction badly a response is not as straight
+as the covariance takes it. What a draw x does to the residuals is, to first order, S x; where it
+does more the parameters are searched that do just this,
+
+    min |r(p) - r(p_0) - S x|^2,    from p_0 exp(x),
+
+and a draw that leads to none is left out.
 
 What behaves as a fitted structure does (a twin) is drawn along with it, to first order: with
 sensitivities S = d ln G / d ln p at the lines of the data a step x of the fitted structure's
@@ -8,19 +14,27 @@ logarithms is a step y of the twin's with S_twin y = S x, the smallest where the
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
-from disting.fit.judge.candidate import Candidate
+from disting.fit.judge.candidate import OUTSIDE, Candidate
+from disting.fit.judge.exclusion import limit
 from disting.fit.judge.members import Member, Twin
-from disting.fit.judge.practical import covariance
+from disting.fit.judge.practical import Seen
+from disting.fit.search.cost import SquaredCost
+from disting.fit.search.descent import rough
 from disting.fit.search.estimate import Task
+from disting.fit.search.joint import AnyCost
 from disting.fit.search.plant import Plant
-from disting.measurement.arrays import Real
+from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 
 DRAWS = 100  # of a structure
 WIDEST = 1.0  # standard deviation of a logarithm, where the data do not determine it
+STRAIGHT = 0.05  # standard deviation of a logarithm up to which a response is straight enough
+BLIND = 1e-8  # of the largest singular value of S: what is less says nothing of its direction
+BACK = 20  # steps of the search for what a draw stands for
 FELT = 1e-9  # of the largest sensitivity of a twin: what is less has no effect
 
 
@@ -50,10 +64,10 @@ def with_twins(left: Sequence[Member], fitted: Sequence[Drawn], omega: Real) -> 
 def _carried(twin: Twin, one: Drawn, omega: Real) -> Drawn:
     """The twin, drawn along with the structure whose twin it is."""
     own = np.array([twin.parameters[name] for name in twin.chain.parameters])
-    held = one.p[0] == 0  # a damper that is not there
-    steps = np.log(np.where(held, 1.0, one.p) / np.where(held, 1.0, one.p[0]))
-    moved = _sensitivity(one.chain, one.p[0], omega) @ steps.T
-    there = np.linalg.lstsq(_sensitivity(twin.chain, own, omega), moved, rcond=FELT)[0]
+    response = Plant(one.chain.structure, omega).response(one.p)
+    moved = np.log(response / response[0])
+    moved = np.concatenate([moved.real, moved.imag], axis=-1)
+    there = np.linalg.lstsq(_sensitivity(twin.chain, own, omega), moved.T, rcond=FELT)[0]
     return Drawn(twin.chain, own * np.exp(there.T))
 
 
@@ -64,26 +78,68 @@ def _sensitivity(chain: Chain, p: Real, omega: Real) -> Real:
 
 
 def draws(candidate: Candidate, task: Task, count: int = DRAWS) -> Real:
-    """Parameters of the chain, shape (count, n_p): the fit, then draws near it.
+    """Parameters of the chain, shape (n, n_p): the fit, then at most count - 1 draws near it.
 
     A direction that the data do not determine is drawn with a standard deviation of `WIDEST`, what
     is given not at all.
     """
     names = task.names(candidate.chain)
     p = np.array([candidate.estimate.parameters[name] for name in names])
-    free = task.box(names).free
-    whole = np.tile(p, (count, 1))
-    if free.any():
-        columns = task.cost.of(task.plant(candidate.chain), p)[1][:, free]
-        normal = np.random.default_rng(0).normal(size=(count - 1, int(free.sum())))
-        whole[1:, free] *= np.exp(normal @ _half(covariance(columns, candidate.noise)))
+    plant, box = task.plant(candidate.chain), task.box(names)
+    free, whole = box.free, np.tile(p, (count, 1))
+    if not free.any():
+        return whole[:, : len(candidate.chain.parameters)]
+    residual, columns = task.cost.of(plant, p)
+    sizes, axes = _axes(columns[:, free], candidate.noise)
+    steps = np.random.default_rng(0).normal(size=(count - 1, len(sizes))) * sizes @ axes
+    whole[1:, free] *= np.exp(steps)
+    if np.any(sizes > STRAIGHT):
+        ends = [
+            rough(
+                plant, _Towards(task.cost, residual + columns[:, free] @ x), box, start[None], BACK
+            )
+            for x, start in zip(steps, whole[1:], strict=True)
+        ]
+        most = _excess(candidate, task.cost.n_residuals, len(sizes))
+        whole = np.stack([p, *(points[0] for points, costs in ends if costs[0] <= most)])
     return whole[:, : len(candidate.chain.parameters)]
 
 
-def _half(spread: Real) -> Real:
-    """F with F'F the covariance of ln p, no direction wider than `WIDEST`."""
-    if not np.all(np.isfinite(spread)):
-        return WIDEST * np.eye(len(spread))
-    sizes, directions = np.linalg.eigh(spread)
-    kept = np.minimum(np.sqrt(np.maximum(sizes, 0.0)), WIDEST)
-    return np.asarray(kept[:, None] * directions.T)
+@dataclass(frozen=True, eq=False)
+class _Towards(SquaredCost):
+    """The distance from given residuals, shape (n_y,), instead of from none."""
+
+    cost: AnyCost
+    aim: Real
+
+    @property
+    def n_residuals(self) -> int:
+        """Those of the cost."""
+        return self.cost.n_residuals
+
+    def residual(self, response: Complex) -> Real:
+        """What is left to the aim, shape (..., n_y)."""
+        return np.asarray(self.cost.residual(response) - self.aim)
+
+    def sensitivity(self, response: Complex, gradient: Complex) -> Real:
+        """That of the cost."""
+        return self.cost.sensitivity(response, gradient)
+
+
+def _excess(candidate: Candidate, n_y: int, n_p: int) -> float:
+    """By how much J may exceed its minimum where parameters are not excluded, the noise as the
+    residuals have it.
+    """
+    return candidate.estimate.j * limit(n_p, inf, level=OUTSIDE) / max(n_y - n_p, 1)
+
+
+def _axes(columns: Real, noise: Seen) -> tuple[Real, Real]:
+    """Standard deviations of ln p along the axes of their covariance (`practical.covariance`),
+    none above `WIDEST`, and these axes, shape (n_p, n_p), a row each: of a root of it, as squares
+    lose the short ones.
+    """
+    left, values, right = np.linalg.svd(columns, full_matrices=False)
+    half = noise.seen(left) / np.maximum(values, BLIND * values[0]) @ right
+    _, sizes, axes = np.linalg.svd(np.linalg.qr(half, mode="r"))
+    unseen = len(axes) - len(sizes)  # where the data are fewer than the parameters
+    return np.minimum(np.pad(sizes, (0, unseen), constant_values=WIDEST), WIDEST), axes
