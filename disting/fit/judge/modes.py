@@ -4,6 +4,7 @@ them.
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from math import pi
 
@@ -20,6 +21,7 @@ from disting.simulation import matrices, port_vectors
 # of the fastest root: rounding spreads the double pole of a free chain at zero this far
 STILL = 1e-6
 REMOTE = 1e6  # zeros this much faster than the fastest pole are at infinity
+REMEMBERED = 100  # structures, each asked about at many parameters
 STEP = 1e-4  # of a logarithm, for derivatives of the results
 
 
@@ -32,7 +34,7 @@ def poles(structure: Structure, p: Real) -> Complex:
     >>> sorted(poles(drive, np.array([1.0, 1.0, 2.0])).imag.round(6))[-1]  # sqrt(k (1/m1 + 1/m2))
     np.float64(2.0)
     """
-    mass, damping, stiffness = matrices(structure, _named(structure, p))
+    mass, damping, stiffness = _matrices(structure, p)
     n = structure.n_masses
     inverse = 1.0 / np.diag(mass)[:, None]
     companion = np.block(
@@ -51,7 +53,7 @@ def zeros(structure: Structure, p: Real) -> Complex:
     np.float64(2.0)
     """
     n = structure.n_masses
-    bordered = [np.pad(matrix, (0, 1)) for matrix in matrices(structure, _named(structure, p))]
+    bordered = np.pad(_matrices(structure, p), ((0, 0), (0, 1), (0, 1)))
     bordered[2][:n, n], bordered[2][n, :n] = port_vectors(structure)
     mass, damping, stiffness = bordered
     one, nothing = np.eye(n + 1), np.zeros((n + 1, n + 1))
@@ -124,6 +126,20 @@ def _values(structure: Structure, p: Real) -> list[Result]:
             rows.append((f"{what} {i}", abs(root) / (2 * pi), "Hz"))
             rows.append((f"damping ratio of {what} {i}", 0.0 - root.real / abs(root), ""))
     return [Result(name, value, 0.0, unit) for name, value, unit in rows]
+
+
+def _matrices(structure: Structure, p: Real) -> Real:
+    """M, D, K at once, shape (3, N, N)."""
+    return np.tensordot(p, _shares(structure), 1)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _shares(structure: Structure) -> Real:
+    """What each parameter at 1 adds to M, D and K, shape (n_p, 3, N, N)."""
+    one = dict.fromkeys(structure.parameters, 1.0)
+    whole = np.stack(matrices(structure, one))
+    doubled = (matrices(structure, {**one, name: 2.0}) for name in structure.parameters)
+    return np.stack([np.stack(more) - whole for more in doubled])
 
 
 def _named(structure: Structure, p: Real) -> dict[str, float]:
