@@ -22,10 +22,11 @@ from disting.fit.judge.practical import Thresholds
 from disting.fit.plan.fit_file import Named, named_by
 from disting.fit.results.export import control_script, write_mat
 from disting.fit.results.loop import controller_named
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports, whole_family
 from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.search.swarm import by_swarm
-from disting.fit.select import MOST_LINES, Selection, select
+from disting.fit.select import MOST_LINES, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family

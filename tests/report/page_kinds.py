@@ -10,10 +10,11 @@ from disting.catalogs.damper_files import damper_catalog
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.joint import Further
 from disting.fit.search.setup import Setup
-from disting.fit.select import Selection, select
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report

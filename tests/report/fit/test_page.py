@@ -14,8 +14,9 @@ from disting.files import __version__
 from disting.fit.judge.modes import physical
 from disting.fit.judge.practical import Thresholds
 from disting.fit.results.model_file import read_model
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports
-from disting.fit.select import Selection, select
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.names import name_of
 from disting.report.fit import (
