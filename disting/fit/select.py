@@ -39,7 +39,7 @@ from disting.fit.results.reliance import statements
 from disting.fit.results.selection import Selection
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.data import checked
-from disting.fit.search.estimate import Estimate, Method, Task
+from disting.fit.search.estimate import Estimate, Method, Task, one_thread
 from disting.fit.search.exchange import SEARCHED, body, estimates, polished
 from disting.fit.search.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
 from disting.measurement import FrequencyResponse
@@ -53,6 +53,7 @@ CROSS_VALIDATION = f"{FOLDS}-fold cross-validation over the frequency lines"
 MOST_LINES = 10_000  # of a response that are fitted, unless more are asked for
 
 
+@one_thread()
 def select(
     train: FrequencyResponse,
     candidates: Sequence[Chain],
@@ -102,9 +103,8 @@ def select(
     candidates, further, zero = learning(candidates, further, home)
     engine = engine or Engine(store=Store.none())
     by_scatter = lines is None and not alike
-    weighed = partial(
-        joint_cost, Cost(train, case or Case.LOGARITHM, weights), further, lines, alike
-    )
+    cost = Cost(train, case or Case.LOGARITHM, weights)
+    weighed = partial(joint_cost, cost, further, lines, alike)
     asked = Task(weighed(test), sign or 1, bounds or {}, fixed or {}, seed)
     asked = asked if sign else signed(asked, _at_home(candidates, home))
     asked = located(asked, candidates, home, engine.store) if home else asked
@@ -112,10 +112,9 @@ def select(
     judging = judging_cost(search.cost, test, further, lines, alike, seen_by) if test else None
     within = limits_of(search.bounds, search.fixed)
     first = _representatives(candidates, search, engine, within, prune)
-    wanted = [c for c in candidates if first[c] == c]
     likely = by_scatter and case is None and weights is None
     work = Work(engine, executor, progress)
-    fits = _fits(wanted, search, judging, likely, method, work)
+    fits = _fits([c for c in candidates if first[c] == c], search, judging, likely, method, work)
     limits = thresholds or Thresholds()
     chosen = _chosen(fits, limits, rule, engine.settings)
     whole, containing = _members(fits, chosen, within, work)
