@@ -41,7 +41,8 @@ from disting.fit.search.cost import Case, Cost
 from disting.fit.search.data import checked
 from disting.fit.search.estimate import Estimate, Method, Task, one_thread
 from disting.fit.search.exchange import SEARCHED, body, estimates, polished
-from disting.fit.search.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
+from disting.fit.search.joint import AnyCost, Further, JointCost
+from disting.fit.search.weighing import joint_cost, judging_cost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain

@@ -214,7 +214,7 @@ def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Rea
     names = task.names(chain)
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
-    ends, reached = rough(plant, task.cost, box, points[_different(costs, FINISHED)], ITERATIONS)
+    ends, reached = rough(plant, task.cost, box, points[different(costs, FINISHED)], ITERATIONS)
     p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
     p, j = _nested(chain, task, known, p, j)
     return Estimate(
@@ -222,7 +222,7 @@ def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Rea
         dict(zip(names, map(float, p), strict=True)),
         j,
         tuple(sorted(map(float, costs))),
-        tuple(tuple(map(float, points[i])) for i in _different(costs, VALLEYS)),
+        tuple(tuple(map(float, points[i])) for i in different(costs, VALLEYS)),
     )
 
 
@@ -262,7 +262,7 @@ def _own(found: Estimate) -> dict[str, float]:
     return {name: value for name, value in found.parameters.items() if name not in chain}
 
 
-def _different(costs: Real, most: int) -> list[int]:
+def different(costs: Real, most: int) -> list[int]:
     """The best starts, at most so many, one of each valley as far as costs tell."""
     chosen = list[int]()
     for i in np.argsort(costs, kind="stable"):
