@@ -49,7 +49,7 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
                     f" {v.decided_by} does not hold"
                 )
         v, (one, other) = stored.verdict(left, right, View.EXACT), (subjects[left], subjects[right])
-        for what in false_of_inclusions(v.inclusions, one, other) if v.inclusions else ():
+        for what in false_of_inclusions(v.inclusions, one, other):
             yield f"{stored.name}, {left}:{right}: {what} does not hold"
         yield from _false_shares(stored, subjects, left, right)
         progress("evidence", done, total)

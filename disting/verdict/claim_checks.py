@@ -121,11 +121,15 @@ def _false_inclusions(claim: Claim) -> Iterator[str]:
         yield f"{where}the inclusion, or its certainty, is not what the settings give"
 
 
-def false_of_inclusions(both: Inclusions, left: AnySide, right: AnySide) -> Iterator[str]:
+def false_of_inclusions(both: Inclusions | None, left: AnySide, right: AnySide) -> Iterator[str]:
     """Yield what evidence of an inclusion is not true of both models; what is no limit has no
     equivalent either, by the same evidence, which is looked at once.
     """
-    told = {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
+    told = (
+        {}
+        if both is None
+        else {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
+    )
     for evidence, what in told.items():
         if evidence is not None and not left.includes(right, evidence):
             yield f"the evidence of the inclusion ({what})"
