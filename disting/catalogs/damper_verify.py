@@ -17,10 +17,9 @@ from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.low_cost import patient_finding
-from disting.store.scheduling import mapped
 from disting.verdict.buckets import Forest
 from disting.verdict.chain_side import ComparedChain
-from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.engine import Engine, Progress, mapped, silent
 from disting.verdict.result import Relation
 
 Places = tuple[int, int]

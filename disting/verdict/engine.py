@@ -34,7 +34,7 @@ from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.store.code import digest
-from disting.store.scheduling import mapped
+from disting.store.scheduling import mapped as mapped
 from disting.store.store import Store
 from disting.verdict.cascade import audit, decide
 from disting.verdict.chain_side import ComparedChain

@@ -20,8 +20,10 @@ from disting.evidence.positive import (
     PositiveFinding,
     Share,
 )
-from disting.fibres.synthesis import Answer, Status, fibre, target
 from disting.fibres.synthesis.decide import rational_point
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.target import target
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding
