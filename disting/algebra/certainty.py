@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from enum import StrEnum
 from fractions import Fraction
 from math import ceil, log2
+from typing import Any
 
 # bits: what is wrong with a larger probability than 2**-100, or could be, is not said
 LEAST_SAFETY = 100
@@ -86,6 +87,16 @@ def shortfall(certainty: Certainty | None, safety: int) -> str:
     if safety:
         raise ValueError("only a bounded finding carries an error bound")
     return ""
+
+
+def withhold(finding: Any, why: str, **unknown: object) -> None:
+    """A finding whose grade is not enough says nothing: its fields become `unknown`, its evidence
+    and its bits none, the field `why` what is lacking (`shortfall`).
+    """
+    lacking = shortfall(finding.certainty, finding.safety)
+    if lacking:
+        for name, value in {"safety": 0, "evidence": None, why: lacking, **unknown}.items():
+            object.__setattr__(finding, name, value)
 
 
 def joint_safety(safeties: Iterable[int]) -> int:

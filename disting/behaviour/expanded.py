@@ -26,10 +26,12 @@ from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.structure import Structure
 
+Written = tuple[fmpz_mpoly, fmpz_mpoly]
+
 NO_UNITS: Mapping[str | int, int] = MappingProxyType({})
 
 
-def expanded(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+def expanded(structure: Structure) -> Written:
     """Numerator and denominator of the transfer function (24) without dead time, in lowest terms
     for every chain of the class.
 
@@ -83,10 +85,14 @@ def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> 
     """
     if left.dead_time != right.dead_time or (left.dead_time and renaming["Td"] != "Td"):
         return False
-    a, b = expanded(left), expanded(right)
+    return become(expanded(left), expanded(right), renaming)
+
+
+def become(a: Written, b: Written, renaming: Mapping[str, str]) -> bool:
+    """Whether renaming turns one numerator and its denominator into the other ones: an identity."""
     ring = symbols([str(g) for g in b[1].context().gens()])
     num, den = (renamed(p, ring, renaming) for p in a)
-    return bool(num * b[1] == b[0] * den) if (num, den) != b else True
+    return (num, den) == b or bool(num * b[1] == b[0] * den)
 
 
 def _valuation(polynomial: fmpz_mpoly) -> int:

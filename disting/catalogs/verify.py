@@ -1,17 +1,15 @@
 """Verifies a catalogue: its bytes against a rebuilt one, and every piece of evidence by itself."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.files import lines, name_of
-from disting.model.symmetry import canonical
-from disting.questions.inclusion import confirms
-from disting.questions.positive import proves
 from disting.questions.same.evidence_check import Witness
 from disting.verdict.chain_side import ComparedChain
+from disting.verdict.claim_checks import false_of_inclusions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import View
 
@@ -50,35 +48,22 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
                     f"{stored.name}, {left}:{right}, {view}: the evidence of condition"
                     f" {v.decided_by} does not hold"
                 )
-        yield from _false_inclusions(stored, subjects[left], subjects[right], (left, right))
-        yield from _false_shares(stored, left, right)
+        v, (one, other) = stored.verdict(left, right, View.EXACT), (subjects[left], subjects[right])
+        for what in false_of_inclusions(v.inclusions, one, other):
+            yield f"{stored.name}, {left}:{right}: {what} does not hold"
+        yield from _false_shares(stored, subjects, left, right)
         progress("evidence", done, total)
 
 
-def _false_inclusions(
-    stored: Catalog, left: ComparedChain, right: ComparedChain, numbers: tuple[int, int]
+def _false_shares(
+    stored: Catalog, subjects: Mapping[int, ComparedChain], left: int, right: int
 ) -> Iterator[str]:
-    """Of what is known of finite elements, and of limits; that evidence is of the right kind
-    was seen when it was read.
-    """
-    both = stored.verdict(*numbers, View.EXACT).inclusions
-    if both is None:
-        return
-    told = {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
-    for evidence, what in told.items():
-        if evidence is not None and not confirms(evidence, left, right):
-            yield (
-                f"{stored.name}, {numbers[0]}:{numbers[1]}: the evidence of the inclusion ({what})"
-                " does not hold"
-            )
-
-
-def _false_shares(stored: Catalog, left: int, right: int) -> Iterator[str]:
     """Of what is known of positive equivalents."""
     v = stored.verdict(left, right, View.EXACT)
     for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
-        chains = (canonical(stored.family[number]).chain for number in (given, other))
-        if found is not None and found.evidence is not None and not proves(found, *chains):
+        if found is None or found.evidence is None:
+            continue
+        if not subjects[given].proves(subjects[other], found):
             yield (
                 f"{stored.name}, {given}:{other}: the evidence on positive equivalents does not"
                 " hold"

@@ -13,7 +13,6 @@ from typing import Any
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import (
-    FILE,
     add_also,
     add_bounds,
     add_damped,
@@ -22,24 +21,20 @@ from disting.cli.arguments import (
     add_no_cache,
     add_notation,
     add_quantity,
-    parted,
 )
 from disting.cli.compare_words import both_ways, every_way, explained, in_letters
+from disting.cli.model_names import MODEL, models_named
 from disting.cli.output import emitted
-from disting.cli.plain import keep_apart
 from disting.cli.relations import query
-from disting.cli.structures import is_network
 from disting.cli.workers import engine_for
 from disting.errors import InputError
 from disting.experiments import named
-from disting.general.any_model import measured, of_network
+from disting.general.any_model import measured
 from disting.general.matrix_model import AnyModel
-from disting.general.model_files import read_models
 from disting.general.special_values import special_values
 from disting.model.chain import Chain, Sensor
-from disting.model.names import chains_named, damping_option, name_of, read
+from disting.model.names import name_of, read
 from disting.model.question import Domain, Settings
-from disting.network.notation import network_of
 from disting.verdict.comparison import compare
 from disting.verdict.meaning import undetermined
 from disting.verdict.query import Query, View
@@ -48,11 +43,6 @@ from disting.verdict.sides import determinable, names_of
 
 Known = tuple[str, int, int]
 """The name of a model, how much of it is determined, how many parameters it has."""
-MODEL = (
-    "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
-    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
-    " file.json:name, a model of your own"
-)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -160,52 +150,6 @@ def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> I
     if len(models) == len(sides) and (verdict.has_exceptions or different):
         said = special_values(*models).sentence(verdict.left, verdict.right)
         yield from [f"special    {said}"] * bool(said)
-
-
-def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
-    """What is named by each text: a chain, a network in a notation, a model file.json:name."""
-    networks = {text: _network(text, options) for text in texts if FILE not in text}
-    named = [text for text, network in networks.items() if network is None]
-    if len(set(texts)) == len(set(named)):
-        if options.also and (options.prove or getattr(options, "bound", ())):
-            raise InputError(
-                "with --also the verdict is on several experiments: leave --prove and --bound away"
-            )
-        return [*chains_named(texts, damped=options.damped, sensor=options.quantity)]
-    if options.also:
-        raise InputError("--also belongs to numbered chains: leave it away")
-    if getattr(options, "bound", ()):
-        raise InputError("--bound belongs to numbered chains: leave it away")
-    if all(FILE in text for text in texts):
-        from disting.cli.verdicts import refuse_chain_options
-
-        refuse_chain_options(options)
-    if not named and options.damped is not None:
-        raise InputError(
-            f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
-            " dampers itself"
-        )
-    chains = dict(
-        zip(
-            named,
-            chains_named(named, damped=options.damped, sensor=options.quantity),
-            strict=True,
-        )
-    )
-    lists = {path: read_models(path) for path, _ in map(parted, texts) if path}
-    keep_apart(model.name for found in lists.values() for model in found)
-    return [
-        lists[path][name] if path else networks[text] or chains[text]
-        for text, (path, name) in zip(texts, map(parted, texts), strict=True)
-    ]
-
-
-def _network(text: str, options: argparse.Namespace) -> AnyModel | None:
-    """The model of a network; None of the name of a chain."""
-    if not is_network(text, options.notation):
-        return None
-    quantity = Sensor(options.quantity)
-    return of_network(network_of(text, options.notation, quantity=quantity))
 
 
 def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:

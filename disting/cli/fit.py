@@ -21,11 +21,12 @@ from disting.fit.judge.admissible import Rule
 from disting.fit.judge.practical import Thresholds
 from disting.fit.plan.fit_file import Named, named_by
 from disting.fit.results.export import control_script, write_mat
-from disting.fit.results.loop import controller_named
+from disting.fit.results.loop import Controller, controller_named
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports, whole_family
 from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.search.swarm import by_swarm
-from disting.fit.select import MOST_LINES, Selection, select
+from disting.fit.select import MOST_LINES, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -47,19 +48,41 @@ def run(options: argparse.Namespace) -> int:
         return run_networks(options)
     controller = controller_named(options.controller) if options.controller else None
     given = data(options)
-    train, test = given.train, given.test
     left = _left(options)
     if left is None:
         announced(Work.FITS, _counted(options), options.jobs or cores())
     candidates = _candidates(options, given, left.chains if left else ())
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
+    home = _as_measured(left.model, given) if left else None
+    found = _selected(options, given, candidates, home, controller)
+    if options.json:
+        plain = selection_to_dict(found)
+        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
+        emitted(options.json, f"{text}\n")
+    if options.json != "-":
+        print(printable("\n".join(told(found, given.train))))
+    if options.out:
+        _write(found, given.train, given.test, options)
+        if options.json != "-":
+            print("\n".join(_onward(found, options.out)))
+    return 0 if found.explanation.explains else 1
+
+
+def _selected(
+    options: argparse.Namespace,
+    given: Data,
+    candidates: Sequence[Chain],
+    home: Chain | None,
+    controller: Controller | None,
+) -> Selection:
+    """What is found with these options; `home` names the places of further responses."""
     with engine_for(options) as (engine, pool, progress):
         found = select(
-            train,
+            given.train,
             candidates,
-            test=test,
+            test=given.test,
             further=given.further,
-            home=_as_measured(left.model, given) if left else None,
+            home=home,
             alike=options.weights == "none",
             thresholds=Thresholds(*options.thresholds),
             rule=Rule(options.rule),
@@ -77,18 +100,7 @@ def run(options: argparse.Namespace) -> int:
             executor=pool,
             progress=progress,
         )
-    found = replace(found, command=_again(options.words))
-    if options.json:
-        plain = selection_to_dict(found)
-        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
-        emitted(options.json, f"{text}\n")
-    if options.json != "-":
-        print(printable("\n".join(told(found, train))))
-    if options.out:
-        _write(found, train, test, options)
-        if options.json != "-":
-            print("\n".join(_onward(found, options.out)))
-    return 0 if found.explanation.explains else 1
+    return replace(found, command=_again(options.words))
 
 
 def _onward(found: Selection, out: Path) -> Iterator[str]:

@@ -178,6 +178,21 @@ def _structures(group: argparse._ArgumentGroup) -> None:
         metavar="N",
         help="3, 1-4 or 1,3 (default: 1-4)",
     )
+    _ports(group)
+    text = (
+        "the structures that an earlier fit left, and what behaves as these do; places of further"
+        " responses are masses of the one that it selected, and every place of the others is tried"
+    )
+    group.add_argument("--left", type=Path, metavar="FIT.json", help=text)
+    group.add_argument(
+        "--family",
+        action="store_true",
+        help="force, sensor and gap anywhere: every chain of these sizes",
+    )
+
+
+def _ports(group: argparse._ArgumentGroup) -> None:
+    """Where the force acts, what the sensor shows, and where a spring is missing."""
     group.add_argument(
         "--actuator",
         default="1",
@@ -196,16 +211,6 @@ def _structures(group: argparse._ArgumentGroup) -> None:
         default=0,
         metavar="I",
         help="no spring right of mass I (default: 0, the ground)",
-    )
-    text = (
-        "the structures that an earlier fit left, and what behaves as these do; places of further"
-        " responses are masses of the one that it selected, and every place of the others is tried"
-    )
-    group.add_argument("--left", type=Path, metavar="FIT.json", help=text)
-    group.add_argument(
-        "--family",
-        action="store_true",
-        help="force, sensor and gap anywhere: every chain of these sizes",
     )
 
 

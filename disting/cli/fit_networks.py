@@ -13,7 +13,8 @@ from disting.cli.plain import complain, keep_apart
 from disting.cli.verdicts import listed_models
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed
-from disting.fit.networks import BAR, FittedNetwork, NetworkSelection, fit_networks
+from disting.fit.networks import fit_networks
+from disting.fit.results.networks import BAR, FittedNetwork, NetworkSelection
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
 from disting.model.chain import Sensor

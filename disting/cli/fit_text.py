@@ -12,7 +12,7 @@ from disting.fit.judge.members import Disagreement, Member
 from disting.fit.judge.modes import Result, physical
 from disting.fit.judge.reading import read_in_words
 from disting.fit.judge.responses import explanations
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing

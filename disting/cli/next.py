@@ -48,12 +48,12 @@ from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
 
 Named = tuple[str, Chain]
+Table = Iterable[Sequence[str]]
 DOMAIN = (
     "decided over complex parameters: what differs there differs over positive ones too; it is not"
     " known which {place} of one structure is which of another, so each is tried"
 )
 
-AGAIN = "then fit the new measurement, NEW, together with these data:"
 BRIEF = "only menus with an experiment that is surely enough are shown; --json has them all"
 
 
@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
         found = _shipped(group, is_damped(options), costs) or further(
             group, engine, costs=costs, executor=pool, progress=progress
         )
-    return _written(options, [found], to_dict(found), told(found))
+    return _written(options, _of_all([found]), json.dumps(to_dict(found), indent=1), told(found))
 
 
 def _networks(options: argparse.Namespace, costs: Costs) -> int:
@@ -122,65 +122,40 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
             return 0
         group = list(zip(names, networks, strict=True))
         found = further_networks(group, engine, costs=costs, executor=pool, progress=progress)
-    return _written(options, [found], to_dict(found), told(found))
+    return _written(options, _of_all([found]), json.dumps(to_dict(found), indent=1), told(found))
 
 
-def _written(
-    options: argparse.Namespace, found: Sequence[AnyFurther], plain: object, text: str
-) -> int:
+def _written(options: argparse.Namespace, lines: Table, plain: str, text: str) -> int:
+    """The table, the JSON and the text, each where it is asked for."""
     if options.csv:
-        emitted(options.csv, _table([CSV_COLUMNS, *(row for one in found for row in rows(one))]))
+        emitted(options.csv, _table(lines))
     if options.json:
-        emitted(options.json, json.dumps(plain, indent=1) + "\n")
+        emitted(options.json, plain + "\n")
     if "-" not in (options.csv, options.json):
         print(printable(text))
     return 0
 
 
+def _of_all(found: Iterable[AnyFurther]) -> Table:
+    """Every experiment at every pair of places."""
+    return [CSV_COLUMNS, *(row for one in found for row in rows(one))]
+
+
 def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     """Of the structures that a fit left; only here are the libraries of fits loaded."""
-    from disting.cli.next_fit import networks_onward, onward
-    from disting.report.fit.left_first import again, first_sentence
-    from disting.report.fit.left_words import (
-        MEASURED_COLUMNS,
-        left_rows,
-        left_to_dict,
-        measured_in_words,
-        set_in_words,
-    )
+    from disting.cli.next_fit import in_text, networks_onward, onward, plain, table
 
     with engine_for(options) as (engine, pool, progress):
         networks = networks_onward(options, costs, engine, pool, progress)
         if networks:
             text = "\n\n".join([*networks.sentences, *map(told, networks.groups)])
-            return _written(options, networks.groups, networks.to_dict(), text)
+            written = json.dumps(networks.to_dict(), indent=1)
+            return _written(options, _of_all(networks.groups), written, text)
         found = onward(options, costs, engine, pool, progress)
-    if options.csv:
-        emitted(options.csv, _table([(*CSV_COLUMNS, *MEASURED_COLUMNS), *left_rows(found)]))
-    if options.json:
-        plain = left_to_dict(found) | {"first": first_sentence(found), "again": again(found)}
-        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
-        emitted(options.json, text + "\n")
-    if "-" in (options.csv, options.json):
-        return 0
-    if len(found.left) == 1:
-        print(printable(first_sentence(found)))
-    else:
-        menus = (line for group in found.groups for line in ("", *_told(group, brief=True)))
-        domain = ["", DOMAIN.format(place="mass"), BRIEF] if found.groups else []
-        first = [first_sentence(found), ""] if found.seen else []
-        last = ["", AGAIN, f"  {again(found)}"] if again(found) else []
-        lines = [
-            *first,
-            *set_in_words(found),
-            "",
-            *measured_in_words(found),
-            *domain,
-            *menus,
-            *last,
-        ]
-        print(printable("\n".join(lines)))
-    return 0
+    menus = [line for group in found.groups for line in ("", *_told(group, brief=True))]
+    domain = ["", DOMAIN.format(place="mass"), BRIEF] if found.groups else []
+    written = json.dumps(plain(found), indent=1, ensure_ascii=False, allow_nan=False)
+    return _written(options, table(found), written, in_text(found, [*domain, *menus]))
 
 
 def told(found: AnyFurther) -> str:

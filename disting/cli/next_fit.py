@@ -2,6 +2,7 @@
 
 import argparse
 import shlex
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,18 +10,28 @@ from pathlib import Path
 from disting.cli.plain import complain
 from disting.errors import InputError, listed
 from disting.experiments.menu import Costs
-from disting.fit.networks import BAR
 from disting.fit.plan.fit_file import Named, named_by
 from disting.fit.plan.further import bench_of, foretold
 from disting.fit.plan.network_file import is_of_networks, left_by
 from disting.fit.plan.relations import stood
+from disting.fit.results.networks import BAR
 from disting.network.network import Network
-from disting.report.fit.left_words import Onward
+from disting.report.fit.left_first import again, first_sentence
+from disting.report.fit.left_words import (
+    MEASURED_COLUMNS,
+    Onward,
+    left_rows,
+    left_to_dict,
+    measured_in_words,
+    set_in_words,
+)
 from disting.schemas import Format
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.further import Further, further
-from disting.verdict.further_words import to_dict
+from disting.verdict.further_words import CSV_COLUMNS, to_dict
 from disting.verdict.network_placement import further_networks
+
+AGAIN = "then fit the new measurement, NEW, together with these data:"
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,3 +142,25 @@ def _warn(source: str, named: Named) -> None:
             " one alone: what it calls sure is sure, and what it leaves open the others may have"
             " told already"
         )
+
+
+def table(found: Onward) -> Iterator[Sequence[str]]:
+    """Every experiment at every pair of places, with what the data of the fit say of it."""
+    yield (*CSV_COLUMNS, *MEASURED_COLUMNS)
+    yield from left_rows(found)
+
+
+def plain(found: Onward) -> dict[str, object]:
+    """Plain data, ready for JSON."""
+    return left_to_dict(found) | {"first": first_sentence(found), "again": again(found)}
+
+
+def in_text(found: Onward, menus: Sequence[str]) -> str:
+    """What to measure first, the structures that are left, and the menus of those that cannot be
+    told apart.
+    """
+    if len(found.left) == 1:
+        return first_sentence(found)
+    first = [first_sentence(found), ""] if found.seen else []
+    last = ["", AGAIN, f"  {again(found)}"] if again(found) else []
+    return "\n".join([*first, *set_in_words(found), "", *measured_in_words(found), *menus, *last])

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from disting.cli.arguments import is_damped
+from disting.cli.model_names import structures, values_of
 from disting.cli.output import emitted
 from disting.cli.plain import complain
-from disting.cli.structures import structures, values_of
 from disting.cli.workers import engine_for
 from disting.errors import InputError, printable
 from disting.fit.noise.scatter import scatter

@@ -124,7 +124,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _model(options: argparse.Namespace) -> tuple[Chain | Network, dict[str, float]]:
     """The model and its parameters; of the demonstration drive if none is named."""
-    from disting.cli.structures import structures, values_of
+    from disting.cli.model_names import structures, values_of
     from disting.simulation import DEMO_MODEL, DEMO_PARAMETERS
 
     if options.model is None:

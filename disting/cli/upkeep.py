@@ -1,9 +1,30 @@
-"""disting cache and disting doctor: what is stored, what is installed."""
+"""disting schema, cache and doctor: what is in the files, what is stored, what is installed."""
 
 import argparse
+import json
 
+from disting.cli.output import emitted
 from disting.files import __version__
+from disting.schemas import Format, schema
 from disting.store import Store
+
+NAMES = {known.short: known for known in Format}
+
+
+def add_schema_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `schema`."""
+    text = "a format, whose JSON Schema is printed (default: all formats are listed)"
+    parser.add_argument("name", nargs="?", choices=tuple(NAMES), metavar="NAME", help=text)
+
+
+def print_schema(options: argparse.Namespace) -> int:
+    """Print a schema, or what there is."""
+    if options.name:
+        emitted("-", json.dumps(schema(NAMES[options.name]), indent=1, ensure_ascii=False) + "\n")
+        return 0
+    for name, known in NAMES.items():
+        print(f"{name}: {known.description}")
+    return 0
 
 
 def cache_info(options: argparse.Namespace) -> int:

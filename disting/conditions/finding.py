@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Self
 
-from disting.algebra.certainty import Certainty, shortfall
+from disting.algebra.certainty import Certainty, withhold
 from disting.conditions.rule import EXACT, Rule
 from disting.evidence.kinds import Evidence, evidence_from
 from disting.model.presentation import summary
@@ -54,16 +54,7 @@ class Finding:
     note: str = ""
 
     def __post_init__(self) -> None:
-        lacking = shortfall(self.certainty, self.safety)
-        if lacking:
-            given_up = {
-                "outcome": Outcome.ABANDONED,
-                "certainty": Certainty.PROVEN,
-                "safety": 0,
-                "evidence": None,
-            }
-            for name, value in (given_up | {"note": lacking}).items():
-                object.__setattr__(self, name, value)
+        withhold(self, "note", outcome=Outcome.ABANDONED, certainty=Certainty.PROVEN)
 
     def __repr__(self) -> str:
         return summary(self, f"{self.rule.in_words()} {self.outcome} ({self.certainty})")

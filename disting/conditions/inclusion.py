@@ -6,11 +6,10 @@ zero nor infinite. CLOSURE: they are limits of models of the other, whose elemen
 or grow without bound. IMAGE implies CLOSURE, and what is no limit has no equivalent.
 """
 
-import json
 from dataclasses import dataclass
 from enum import StrEnum
 
-from disting.algebra.certainty import Certainty, shortfall
+from disting.algebra.certainty import Certainty, withhold
 from disting.evidence.kind import Inside
 from disting.evidence.kinds import InclusionEvidence, inclusion_evidence_from
 
@@ -63,28 +62,10 @@ class InclusionFinding:
     reason: str = ""
 
     def __post_init__(self) -> None:
-        if (
-            len(
-                {
-                    self.inclusion is not Inclusion.UNKNOWN,
-                    self.evidence is not None,
-                    self.certainty is not None,
-                }
-            )
-            > 1
-        ):
+        known = self.inclusion is not Inclusion.UNKNOWN
+        if (self.evidence is not None, self.certainty is not None) != (known, known):
             raise ValueError("exactly a finding that is not unknown carries certainty and evidence")
-        lacking = shortfall(self.certainty, self.safety)
-        if lacking:
-            given_up = {
-                "inclusion": Inclusion.UNKNOWN,
-                "certainty": None,
-                "safety": 0,
-                "evidence": None,
-                "reason": lacking,
-            }
-            for name, value in given_up.items():
-                object.__setattr__(self, name, value)
+        withhold(self, "reason", inclusion=Inclusion.UNKNOWN, certainty=None)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its inclusion")
@@ -211,23 +192,3 @@ def inclusions_from_dict(data: dict[str, object]) -> Inclusions:
     if not isinstance(closure, dict) or not isinstance(image, dict):
         raise TypeError("both statements are dictionaries")
     return Inclusions(inclusion_from_dict(image), inclusion_from_dict(closure))
-
-
-def inclusion_to_json(found: InclusionFinding) -> str:
-    """A finding as text."""
-    return json.dumps(inclusion_to_dict(found))
-
-
-def inclusion_from_json(text: str) -> InclusionFinding:
-    """A finding from its text."""
-    return inclusion_from_dict(json.loads(text))
-
-
-def inclusions_to_json(found: Inclusions) -> str:
-    """Both statements as text."""
-    return json.dumps(inclusions_to_dict(found))
-
-
-def inclusions_from_json(text: str) -> Inclusions:
-    """Both statements from their text."""
-    return inclusions_from_dict(json.loads(text))

@@ -8,21 +8,27 @@ parameter, so with formulas a_j/b_j, E_j = max(deg a_j, deg b_j), every coeffici
 num' den becomes, multiplied by all b_j, a polynomial of degree at most sum E_j + n in the n given
 parameters. If it is not zero, it vanishes at a point with coordinates from a set of S numbers with
 probability (sum E_j + n)/S at most (Schwartz and Zippel); so does one of the b_j.
+
+Of values the agreement of two models is a number: the largest difference of a coefficient of both
+transfer functions, in balls.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from hashlib import shake_256
+from itertools import zip_longest
 from math import ceil, log2
+from typing import Any
 
-from flint import fmpq
+from flint import acb, acb_poly, ctx, fmpq, fmpq_poly
 
 from disting.algebra.rational_function import RationalFunction, variables
 from disting.algebra.symbols import symbols
 from disting.behaviour.transfer import plain_receptance
-from disting.equivalence.residual import exactly_equal
 from disting.model.chain import Chain
 
-BITS = 256  # of a random coordinate
+Number = Any  # fmpq or acb
+COORDINATE = 256  # bits of a random coordinate
+BITS = 320  # of the evaluation in balls; inputs of 15 digits leave far more than enough
 
 
 def is_identity(given: Chain, other: Chain, formulas: Mapping[str, RationalFunction]) -> bool:
@@ -41,7 +47,7 @@ def holds_at_random(
     """At one random point, exactly; False is a proof that the formulas are wrong, True holds
     but for `safety`.
     """
-    count = BITS // 8
+    count = COORDINATE // 8
     digits = shake_256(f"equivalence:{seed}".encode()).digest(count * len(given.parameters))
     numbers = [
         int.from_bytes(digits[i * count : (i + 1) * count], "big") + 1
@@ -56,4 +62,47 @@ def holds_at_random(
 def safety(given: Chain, formulas: Mapping[str, RationalFunction]) -> int:
     """The probability that wrong formulas pass at one random point is at most 2^-safety."""
     degree = sum(formula.degree for formula in formulas.values()) + len(given.parameters)
-    return BITS - ceil(log2(degree))
+    return COORDINATE - ceil(log2(degree))
+
+
+def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, fmpq]) -> bool:
+    """Whether two models at rational points have the same transfer function: exact, common
+    factors do not matter.
+    """
+    one, s = fmpq_poly([1]), fmpq_poly([0, 1])
+    (f_num, f_den), (g_num, g_den) = (
+        plain_receptance(
+            chain.structure, {name: fmpq_poly([v]) for name, v in values.items()}, s, one
+        )
+        for chain, values in ((left, a), (right, b))
+    )
+    return bool(f_num * g_den == g_num * f_den)
+
+
+def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, Number]) -> float:
+    """Upper bound of the largest relative difference of a coefficient, denominators made monic.
+
+    Relative to the coefficient of the left model, or to its largest one where that coefficient is
+    zero.
+    """
+    with ctx.workprec(BITS):
+        pairs = zip(_coefficients(left, a), _coefficients(right, b), strict=True)
+        return max(_relative(*pair) for pair in pairs)
+
+
+def _coefficients(chain: Chain, values: Mapping[str, Number]) -> Iterator[list[acb]]:
+    """Numerator and denominator, coefficients from low to high."""
+    lifted = {name: acb_poly([acb(value)]) for name, value in values.items()}
+    num, den = plain_receptance(chain.structure, lifted, acb_poly([0, 1]), acb_poly([1]))
+    lead = den[den.degree()]
+    for p in (num, den):
+        yield [p[i] / lead for i in range(den.degree() + 1)]
+
+
+def _relative(given: list[acb], ours: list[acb]) -> float:
+    largest = max((c.abs_upper() for c in given), key=float)
+    worst = 0.0
+    for a, b in zip_longest(given, ours, fillvalue=acb(0)):
+        scale = largest if a.contains(0) else a.abs_lower()
+        worst = max(worst, float((a - b).abs_upper() / scale))
+    return worst

@@ -15,6 +15,7 @@ from typing import Any
 from flint import acb, arb, fmpq
 
 from disting.equivalence.cauer import common_ratio, proportional_solutions
+from disting.equivalence.identity import difference
 from disting.equivalence.images import DUALITY, Image, images
 from disting.equivalence.inputs import Value, chains_of, point_of
 from disting.equivalence.listing import (
@@ -28,7 +29,6 @@ from disting.equivalence.listing import (
     special,
     under_all,
 )
-from disting.equivalence.residual import difference
 from disting.equivalence.under_experiments import Bench, benches
 from disting.errors import ContradictionError, InputError
 from disting.experiments import Experiment, named

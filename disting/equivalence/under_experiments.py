@@ -13,7 +13,7 @@ from typing import Any
 from flint import acb, acb_poly, ctx, fmpq, fmpq_poly
 
 from disting.behaviour.transfer import plain_receptance
-from disting.equivalence.residual import BITS
+from disting.equivalence.identity import BITS
 from disting.experiments import Experiment, MeasuredChain, Named, Places, moved, named, ways
 from disting.experiments.experiment import Entry
 from disting.model.chain import Chain

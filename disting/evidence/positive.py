@@ -5,13 +5,12 @@ another, and their evidence.
 equivalents are looked for.
 """
 
-import json
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from math import sqrt
 from typing import Any, ClassVar, Self, get_args
 
-from disting.algebra.certainty import Certainty, shortfall
+from disting.algebra.certainty import Certainty, withhold
 from disting.evidence.decision import Theorem
 from disting.evidence.kind import Kind, plain_fields, read
 
@@ -297,17 +296,7 @@ class PositiveFinding:
             self.evidence is not None and self.certainty is not None
         ):
             raise ValueError("exactly a share that is not unknown carries certainty and evidence")
-        lacking = shortfall(self.certainty, self.safety)
-        if lacking:
-            given_up = {
-                "share": Share.UNKNOWN,
-                "certainty": None,
-                "safety": 0,
-                "evidence": None,
-                "reason": lacking,
-            }
-            for name, value in given_up.items():
-                object.__setattr__(self, name, value)
+        withhold(self, "reason", share=Share.UNKNOWN, certainty=None)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its share")
@@ -355,15 +344,6 @@ class PositiveFinding:
             empirical=empirical,
             reason=data.get("reason", ""),
         )
-
-    def to_json(self) -> str:
-        """Compact JSON text."""
-        return json.dumps(self.to_dict(), separators=(",", ":"), ensure_ascii=False)
-
-    @staticmethod
-    def from_json(text: str) -> "PositiveFinding":
-        """Inverse of `to_json`; raises ValueError, KeyError or TypeError for what is none."""
-        return PositiveFinding.from_dict(json.loads(text))
 
 
 def _wilson(hits: int, tries: int) -> tuple[float, float]:

@@ -22,9 +22,10 @@ from flint import fmpz_mpoly, fmpz_poly
 
 from disting.algebra.quotient import Quotient, matrix
 from disting.algebra.sampling import Size, prime, residues
-from disting.algebra.symbols import coefficients, renamed, symbols
+from disting.algebra.symbols import coefficients, symbols
 from disting.algebra.tridiagonal import Ring
 from disting.behaviour.chain_model import quotient, size_of_minors, vanishing_series
+from disting.behaviour.expanded import become
 from disting.behaviour.sample import (
     Representation,
     at_point,
@@ -121,10 +122,7 @@ def known_factor(entry: Entry) -> int:
 def _renames(left: Entry, right: Entry, renaming: Mapping[str, str]) -> bool:
     if not (touched(left) and touched(right)):
         return not touched(left) and not touched(right)
-    a, b = expanded(left), expanded(right)
-    ring = symbols([str(g) for g in b[1].context().gens()])
-    num, den = (renamed(p, ring, renaming) for p in a)
-    return bool(num * b[1] == b[0] * den)
+    return become(expanded(left), expanded(right), renaming)
 
 
 def _has_one_sign(entry: Entry) -> bool:

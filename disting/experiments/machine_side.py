@@ -37,11 +37,11 @@ NOT_KNOWN = "whether equivalents under these experiments are {} is not known"
 EXACTLY = Question(
     "exact decisions under experiments", exact_finding, Finding.to_json, Finding.from_json
 )
-POSITIVELY = Question(
+POSITIVELY = Question.plain(
     "positive equivalents under experiments",
     positive_finding,
-    PositiveFinding.to_json,
-    PositiveFinding.from_json,
+    PositiveFinding.to_dict,
+    PositiveFinding.from_dict,
 )
 Pair = tuple["ComparedMachine", "ComparedMachine"]
 

@@ -113,6 +113,7 @@ from disting.fit.results.loop import Margins as Margins
 from disting.fit.results.loop import margins as margins
 from disting.fit.results.model_file import read_model as read_model
 from disting.fit.results.reliance import Statement as Statement
+from disting.fit.results.selection import Selection as Selection
 from disting.fit.results.sweep import Profile as Profile
 from disting.fit.results.sweep import Sweep as Sweep
 from disting.fit.results.sweep import profile as profile
@@ -133,7 +134,6 @@ from disting.fit.search.joint import JointCost as JointCost
 from disting.fit.search.joint import JointPlant as JointPlant
 from disting.fit.search.plant import Plant as Plant
 from disting.fit.search.setup import Setup as Setup
-from disting.fit.select import Selection as Selection
 from disting.fit.select import select as select
 from disting.model.presentation import offered as _offered
 

@@ -6,18 +6,17 @@ brought to the last digit in units of what the lines scatter (`whitened`); the t
 network excludes another one, and the question whether any explains the data, are those of chains.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from disting.errors import InputError, listed
+from disting.errors import InputError
 from disting.fit.judge.exclusion import basis_of, limit, statistic
-from disting.fit.judge.explanation import FEW_CLEAR, Miss
-from disting.fit.judge.practical import Seen
 from disting.fit.judge.responses import explained, noises, scatters, together
 from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter
+from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
@@ -34,25 +33,16 @@ from disting.fit.search.whitened import Whitened
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.model.presentation import Shown, summary
 from disting.network.network import Network
-from disting.network.notation.entries import entry_of
-from disting.schemas import Format
 from disting.verdict.decisions import Decisions
-from disting.verdict.engine import Engine
+from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
 
 STARTS, KEPT = 60, 6  # random starts of a network, and how many are searched on
 ITERATIONS = 40
-BAR = " | "  # between names of networks, which have commas
 SEED = 20_240_601  # of the starts
 LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
-Progress = Callable[[str, int, int], object]
-
-
-def silent(what: str, done: int, total: int) -> None:
-    """No progress is shown."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,108 +59,6 @@ class BestFit:
     def reached(self) -> int:
         """Number of starts that came within 0.1 % of the best cost."""
         return sum(cost <= self.j * (1 + REACHED) + NOTHING for cost in self.costs)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class FittedNetwork:
-    """A network with its values of least |r|^2, r whitened, shape (n_y,), and how well it explains
-    the data.
-
-    `same`: other candidates that give the same responses for all positive values; `relative`:
-    standard deviations of the logarithms of the values, infinite of what the data or the network do
-    not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it.
-    """
-
-    network: Network
-    values: dict[str, float]
-    relative: dict[str, float]
-    rank: int
-    chi2: float
-    residual: Real = field(repr=False)
-    basis: Real = field(repr=False)
-    noise: Seen = field(repr=False)
-    same: tuple[str, ...] = ()
-    explains: bool = False
-    excluded_by: str = ""
-    misses: tuple[Miss, ...] = ()
-
-    @property
-    def cost(self) -> float:
-        """|r|^2."""
-        return float(self.residual @ self.residual)
-
-    def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON; None for a deviation that is infinite."""
-        return {
-            "name": self.network.name,
-            "values": self.values,
-            "relative_deviations": {
-                name: x if np.isfinite(x) else None for name, x in self.relative.items()
-            },
-            "rank": self.rank,
-            "chi2": self.chi2,
-            "explains": self.explains,
-            "excluded_by": self.excluded_by,
-            "same": list(self.same),
-            "misses": [miss.sentence for miss in self.misses],
-        }
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class NetworkSelection(Shown):
-    """What was found: `fits`, the selected one first, then by chi2; all candidates (`networks`);
-    the responses (`measured`), and `scatter` of the lines.
-    """
-
-    fits: tuple[FittedNetwork, ...]
-    networks: tuple[Network, ...]
-    measured: tuple[FrequencyResponse, ...] = field(repr=False)
-    scatter: Scatter
-    decisions: Decisions = field(repr=False)
-
-    def __repr__(self) -> str:
-        chosen = self.selected
-        return summary(self, chosen.network.name if chosen else "none explains the data")
-
-    @property
-    def left(self) -> tuple[FittedNetwork, ...]:
-        """Those that explain the data and that no other one excludes."""
-        return tuple(f for f in self.fits if f.explains and not f.excluded_by)
-
-    @property
-    def selected(self) -> FittedNetwork | None:
-        """Of those that are left the one with the fewest determinable values, then the best."""
-        return min(self.left, key=lambda f: (f.rank, f.cost), default=None)
-
-    @property
-    def sentence(self) -> str:
-        """The answer in a sentence."""
-        chosen = self.selected
-        if self.scatter.clear < FEW_CLEAR:
-            return "The data are mostly noise: they support no network."
-        if chosen is None:
-            return "None of these networks explains the data."
-        twins = f", which cannot be told from {listed(chosen.same, BAR)}" if chosen.same else ""
-        others = [f.network.name for f in self.left if f is not chosen]
-        more = f" The data do not exclude {listed(others, BAR)} either." if others else ""
-        return f"{chosen.network.name} is the simplest that explains the data{twins}.{more}"
-
-    def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        chosen, (first, *_) = self.selected, self.measured
-        return {
-            "format": Format.NETWORK_FIT.value,
-            "sentence": self.sentence,
-            "selected": chosen.network.name if chosen else None,
-            "scatter": self.scatter.typical,
-            "frequencies": {
-                "low": float(first.frequency[0]),
-                "high": float(first.frequency[-1]),
-                "lines": len(first),
-            },
-            "networks": [{"name": n.name, **entry_of(n)} for n in self.networks],
-            "fits": [fit.to_dict() for fit in self.fits],
-        }
 
 
 def fit_networks(

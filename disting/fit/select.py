@@ -9,13 +9,9 @@ after the question whether any candidate explains the data at all (`explanation`
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING
 
-import numpy as np
-
-from disting.errors import InputError
 from disting.fit.judge.admissible import Rule, reasons
 from disting.fit.judge.alternatives import (
     Alternative,
@@ -24,8 +20,8 @@ from disting.fit.judge.alternatives import (
     limits_of,
     representatives,
 )
-from disting.fit.judge.candidate import FOLDS, Candidate, judged, witnessed
-from disting.fit.judge.choice import akaike_weighted, choice
+from disting.fit.judge.candidate import FOLDS, Candidate, Scatters, judged, witnessed
+from disting.fit.judge.choice import Choice, akaike_weighted, choice
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.joint_verdicts import (
     alternatives_under_all,
@@ -39,97 +35,26 @@ from disting.fit.judge.reading import other_quantities
 from disting.fit.judge.readings import Reading, readings
 from disting.fit.judge.signs import pilot, signed
 from disting.fit.results.loop import Controller
-from disting.fit.results.reliance import Statement, statements
-from disting.fit.search.candidates import reference
+from disting.fit.results.reliance import statements
+from disting.fit.results.selection import Selection
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.estimate import Estimate, Method, Task
+from disting.fit.search.data import checked
+from disting.fit.search.estimate import Estimate, Method, Task, one_thread
 from disting.fit.search.exchange import SEARCHED, body, estimates, polished
-from disting.fit.search.joint import AnyCost, Further, JointCost, joint_cost, judging_cost
-from disting.measurement import FrequencyResponse, are_opposite
+from disting.fit.search.joint import AnyCost, Further, JointCost
+from disting.fit.search.weighing import joint_cost, judging_cost
+from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.presentation import Shown, plural, summary
+from disting.model.question import Settings
 from disting.store import Store
-from disting.verdict.engine import Engine
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from disting.verdict.engine import Engine, Progress, silent
 
 CROSS_VALIDATION = f"{FOLDS}-fold cross-validation over the frequency lines"
 MOST_LINES = 10_000  # of a response that are fitted, unless more are asked for
-MOST_EXTREME = 1e30  # of a frequency or an amplitude
-
-Progress = Callable[[str, int, int], object]
 
 
-def silent(what: str, done: int, total: int) -> None:
-    """No progress is shown."""
-
-
-@dataclass(frozen=True)
-class Selection(Shown):
-    """What a selection found. `selected` is None where no candidate is admissible; candidates in
-    the order of the cost on test.
-
-    `explanation` is that of the selected candidate, else of the best one; `members`: the
-    structures that the data do not exclude, the selected one first, none where nothing explains
-    the data; `containing`: those that only contain one of them, with elements that the data do not
-    determine; `readings`: what would fit then; `relied_on`: what holds for all members, around
-    which `controller` closes the loop; `better`: candidates that the paper's rule does not admit
-    and that would exclude the selected one; `saved` counts the candidates that were not fitted
-    because one with the same positive models was (`same_as`, by candidate); `validation` says where
-    the test cost comes from, `judging` is that cost. Where several responses are fitted, `test` is
-    the data of the first one, and `silent` names those that are zero, from which nothing is
-    learned. `quantities`: sentences on the sensor quantities that explain the data as well as the
-    assumed one; `command`: what reads and fits the same data once more, without the candidates.
-    """
-
-    selected: Candidate | None
-    candidates: tuple[Candidate, ...]
-    alternatives: tuple[Alternative, ...]
-    thresholds: Thresholds
-    validation: str
-    same_as: dict[Chain, Chain]
-    rule: Rule
-    explanation: Explanation
-    members: tuple[Member, ...]
-    containing: tuple[Member, ...]
-    readings: tuple[Reading, ...]
-    relied_on: tuple[Statement, ...]
-    controller: Controller | None
-    better: tuple[Candidate, ...]
-    silent: tuple[str, ...]
-    task: Task = field(repr=False)
-    test: FrequencyResponse = field(repr=False)
-    judging: AnyCost = field(repr=False)
-    quantities: tuple[str, ...] = ()
-    command: str = ""
-
-    def __repr__(self) -> str:
-        found = "none is admissible" if self.selected is None else reference(self.selected.chain)
-        left = len(self.members) + len(self.containing)
-        members = f", {left} not excluded" if left else ""
-        return summary(self, f"{found} of {plural(len(self.candidates), 'candidate')}{members}")
-
-    def plot(self, ax: "Axes | Sequence[Axes] | None" = None) -> tuple["Axes", ...]:
-        """Bode diagram with matplotlib: the data on test, and the structures that they do not
-        exclude, else the best one. `ax` and what is returned as in `FrequencyResponse.plot`.
-        """
-        return tuple(self._presenter.plot(self, ax, {}))
-
-    @property
-    def described(self) -> Candidate:
-        """The candidate that `explanation` is about: the selected one, else the one with the
-        lowest cost on test.
-        """
-        return self.selected or self.candidates[0]
-
-    @property
-    def saved(self) -> int:
-        """Number of fits that verdicts saved."""
-        return len(self.same_as)
-
-
+@one_thread()
 def select(
     train: FrequencyResponse,
     candidates: Sequence[Chain],
@@ -175,72 +100,116 @@ def select(
     springs or ports every choice of places is fitted, and the best is taken
     (`joint_verdicts.located`).
     """
-    _check(train, test, further, candidates)
-    train, test = train.thinned(most_lines), None if test is None else test.thinned(most_lines)
-    further = [one.thinned(most_lines) for one in further]
-    candidates, further, silent = learning(candidates, further, home)
+    train, test, further = checked(train, test, further, candidates, most_lines)
+    candidates, further, zero = learning(candidates, further, home)
     engine = engine or Engine(store=Store.none())
-    likely = not alike and all(choice is None for choice in (case, weights, lines))
-    first_cost = Cost(train, case or Case.LOGARITHM, weights)
-    weighed = partial(joint_cost, first_cost, further, lines, alike, test)
-    asked = Task(weighed(), sign or 1, bounds or {}, fixed or {}, seed)
+    by_scatter = lines is None and not alike
+    cost = Cost(train, case or Case.LOGARITHM, weights)
+    weighed = partial(joint_cost, cost, further, lines, alike)
+    asked = Task(weighed(test), sign or 1, bounds or {}, fixed or {}, seed)
     asked = asked if sign else signed(asked, _at_home(candidates, home))
-    search, seen_by = _tried(
-        located(asked, candidates, home, engine.store) if home else asked,
-        candidates,
-        weighed,
-        by_scatter=lines is None and not alike,
-    )
+    asked = located(asked, candidates, home, engine.store) if home else asked
+    search, seen_by = _tried(asked, candidates, partial(weighed, test), by_scatter)
+    judging = judging_cost(search.cost, test, further, lines, alike, seen_by) if test else None
     within = limits_of(search.bounds, search.fixed)
     first = _representatives(candidates, search, engine, within, prune)
-    wanted = [c for c in candidates if first[c] == c]
-    each = estimates(
-        wanted,
-        search.thinned(SEARCHED) if likely else search,
-        method=method,
-        store=engine.store,
-        executor=executor,
-        progress=progress,
-    )
-    searched = [each[c] for c in wanted]
-    test_cost = judging_cost(search.cost, test, further, lines, alike, seen_by) if test else None
-    known = witnessed(searched, search, test_cost)
-    task, found = search, searched
-    if likely:
-        task = replace(search, cost=search.cost.likely(known[0]))
-        test_cost = test_cost and test_cost.likely(known[1])
-        found = polished(searched, task, engine.store, executor, progress)
+    likely = by_scatter and case is None and weights is None
+    work = Work(engine, executor, progress)
+    fits = _fits([c for c in candidates if first[c] == c], search, judging, likely, method, work)
     limits = thresholds or Thresholds()
-    fitted = judged(found, task, test_cost, known, engine.settings)
-    fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
-    weighted = akaike_weighted(fitted, task)
-    chosen = choice(weighted, task, test_cost, known, rule, engine.settings)
-    said = chosen.explanation
-    kept = chosen.left if said.explains else ()
-    misread = () if said.explains or said.noisy or further else searched
-    left = members(kept, task, test_cost, known, within, executor, progress)
-    whole = tuple(m for m in left if m.contains is None)
+    chosen = _chosen(fits, limits, rule, engine.settings)
+    whole, containing = _members(fits, chosen, within, work)
     return Selection(
         selected=chosen.selected,
         candidates=chosen.candidates,
-        alternatives=_alternatives(chosen.selected, candidates, task, engine, within),
+        alternatives=_alternatives(chosen.selected, candidates, fits.task, engine, within),
         thresholds=limits,
         validation="test data" if test else CROSS_VALIDATION,
         same_as={c: other for c, other in first.items() if c != other},
         rule=rule,
-        explanation=said,
+        explanation=chosen.explanation,
         members=whole,
-        containing=tuple(m for m in left if m.contains),
-        readings=_readings(misread, search, engine.store, executor, progress),
-        relied_on=statements(whole, task, controller),
+        containing=containing,
+        readings=() if further else _readings(fits, chosen.explanation, work),
+        relied_on=statements(whole, fits.task, controller),
         controller=controller,
         better=chosen.better,
-        silent=tuple(silent),
-        task=task,
+        silent=tuple(zero),
+        task=fits.task,
         test=test or train,
-        judging=test_cost or task.cost,
-        quantities=other_quantities(searched, search, engine.store, executor, progress),
+        judging=fits.test or fits.task.cost,
+        quantities=other_quantities(fits.searched, search, engine.store, executor, progress),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Work:
+    """What the work is done with."""
+
+    engine: Engine
+    executor: Executor | None
+    progress: Progress
+
+
+@dataclass(frozen=True, slots=True)
+class Fits:
+    """The best parameters of all candidates that are fitted: `searched` by the cost of `search`,
+    `found` by that of `task`, the same where a cost of the paper is kept; `test`: the cost on test
+    data, None without such; `known`: how the lines of both scatter.
+    """
+
+    search: Task
+    searched: Sequence[Estimate]
+    task: Task
+    found: Sequence[Estimate]
+    test: AnyCost | None
+    known: Scatters
+
+
+def _fits(
+    candidates: Sequence[Chain],
+    search: Task,
+    test: AnyCost | None,
+    likely: bool,
+    method: Method | None,
+    work: Work,
+) -> Fits:
+    """Searched by logarithms, then, where the highest likelihood is asked for, brought to the last
+    digit in units of what each line scatters.
+    """
+    store, executor, progress = work.engine.store, work.executor, work.progress
+    each = estimates(
+        candidates,
+        search.thinned(SEARCHED) if likely else search,
+        method=method,
+        store=store,
+        executor=executor,
+        progress=progress,
+    )
+    searched = [each[c] for c in candidates]
+    known = witnessed(searched, search, test)
+    if not likely:
+        return Fits(search, searched, search, searched, test, known)
+    task = replace(search, cost=search.cost.likely(known[0]))
+    found = polished(searched, task, store, executor, progress)
+    return Fits(search, searched, task, found, test and test.likely(known[1]), known)
+
+
+def _chosen(fits: Fits, limits: Thresholds, rule: Rule, settings: Settings) -> Choice:
+    """Which candidate is taken, which others are left, and whether any explains the data."""
+    task, test, known = fits.task, fits.test, fits.known
+    fitted = judged(fits.found, task, test, known, settings)
+    fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
+    return choice(akaike_weighted(fitted, task), task, test, known, rule, settings)
+
+
+def _members(
+    fits: Fits, chosen: Choice, within: Limits, work: Work
+) -> tuple[tuple[Member, ...], tuple[Member, ...]]:
+    """What the data do not exclude: those that contain no other one, and those that do."""
+    kept = chosen.left if chosen.explanation.explains else ()
+    left = members(kept, fits.task, fits.test, fits.known, within, work.executor, work.progress)
+    return tuple(m for m in left if m.contains is None), tuple(m for m in left if m.contains)
 
 
 def _at_home(candidates: Sequence[Chain], home: Chain | None) -> Sequence[Chain]:
@@ -291,67 +260,9 @@ def _alternatives(
     return alternatives_under_all(selected.chain, found, task.cost, engine, within)
 
 
-def _readings(
-    searched: Sequence[Estimate],
-    task: Task,
-    store: Store,
-    executor: Executor | None,
-    progress: Progress,
-) -> tuple[Reading, ...]:
-    """What the data would be where these estimates do not explain them."""
-    if not searched:
+def _readings(fits: Fits, said: Explanation, work: Work) -> tuple[Reading, ...]:
+    """What the data would be where the fits do not explain them."""
+    if said.explains or said.noisy or not fits.searched:
         return ()
-    return readings(searched, task, store=store, executor=executor, progress=progress)
-
-
-def _check(
-    train: FrequencyResponse,
-    test: FrequencyResponse | None,
-    further: Sequence[Further],
-    candidates: Sequence[Chain],
-) -> None:
-    if not candidates:
-        raise InputError("a selection needs at least one candidate")
-    _check_pair(train, test)
-    other = {c.sensor for c in candidates} - {train.sensor}
-    if other:
-        raise InputError(
-            f"the data shows {train.sensor.value}, a candidate {other.pop().value}; choose one"
-            " sensor quantity"
-        )
-    for data in filter(None, (train, test)):
-        _check_units(data)
-    for one in further:  # each against its own test data
-        if one.test is not None and test is None:
-            raise InputError("test data of a further response need test data of the first one too")
-        _check_pair(one.measured, one.test)
-        for data in filter(None, (one.measured, one.test)):
-            _check_units(data)
-
-
-def _check_pair(train: FrequencyResponse, test: FrequencyResponse | None) -> None:
-    if test is not None and test.sensor is not train.sensor:
-        raise InputError(
-            f"training shows {train.sensor.value}, test {test.sensor.value}; convert one of them"
-        )
-    if test is not None and are_opposite(train, test):
-        raise InputError(
-            "training and test are of opposite sign; reverse one of them, as by sign_reversed()"
-        )
-
-
-def _check_units(data: FrequencyResponse) -> None:
-    """Numbers whose squares and products floating point holds; beyond these no unit of
-    measurement is sensible.
-    """
-    for name, values, unit in (
-        ("frequencies", data.omega, "rad/s"),
-        ("amplitudes", np.abs(data.G), "output per input"),
-    ):
-        low, high = float(values.min()), float(values.max())
-        if low < 1 / MOST_EXTREME or high > MOST_EXTREME:
-            limits = f"a fit computes with {1 / MOST_EXTREME:g} to {MOST_EXTREME:g}"
-            raise InputError(
-                f"the {name} are {low:g} to {high:g} {unit}; {limits}: choose other units or leave"
-                " lines out"
-            )
+    store, executor, progress = work.engine.store, work.executor, work.progress
+    return readings(fits.searched, fits.search, store=store, executor=executor, progress=progress)

@@ -33,18 +33,7 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
     """
     first, n = repeats[0], len(repeats)
     for other in repeats[1:]:
-        if other.sensor is not first.sensor:
-            raise InputError(
-                f"repeats show {first.sensor.value} and {other.sensor.value}; give responses of one"
-                " quantity"
-            )
-        if len(other) != len(first) or np.any(
-            np.abs(other.omega - first.omega) > SAME * first.omega
-        ):
-            raise InputError(
-                f"{other.origin or 'a repeat'} has other frequencies than"
-                f" {first.origin or 'the first'}; repeats share them"
-            )
+        _check_alike(first, other)
     if n == 1:
         return first
     values = np.stack([one.G for one in repeats])
@@ -72,6 +61,19 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         )
         .doubted(*doubts)
     )
+
+
+def _check_alike(first: FrequencyResponse, other: FrequencyResponse) -> None:
+    if other.sensor is not first.sensor:
+        raise InputError(
+            f"repeats show {first.sensor.value} and {other.sensor.value}; give responses of one"
+            " quantity"
+        )
+    if len(other) != len(first) or np.any(np.abs(other.omega - first.omega) > SAME * first.omega):
+        raise InputError(
+            f"{other.origin or 'a repeat'} has other frequencies than"
+            f" {first.origin or 'the first'}; repeats share them"
+        )
 
 
 def are_opposite(one: FrequencyResponse, other: FrequencyResponse) -> bool:

@@ -116,28 +116,15 @@ class TimeSeries:
         `period` or `outliers`.
         """
         given = (self.u, self.y, self.sampling_rate)
+        _check_method(segment, period, lines, least_coherence, outliers)
         # what is not finite then is refused below
         with np.errstate(over="ignore", invalid="ignore"):
             if segment is None:
-                if least_coherence is not None:
-                    raise InputError(
-                        "least_coherence belongs to Welch's method: give --read segment=SAMPLES too"
-                    )
                 excitation = self.u if self.reference is None else self.reference
                 found = periodic.estimate(
                     *given, period, transient, lines, band, excitation, outliers
                 )
             else:
-                if period is not None or lines is not None:
-                    raise InputError(
-                        "period and lines belong to a periodic excitation, segment to any other:"
-                        " give one of them"
-                    )
-                if outliers != "keep":
-                    raise InputError(
-                        "--outliers drop compares periods or repeats; segments of Welch's method"
-                        " are not alike: cut the record where it is disturbed, or leave it away"
-                    )
                 found = welch.estimate(*given, segment, band, self.reference, least_coherence)
         _refuse_few(found, band)
         in_doubt = segment is not None and self.reference is None
@@ -170,6 +157,32 @@ def said(sensor: Sensor | str | None, unit: str = "") -> tuple[Sensor, tuple[str
         return as_sensor(sensor), ()
     own = motion(unit)
     return (Sensor.POSITION, (ASSUMED_POSITION,)) if own is None else (own.sensor, ())
+
+
+def _check_method(
+    segment: int | None,
+    period: int | None,
+    lines: Any,
+    least_coherence: float | None,
+    outliers: str,
+) -> None:
+    """Raises InputError for an option that belongs to the other method."""
+    if segment is None:
+        if least_coherence is not None:
+            raise InputError(
+                "least_coherence belongs to Welch's method: give --read segment=SAMPLES too"
+            )
+        return
+    if period is not None or lines is not None:
+        raise InputError(
+            "period and lines belong to a periodic excitation, segment to any other: give one of"
+            " them"
+        )
+    if outliers != "keep":
+        raise InputError(
+            "--outliers drop compares periods or repeats; segments of Welch's method are not alike:"
+            " cut the record where it is disturbed, or leave it away"
+        )
 
 
 def _refuse_few(found: periodic.Estimated, band: tuple[float, float] | None) -> None:

@@ -36,6 +36,8 @@ bias of what was taken out by the same formula, are added to the squared deviati
 the bias is more than the deviation and than chance makes of any line (level `CHANCE`).
 """
 
+from typing import Any
+
 import numpy as np
 
 from disting.errors import InputError, shown
@@ -81,11 +83,7 @@ def estimate(
         if reference is None
         else tuple(spectrum(reference, x) for x in (reference, u, y))
     )
-    if any(np.any(np.abs(power) <= 0) for power in (uu, yy, rr, ru)):
-        raise InputError(
-            "input or output has no power at a frequency of the band; give band=(low, high) [Hz] of"
-            " the excitation"
-        )
+    _refuse_silent(uu, yy, rr, ru)
     response, effective = ry / ru, count / (1 + 2 / 36)
     unexplained = np.maximum(yy - 2 * (response.conj() * uy).real + np.abs(response) ** 2 * uu, 0.0)
     deviation = np.sqrt(unexplained * rr.real / effective) / np.abs(ru)
@@ -99,12 +97,7 @@ def estimate(
     notes += [_left_out(grid[kept][even], good[even], level)] * (not good[even].all())
     coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
     good &= even
-    curved, chance = _curved(response), CURVED * deviation**2
-    beyond = np.sqrt(np.maximum(np.abs(curved) ** 2 - chance, 0.0)) / 6
-    share = np.maximum(1 - SURE * chance / np.maximum(np.abs(curved) ** 2, TINY), 0.0)
-    bias = share * curved / 6
-    left = np.hypot(np.maximum(beyond - np.abs(bias), 0.0), np.abs(_curved(bias)) / 6)
-    whole = np.hypot(deviation * np.sqrt(1 + GROWTH * share**2), left)
+    bias, whole, beyond = _bias(response, deviation)
     size = np.abs(response)[good]
     return Estimated(
         omega=2 * np.pi * grid[kept][good],
@@ -115,6 +108,26 @@ def estimate(
         freedom=2.0 * (effective - 1),
         doubts=_smoothed(grid[kept][good], beyond[good] / size, deviation[good] / size, segment),
     )
+
+
+def _refuse_silent(*powers: np.ndarray[Any, Any]) -> None:
+    if any(np.any(np.abs(power) <= 0) for power in powers):
+        raise InputError(
+            "input or output has no power at a frequency of the band; give band=(low, high) [Hz] of"
+            " the excitation"
+        )
+
+
+def _bias(response: Complex, deviation: Real) -> tuple[Complex, Real, Real]:
+    """Of each line, shape (n_f,) each: the bias that is taken out, the deviation then, and how far
+    the bias is beyond chance.
+    """
+    curved, chance = _curved(response), CURVED * deviation**2
+    beyond = np.sqrt(np.maximum(np.abs(curved) ** 2 - chance, 0.0)) / 6
+    share = np.maximum(1 - SURE * chance / np.maximum(np.abs(curved) ** 2, TINY), 0.0)
+    bias = share * curved / 6
+    left = np.hypot(np.maximum(beyond - np.abs(bias), 0.0), np.abs(_curved(bias)) / 6)
+    return bias, np.hypot(deviation * np.sqrt(1 + GROWTH * share**2), left), beyond
 
 
 def _curved(values: Complex) -> Complex:

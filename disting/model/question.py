@@ -3,10 +3,12 @@ relation; questions beyond conditions 1 to 9 are answered by a pure function, an
 as text by whoever keeps them.
 """
 
+import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from enum import StrEnum
-from typing import Any, Generic, Protocol, TypeVar
+from functools import partial
+from typing import Any, Generic, Protocol, Self, TypeVar
 
 
 class Domain(StrEnum):
@@ -90,6 +92,25 @@ class Question(Generic[T]):
     answer: Callable[..., T]
     encode: Callable[[T], str]
     decode: Callable[[str], T]
+
+    @classmethod
+    def plain(
+        cls,
+        name: str,
+        answer: Callable[..., T],
+        to_dict: Callable[[T], object],
+        from_dict: Callable[[Any], T],
+    ) -> Self:
+        """One whose answers become plain data and come from such: their text is JSON."""
+        return cls(name, answer, partial(_as_json, to_dict), partial(_of_json, from_dict))
+
+
+def _as_json(to_dict: Callable[[T], object], answer: T) -> str:
+    return json.dumps(to_dict(answer), separators=(",", ":"), ensure_ascii=False)
+
+
+def _of_json(from_dict: Callable[[Any], T], text: str) -> T:
+    return from_dict(json.loads(text))
 
 
 class Answerer(Protocol):

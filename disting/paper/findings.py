@@ -8,8 +8,9 @@ from functools import cached_property
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
-from disting.fit.select import Selection, select
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family

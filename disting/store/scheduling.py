@@ -5,14 +5,21 @@ by concurrent.futures.
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, InvalidStateError, ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import (
+    Executor,
+    Future,
+    InvalidStateError,
+    ProcessPoolExecutor,
+    as_completed,
+)
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, parent_process
-from typing import Any
+from typing import Any, TypeVar
 
 from disting.errors import InputError
 
+T = TypeVar("T")
 HAS_MASKS = hasattr(signal, "pthread_sigmask")  # not on Windows
 
 
@@ -28,6 +35,25 @@ def executor(jobs: int, scheduler: str = "") -> Iterator[Executor | None]:
             yield pool
     else:
         yield None
+
+
+def mapped(
+    function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None
+) -> Iterator[tuple[tuple[Any, ...], T]]:
+    """Tasks with their results as they come, in any order, from the executor's workers or from
+    this process.
+    """
+    if executor is None:
+        yield from ((task, function(*task)) for task in tasks)
+        return
+    futures: dict[Future[T], tuple[Any, ...]] = {
+        executor.submit(function, *task): task for task in tasks
+    }
+    try:
+        yield from ((futures[future], future.result()) for future in as_completed(futures))
+    finally:
+        for future in futures:
+            future.cancel()
 
 
 @contextmanager

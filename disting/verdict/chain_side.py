@@ -20,21 +20,18 @@ from disting.model.question import Domain, Question
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
-from disting.questions.inclusion import (
-    CLOSURE,
+from disting.questions.inclusion import CLOSURE, IMAGE, Inclusions, inclusions
+from disting.questions.inclusion import confirms as confirms_inclusion
+from disting.questions.inclusion.decide import (
     IDEALS,
-    IMAGE,
-    Inclusions,
     asked_closure,
     asked_image,
     by_rank,
     implied_image,
-    inclusions,
     joined,
     needs_ideals,
     quick_closure,
 )
-from disting.questions.inclusion import confirms as confirms_inclusion
 from disting.questions.positive import proves
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import exact_again, exact_finding, resting_on_ranks

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.conditions.side import notes_of
+from disting.conditions.side import AnySide, notes_of
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
@@ -115,11 +115,24 @@ def _false_inclusions(claim: Claim) -> Iterator[str]:
     if left.rank == right.rank:
         yield f"{where}an inclusion is told of models of equal rank"
         return
-    for finding, what in ((both.image, "finite elements"), (both.closure, "limits")):
-        if finding.evidence is not None and not left.includes(right, finding.evidence):
-            yield f"{where}the evidence of the inclusion ({what}) is not true of these models"
+    for what in false_of_inclusions(both, left, right):
+        yield f"{where}{what} is not true of these models"
     if _plain(both) != _plain(left.inclusions(right)):
         yield f"{where}the inclusion, or its certainty, is not what the settings give"
+
+
+def false_of_inclusions(both: Inclusions | None, left: AnySide, right: AnySide) -> Iterator[str]:
+    """Yield what evidence of an inclusion is not true of both models; what is no limit has no
+    equivalent either, by the same evidence, which is looked at once.
+    """
+    told = (
+        {}
+        if both is None
+        else {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
+    )
+    for evidence, what in told.items():
+        if evidence is not None and not left.includes(right, evidence):
+            yield f"the evidence of the inclusion ({what})"
 
 
 def _without_evidence(v: Verdict, equal_rank: bool) -> Iterator[str]:

@@ -11,8 +11,8 @@ been written: an answer does not depend on who asked before.
 
 import hashlib
 import json
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, Future, as_completed
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -34,6 +34,7 @@ from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.store.code import digest
+from disting.store.scheduling import mapped as mapped
 from disting.store.store import Store
 from disting.verdict.cascade import audit, decide
 from disting.verdict.chain_side import ComparedChain
@@ -282,25 +283,6 @@ def compute(
 def compute_answer(question: Question[Any], models: Models, settings: Settings) -> str:
     """A task for a worker: one answer as text."""
     return question.encode(question.answer(*models, settings))
-
-
-def mapped(
-    function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None
-) -> Iterator[tuple[tuple[Any, ...], T]]:
-    """Tasks with their results as they come, in any order, from the executor's workers or from
-    this process.
-    """
-    if executor is None:
-        yield from ((task, function(*task)) for task in tasks)
-        return
-    futures: dict[Future[T], tuple[Any, ...]] = {
-        executor.submit(function, *task): task for task in tasks
-    }
-    try:
-        yield from ((futures[future], future.result()) for future in as_completed(futures))
-    finally:
-        for future in futures:
-            future.cancel()
 
 
 def _read_back(text: str) -> Verdict:

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from disting.cli.parser import COMMANDS, Group
+from disting.cli.commands import COMMANDS, Group
 from tests.cli.process import called, disting, rows
 
 

@@ -2,14 +2,18 @@
 
 import json
 import os
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from disting.cli import main
-from disting.fit import predicted, read_model
-from disting.measurement import read
+from disting.fit import predicted, read_model, select
+from disting.fit.search.data import checked
+from disting.fit.select import MOST_LINES
+from disting.measurement import FrequencyResponse, read
+from disting.model.chain import Chain
 from tests.cli.process import called, disting
 from tests.measurement.bench_data import measured_data
 
@@ -63,6 +67,7 @@ def fitted(files):
 def test_what_is_simulated_is_selected(files, fitted):
     _, path = fitted
     found = json.loads(path.read_text(encoding="utf-8"))
+    assert found["command"].startswith("disting fit ") and "--masses" not in found["command"]
     chosen = found["selected"]
     assert (chosen["n_masses"], chosen["ground_dampers"], chosen["lag"], chosen["delay"]) == (
         2,
@@ -231,16 +236,27 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
     assert status == 2 and out == "" and len(lines) == 1 and message in lines[0]
 
 
-def test_of_very_many_lines_some_are_fitted_and_text_and_json_say_so(tmp_path):
+@pytest.mark.parametrize(
+    ("more", "count"),
+    [(("--lines", "20"), 20), pytest.param((), MOST_LINES, marks=pytest.mark.slow)],
+)
+def test_of_very_many_lines_some_are_fitted_and_text_and_json_say_so(tmp_path, more, count):
     frequency = np.linspace(5.0, 300.0, 20_000)
     response = 1 / (0.01 * (1 + 0.002j * frequency))
     text = [f"{f},{g.real},{g.imag}" for f, g in zip(frequency, response, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join(["f [Hz],Re,Im", *text]))
     options = ("fit", tmp_path / "a.csv", "--masses", "1", "--quantity", "velocity")
-    for more, count in (((), 10_000), (("--lines", "20"), 20)):
-        done = called(*options, *more, "--json", tmp_path / "fit.json")
-        said = f"; {count} of 20000 lines, evenly spaced on a logarithmic scale"
-        assert done.returncode == 0 and said in done.stdout.splitlines()[0]
-        plain = json.loads((tmp_path / "fit.json").read_text())
-        assert plain["data"][0]["reading"].endswith(said)
-        assert plain["frequencies"]["lines"] == count
+    done = called(*options, *more, "--json", tmp_path / "fit.json")
+    said = f"; {count} of 20000 lines, evenly spaced on a logarithmic scale"
+    assert done.returncode == 0 and said in done.stdout.splitlines()[0]
+    plain = json.loads((tmp_path / "fit.json").read_text())
+    assert plain["data"][0]["reading"].endswith(said)
+    assert plain["frequencies"]["lines"] == count
+
+
+def test_no_more_lines_are_fitted_than_the_help_says():
+    omega = np.linspace(5.0, 300.0, 2 * MOST_LINES)
+    many = FrequencyResponse(omega, 1 / (0.01 * (1 + 0.002j * omega)))
+    given = signature(select).parameters["most_lines"].default
+    train, test, _ = checked(many, many, [], [Chain(1)], given)
+    assert len(train) == len(test) == 10_000 == MOST_LINES

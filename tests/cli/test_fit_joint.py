@@ -1,6 +1,8 @@
 """disting fit of several responses: columns and files, experiments, what is refused."""
 
 import json
+import shlex
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,8 +12,10 @@ from disting.cli.parser import parser
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import Further, JointCost
 from disting.fit.search.setup import Setup
-from disting.measurement import FrequencyResponse
+from disting.fit.select import select
+from disting.measurement import FrequencyResponse, read
 from disting.model.chain import Chain
+from disting.report.fit.selection_json import selection_to_dict
 from tests.cli.process import called
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), dead_time=True)
@@ -207,15 +211,14 @@ OF_MACHINE = dict(zip(MACHINE.parameters, (1.1, 1.3, 1.1, 34e3, 66e3, 23.0, 17.0
 
 @pytest.fixture(scope="module")
 def left(tmp_path_factory):
-    """The file of what a first fit of the machine leaves."""
+    """The file of what a first fit of the machine leaves, of 3:1 alone: what cannot be told from it
+    is found in the catalogue.
+    """
     path = tmp_path_factory.mktemp("machine") / "left.json"
-    called(
-        *machine_fit(measured_machine(path.with_name("first.csv"), Setup(), 0)),
-        "--masses",
-        "3",
-        "--json",
-        path,
-    )
+    words = machine_fit(measured_machine(path.with_name("first.csv"), Setup(), 0))
+    found = select(read(words[1], sensor="acceleration"), [Chain(3, damped=True)])
+    plain = selection_to_dict(replace(found, command=shlex.join(["disting", *map(str, words)])))
+    path.write_text(json.dumps(plain), encoding="utf-8")
     return path
 
 
@@ -238,7 +241,8 @@ def measured_machine(path, setup, seed):
 
 def test_what_a_fit_left_is_measured_next_by_the_command_that_is_named(left):
     plain = json.loads(left.read_text(encoding="utf-8"))
-    assert plain["selected"]["name"] == "3:1" and "--masses" not in plain["command"]
+    assert plain["selected"]["name"] == "3:1"
+    assert "3:11" in [twin["name"] for twin in plain["not_excluded"][0]["equivalents"]]
     onward = called("next", left).stdout
     assert f"--left {left} --experiment NEW:sensor=2" in onward.splitlines()[-1]
 

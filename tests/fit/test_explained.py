@@ -102,7 +102,12 @@ def test_more_candidates_do_not_explain_a_beam_either():
         (-ONE_MASS, ONE, "with the sign reversed"),
         (ONE_MASS / (1j * OMEGA), ONE, "read as velocity"),
         (EXACT.conj(), DRIVE, "with the sign of all phases (of the imaginary parts) turned"),
-        (EXACT * HELD, DRIVE, "with a zero-order hold at 600 Hz taken out"),
+        pytest.param(
+            EXACT * HELD,
+            DRIVE,
+            "with a zero-order hold at 600 Hz taken out",
+            marks=pytest.mark.slow,
+        ),
     ],
     ids=["reversed", "velocity", "conjugate", "held"],
 )
@@ -141,7 +146,7 @@ def with_friction():
     [
         pytest.param(noisy(EXACT * notch(70, 0.05, 0.5)), marks=pytest.mark.slow),
         pytest.param(noisy(rod()), marks=pytest.mark.slow),
-        noisy(EXACT * (1 + 0.3 * np.exp(-0.03j * OMEGA))),
+        pytest.param(noisy(EXACT * (1 + 0.3 * np.exp(-0.03j * OMEGA))), marks=pytest.mark.slow),
         with_friction(),
     ],
     ids=["notch", "rod", "ripple", "friction"],
@@ -177,7 +182,7 @@ def test_noise_is_called_noise():
     assert "mostly noise" in first_lines(found)[0] and found.readings == ()
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_right_models_explain(seed):
     chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
     train, test = (

@@ -25,8 +25,9 @@ from disting.fit.noise.covariance import expected
 from disting.fit.search.cost import Case, Cost, lines_by_deviation
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
-from disting.fit.search.joint import Further, JointCost, joint_cost
+from disting.fit.search.joint import Further, JointCost
 from disting.fit.search.setup import Setup, measured_chain
+from disting.fit.search.weighing import joint_cost
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor

@@ -7,7 +7,7 @@ import pytest
 
 from disting import Engine, Query, View, compare
 from disting.cli.fit_text import told
-from disting.fit.judge.alternatives import alternatives, representatives, stands_for
+from disting.fit.judge.alternatives import alternatives, limits_of, representatives, stands_for
 from disting.fit.judge.modes import physical
 from disting.fit.search.candidates import figure_1
 from disting.fit.select import select
@@ -18,6 +18,8 @@ from disting.simulation import demo
 from disting.verdict.result import Relation
 from tests.fit.drives import response
 
+REVERSED = [Chain(2, meas_plus=2, damped=True, ground_dampers=at) for at in ((1,), (2,))]
+
 
 def reversed_drive(fixed, **more):
     """Force at mass 1, sensor at mass 2, damper at mass 2: with m1 given, the mirrored chain
@@ -25,9 +27,8 @@ def reversed_drive(fixed, **more):
     """
     chain = Chain(2, meas_plus=2, damped=True, ground_dampers=(2,))
     values = {"m1": 0.01, "m2": 0.03, "k12": 900.0, "d12": 0.2, "b2": 0.5}
-    candidates = [Chain(2, meas_plus=2, damped=True, ground_dampers=at) for at in ((1,), (2,))]
     data = response(chain, values, noise=0.01)
-    return chain, select(data, candidates, test=data, fixed=fixed, **more)
+    return chain, select(data, REVERSED, test=data, fixed=fixed, **more)
 
 
 def test_a_given_mass_is_known_to_the_verdicts_that_prune():
@@ -52,9 +53,11 @@ def test_bounds_prune_only_where_they_cut_nothing():
         ({"b1": (0.0, 9.0), "b2": (0.0, 9.0)}, 1),
         ({"m9": (0.0, 9.0)}, 1),
     ):
-        chain, found = reversed_drive(None, bounds=bounds)
-        assert found.saved == saved
-        assert chain in found.same_as or saved == 0
+        first = representatives(REVERSED, Engine(), limits_of(bounds, {}))
+        assert sum(chain != other for chain, other in first.items()) == saved, bounds
+    for most, saved in ((1.0, 0), (float("inf"), 1)):
+        chain, found = reversed_drive(None, bounds={"m1": (0.0, most)})
+        assert found.saved == saved and (chain in found.same_as) == bool(saved)
 
 
 def test_a_candidate_is_fitted_where_only_complex_parameters_are_known_to_agree():

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from disting.errors import InputError
 from disting.fit.judge.admissible import Rule
@@ -151,6 +152,19 @@ def test_of_more_lines_so_many_are_fitted_and_the_reading_says_so():
     for data in (found.task.cost.measured, found.test):
         assert len(data) == 40 and "40 of 120 lines, evenly spaced" in data.reading
     assert selection_to_dict(found)["frequencies"]["lines"] == 40
+
+
+def test_libraries_of_linear_algebra_get_one_thread_and_then_their_own_again():
+    seen = []
+
+    def weights(data):
+        seen.extend(library["num_threads"] for library in threadpool_info())
+        return np.ones(len(data))
+
+    with threadpool_limits(2):
+        select(planted(1), [Chain(1, damped=True)], lines=weights)
+        after = {library["num_threads"] for library in threadpool_info()}
+    assert seen and set(seen) == {1} and after == {2}
 
 
 def test_without_test_data_lines_are_left_out_in_turn():

@@ -7,13 +7,15 @@ from pathlib import Path
 from disting import Engine
 from disting.catalogs import catalog
 from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.network_files import recall
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.joint import Further
 from disting.fit.search.setup import Setup
-from disting.fit.select import Selection, select
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
@@ -86,6 +88,7 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
     )
     engine = Engine()
     write_model_list(Listing(judged(of(MODELS), engine), "Two vessels", "list-vessels"), folder)
+    recall("circuits-4", engine)  # as `disting report circuits-4` does
     family = judged(list_of("circuits-4"), engine)
     write_model_list(Listing(family, "Circuits", "list-circuits-4"), folder)
     write_model_list(

@@ -9,6 +9,7 @@ from PIL import Image
 
 from disting import network_of
 from disting.catalogs import catalog
+from disting.catalogs.network_files import recall
 from disting.cli.verdicts import list_of
 from disting.network.families import FAMILIES
 from disting.report import network_svg, write_report
@@ -23,7 +24,9 @@ PAIR = (TEXTS.index("R1-p(R2,C1)") + 1, TEXTS.index("p(R1,R2-C1)") + 1)
 
 @pytest.fixture(scope="module")
 def family():  # type: ignore[no-untyped-def]
-    return judged(list_of("circuits-4"), Engine())
+    engine = Engine()
+    recall("circuits-4", engine)  # as `disting report circuits-4` does
+    return judged(list_of("circuits-4"), engine)
 
 
 @pytest.fixture(scope="module")

@@ -69,17 +69,28 @@ def test_what_holds() -> None:
     assert not any(holds(said, one) for one in wrong)
 
 
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """As a reader has one: pages show commands on the same models."""
+    return tmp_path_factory.mktemp("cache") / "cache.sqlite3"
+
+
 @pytest.mark.parametrize(
     ("page", "command", "output"), [t for t in transcripts() if t[1].startswith(CHEAP)]
 )
 def test_what_is_shown_is_what_is_said(
-    page: str, command: str, output: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    page: str,
+    command: str,
+    output: str,
+    cache: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     files = r"This is `(\w+\.(?:json|csv))`[^`]*^```\w+\n(.*?)^```"
     for name, content in re.findall(files, TEXTS[page], re.MULTILINE | re.DOTALL):
         (tmp_path / name).write_text(content, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    done = called(*shlex.split(command)[1:])
+    done = called(*shlex.split(command)[1:], cache=cache)
     said = done.stderr if done.returncode == 2 else done.stdout
     assert holds(said, output), (page, said)
 

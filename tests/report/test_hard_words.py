@@ -10,7 +10,7 @@ import pytest
 
 from disting.catalogs import catalog
 from disting.fit.judge.modes import physical
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report import index, model_page, page
 from disting.report.fit import fit_page

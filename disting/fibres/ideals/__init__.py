@@ -11,16 +11,13 @@ from disting.fibres.ideals.by_two_rows import confirms_by_rows as confirms_by_ro
 from disting.fibres.ideals.by_two_rows import included_by_rows as included_by_rows
 from disting.fibres.ideals.by_two_rows import refuted_by_rows as refuted_by_rows
 from disting.fibres.ideals.confirm import confirms as confirms
-from disting.fibres.ideals.confirm import confirms_matched as confirms_matched
 from disting.fibres.ideals.confirm import refuted_at as refuted_at
 from disting.fibres.ideals.confirm import safety_of as safety_of
 from disting.fibres.ideals.confirm import seen_again as seen_again
-from disting.fibres.ideals.fibre_ideal import generic_rank as generic_rank
 from disting.fibres.ideals.full_rows import same_by_full_rows as same_by_full_rows
 from disting.fibres.ideals.membership import Limits as Limits
 from disting.fibres.ideals.membership import decide as decide
 from disting.fibres.ideals.membership import decide_matched as decide_matched
-from disting.fibres.ideals.one_value import Values as Values
 from disting.fibres.ideals.one_value import one_value as one_value
 from disting.fibres.ideals.shares import MOST as MOST
 from disting.fibres.ideals.shares import TRIES as TRIES

@@ -11,22 +11,23 @@ The remaining equations are not proven by this: that they hold rests on their ba
 made as small as one likes but never zero.
 
 Candidates multiplied out: the coefficients of the chain's receptance, and their derivatives,
-as balls.
+as balls; and the solutions that they are: which are real, which are positive.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from flint import acb, acb_mat, acb_poly, arb, ctx
 
 from disting.behaviour.transfer import Rational, plain_receptance, receptance
 from disting.fibres.synthesis.ball import TOLERANCE, Ball, Imprecise
 from disting.fibres.synthesis.branch_ends import NONZERO, Dead
-from disting.fibres.synthesis.result import Confirmation
+from disting.fibres.synthesis.result import Answer, Confirmation, Solution
 from disting.fibres.synthesis.target import Exact, Target
 from disting.model.chain import Chain
 
 Matrix = list[list[Ball]]
+Values = dict[str, Ball]
 
 
 def confirmation(chain: Chain, values: dict[str, Ball], target: Target) -> Confirmation:
@@ -161,3 +162,56 @@ def _padded(given: Exact, degree: int) -> list[Exact]:
 
 def _lifted(values: dict[str, Ball]) -> dict[str, acb_poly]:
     return {name: acb_poly([value]) for name, value in values.items()}
+
+
+def listed(
+    chain: Chain, leaves: list[Checked], target: Target, *, complete: bool, confirm: bool
+) -> tuple[Solution, ...]:
+    """Solutions with their properties. A complete list is closed under conjugation; otherwise
+    nothing is known to be real.
+
+    `confirm`: whether those that are no members of a family are looked at by `confirmation`.
+    """
+    solutions = (
+        _solution(c, [x.values for x in leaves if x is not c or not complete]) for c in leaves
+    )
+    return tuple(
+        (
+            replace(s, confirmation=confirmation(chain, s.values, target))
+            if confirm and not s.gauges
+            else s
+        )
+        for s in solutions
+    )
+
+
+def _solution(c: Checked, others: list[Values]) -> Solution:
+    """`others` are the candidates for its conjugate; with itself among them nothing is proven."""
+    real = _real(c.values, others)
+    return Solution(
+        values=c.values,
+        real=real,
+        positive=_positive(c.values, real),
+        gauges=c.gauges,
+        width=c.width,
+    )
+
+
+def _real(values: Values, others: list[Values]) -> Answer:
+    """NO if an imaginary part leaves zero out; YES if the conjugate, a solution too, can be
+    none of the others.
+    """
+    if not all(v.imag.contains(0) for v in values.values()):
+        return Answer.NO
+    conjugate = {name: v.conjugate() for name, v in values.items()}
+    return Answer.UNKNOWN if any(_meets(conjugate, other) for other in others) else Answer.YES
+
+
+def _meets(left: Values, right: Values) -> bool:
+    return all(left[name].overlaps(right[name]) for name in left)
+
+
+def _positive(values: Values, real: Answer) -> Answer:
+    if real is Answer.NO or any(bool(v.real < arb(0)) for v in values.values()):
+        return Answer.NO
+    return real if all(bool(v.real > arb(0)) for v in values.values()) else Answer.UNKNOWN

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 from disting.fibres.synthesis.ball import (
     Ball,
-    Poly,
     Receptance,
     cut,
     is_boundary,
@@ -26,7 +25,7 @@ from disting.fibres.synthesis.ball import (
 )
 from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
 from disting.fibres.synthesis.collocated import Residue, inverse_residues, over
-from disting.fibres.synthesis.friction import NOTHING, Side, peel, slope
+from disting.fibres.synthesis.friction import NOTHING, Side, peel, slope, without_low
 from disting.model.row import Row
 
 
@@ -80,12 +79,9 @@ def _side(row: Row, residues: list[Residue], constant: Ball, left: bool) -> Side
     known = side.is_loose and row.damped
     growth = sum((r.value / r.at**2 for r in residues), NOTHING) if known else NOTHING
     numerator = cut(over(residues, [constant, growth]), 2 * len(dampers) + known)
-    return replace(side, numerator=_low(numerator, side), slope_open=row.damped and not known)
-
-
-def _low(p: Poly, side: Side) -> Poly:
-    low = 0 if side.wall else 2 if side.is_loose else 1
-    return shifted(shifted(p, -low), low)
+    return replace(
+        side, numerator=without_low(numerator, side), slope_open=row.damped and not known
+    )
 
 
 def _grown(side: Side, growth: Ball) -> Side:

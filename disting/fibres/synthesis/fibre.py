@@ -28,7 +28,7 @@ from flint import acb, ctx, fmpq, fmpq_poly
 
 from disting.fibres.synthesis.ball import Ball, Imprecise, Receptance, poly, product, roots, shifted
 from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf, Reason, RowValues, combined
-from disting.fibres.synthesis.confirm import Checked, checked
+from disting.fibres.synthesis.confirm import Checked, checked, listed
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
 from disting.fibres.synthesis.result import (
@@ -39,7 +39,6 @@ from disting.fibres.synthesis.result import (
     Solution,
     Status,
 )
-from disting.fibres.synthesis.solutions import listed
 from disting.fibres.synthesis.target import (
     Target,
     degrees_differ,

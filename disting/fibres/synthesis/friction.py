@@ -117,7 +117,8 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
     )
     if not node.damper and not node.elastic:
         yield from (
-            (NOTHING, leaf) for leaf in peel(replace(side, numerator=_low(node.numerator, side)))
+            (NOTHING, leaf)
+            for leaf in peel(replace(side, numerator=without_low(node.numerator, side)))
         )
         return
     is_open = node.damper and not node.elastic and not side.is_loose
@@ -129,7 +130,7 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
     rest = node.numerator - b * shifted(node.denominator, 1)
     side = replace(
         side,
-        numerator=_low(cut(rest, 2 * nu + (not is_open and not node.elastic)), side),
+        numerator=without_low(cut(rest, 2 * nu + (not is_open and not node.elastic)), side),
         slope_open=is_open,
     )
     if not node.damper and not vanishes(b, _size(node.numerator)):
@@ -244,7 +245,7 @@ def _behind(w: Side, numerator: Poly, spring: Poly) -> Iterator[Leaf]:
         yield attached(spring, mass, b, w.dampers[0], leaf)
 
 
-def _low(p: Poly, side: Side) -> Poly:
+def without_low(p: Poly, side: Side) -> Poly:
     """p with the low coefficients exactly zero that are so by theory."""
     low = 0 if side.wall else 2 if side.is_loose else 1
     return shifted(shifted(p, -low), low)

@@ -30,7 +30,7 @@ from disting.fit.search.joint import AnyCost
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.presentation import plural, summary
-from disting.verdict.engine import mapped
+from disting.store.scheduling import mapped
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
 EVERY_SET = 4

@@ -33,13 +33,16 @@ from scipy.optimize import brentq
 from scipy.special import digamma, polygamma
 from scipy.stats import f as f_distribution
 
-from disting.fit.noise.contrasts import Contrasts, contrasts, freedom, stencil
 from disting.fit.noise.line_variance import (
     LARGEST_LEFT_OUT,
+    Contrasts,
     coefficients,
+    contrasts,
+    freedom,
     kept_mean,
     quietest,
     sources,
+    stencil,
 )
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real

@@ -9,9 +9,9 @@ from typing import Any
 
 from disting.errors import InputError, listed
 from disting.files import read_json
-from disting.fit.networks import BAR
 from disting.fit.plan.fit_file import MOST_COUNTED, Values
 from disting.fit.results.model_file import FIT_FILE, number_of
+from disting.fit.results.networks import BAR
 from disting.network.network import Network
 from disting.network.notation.entries import network_of_entry
 from disting.schemas import Format

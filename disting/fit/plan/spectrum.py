@@ -28,6 +28,7 @@ from disting.fit.plan.rival import Rival, apart
 from disting.fit.plan.search import box_of
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
+from disting.fit.search.estimate import different
 from disting.measurement.arrays import Real
 
 CLOSE = 1e-3  # relative distance of the bound at which a spectrum is optimal
@@ -95,7 +96,7 @@ class Adversary:
         plant, cost = self.rival.plant, self._cost(shares)
         sizes = np.array([cut @ shares for cut in self.cuts])
         box = box_of(plant)
-        ends = [fine(plant, cost, box, self.points[i], ENOUGH) for i in _distinct(sizes)]
+        ends = [fine(plant, cost, box, self.points[i], ENOUGH) for i in different(sizes, BASINS)]
         self.add(min(ends, key=lambda end: end[1])[0])
         return self.bound(shares)
 
@@ -109,15 +110,6 @@ class Adversary:
         size = np.abs(cost.measured.G) * self.rival.rho
         weights = np.sqrt(len(shares) * np.maximum(shares, 0.0)) / size
         return replace(cost, lines=weights)
-
-
-def _distinct(sizes: Real) -> list[int]:
-    """The best few fits, one of each valley as far as costs tell."""
-    chosen = list[int]()
-    for i in np.argsort(sizes, kind="stable"):
-        if len(chosen) < BASINS and all(sizes[i] > sizes[k] * (1 + CLOSE) for k in chosen):
-            chosen.append(int(i))
-    return chosen
 
 
 def optimal(adversary: Adversary) -> Spectrum:

@@ -7,6 +7,7 @@ worse: the smaller one's fit, the additional elements hardly felt, is a start.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cache
 from hashlib import sha256
@@ -133,10 +134,26 @@ class Estimate:
         )
 
 
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """The libraries of linear algebra get one thread: matrices are small, so that many threads wait
+    for each other a hundred times as long as one computes, and workers share the processors.
+    """
+    with _libraries().limit(limits=1):
+        yield
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    """Those of this process, looked up once, which takes as long as many a search."""
+    return ThreadpoolController()
+
+
 Method = Callable[[Chain, Task, Mapping[Chain, Estimate]], Estimate]
 """Finds the best parameters of one candidate, with the fits of others that help."""
 
 
+@one_thread()
 def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
     """Best parameters of one candidate, from the data and from the fits of smaller candidates
     in `known`.
@@ -144,16 +161,7 @@ def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
     task = task.on(chain)
     first = sha256(str(chain).encode()).digest()[0] % task.divided
     starts = _stacked(list(_starts(chain, task, known))[first :: task.divided], chain, task)
-    with _libraries().limit(limits=1):
-        return _best(chain, task, known, starts)
-
-
-@cache
-def _libraries() -> ThreadpoolController:
-    """The libraries of linear algebra of this process, looked up once, which takes as long as many
-    a search. They get one thread: matrices are small, and workers share the processors.
-    """
-    return ThreadpoolController()
+    return _best(chain, task, known, starts)
 
 
 def evaluated(chain: Chain, task: Task) -> Estimate:
@@ -165,6 +173,7 @@ def evaluated(chain: Chain, task: Task) -> Estimate:
     return Estimate(chain, dict(zip(names, values, strict=True)), j, (j,))
 
 
+@one_thread()
 def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
     """The candidate's estimate in `known`, or a better one that the fits of its neighbours
     there lead to.
@@ -176,17 +185,17 @@ def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
         [start for fit in offered for start in carried(chain, fit, size)], chain, task
     )
     plant, box = task.plant(chain), task.box(names)
-    with _libraries().limit(limits=1):
-        points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
-        i = int(np.argmin(costs))
-        p, j = np.array([own.parameters[name] for name in names]), own.j
-        if costs[i] < j * (1 - GAIN):
-            p, j = fine(plant, task.cost, box, points[i])
-        p, j = _nested(chain, task, known, p, j)
+    points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
+    i = int(np.argmin(costs))
+    p, j = np.array([own.parameters[name] for name in names]), own.j
+    if costs[i] < j * (1 - GAIN):
+        p, j = fine(plant, task.cost, box, points[i])
+    p, j = _nested(chain, task, known, p, j)
     tried = tuple(sorted([*own.costs, *map(float, costs)]))
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried, own.valleys)
 
 
+@one_thread()
 def refined(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
     """The candidate's estimate in `known`, found on other lines, on those of the task; no worse
     than what it contains.
@@ -194,9 +203,8 @@ def refined(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estima
     task = task.on(chain)
     own, names = known[chain], task.names(chain)
     start = np.array([own.parameters[name] for name in names])
-    with _libraries().limit(limits=1):
-        p, j = fine(task.plant(chain), task.cost, task.box(names), start)
-        p, j = _nested(chain, task, known, p, j)
+    p, j = fine(task.plant(chain), task.cost, task.box(names), start)
+    p, j = _nested(chain, task, known, p, j)
     share = j / own.j if own.j else 1.0
     costs = tuple(share * cost for cost in own.costs)
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, costs, own.valleys)
@@ -206,7 +214,7 @@ def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Rea
     names = task.names(chain)
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
-    ends, reached = rough(plant, task.cost, box, points[_different(costs, FINISHED)], ITERATIONS)
+    ends, reached = rough(plant, task.cost, box, points[different(costs, FINISHED)], ITERATIONS)
     p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
     p, j = _nested(chain, task, known, p, j)
     return Estimate(
@@ -214,7 +222,7 @@ def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Rea
         dict(zip(names, map(float, p), strict=True)),
         j,
         tuple(sorted(map(float, costs))),
-        tuple(tuple(map(float, points[i])) for i in _different(costs, VALLEYS)),
+        tuple(tuple(map(float, points[i])) for i in different(costs, VALLEYS)),
     )
 
 
@@ -254,7 +262,7 @@ def _own(found: Estimate) -> dict[str, float]:
     return {name: value for name, value in found.parameters.items() if name not in chain}
 
 
-def _different(costs: Real, most: int) -> list[int]:
+def different(costs: Real, most: int) -> list[int]:
     """The best starts, at most so many, one of each valley as far as costs tell."""
     chosen = list[int]()
     for i in np.argsort(costs, kind="stable"):

@@ -31,7 +31,7 @@ from disting.fit.search.starts import merged, shortened
 from disting.model.chain import Chain
 from disting.store import Store
 from disting.store.code import digest
-from disting.verdict.engine import mapped
+from disting.store.scheduling import mapped
 
 # every so many candidates that exchange divide their starts into one part more, up to so many parts
 FELLOWS, PARTS = 8, 6

@@ -9,7 +9,6 @@ solutions vary continuously; agreement at exactly known solutions, which are rat
 the point, is generic but for a probability like that of their number.
 """
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -180,15 +179,9 @@ def _refuse_contradictions(chain: Chain, rank: int, solutions: Listing) -> None:
         )
 
 
-def _to_json(answer: Identifiability) -> str:
-    return json.dumps(answer.to_dict(), separators=(",", ":"))
-
-
-def _from_json(text: str) -> Identifiability:
-    return Identifiability.from_dict(json.loads(text))
-
-
-IDENTIFIABILITY = Question("identifiability", _canonically, _to_json, _from_json)
+IDENTIFIABILITY = Question.plain(
+    "identifiability", _canonically, Identifiability.to_dict, Identifiability.from_dict
+)
 
 
 def renamed(answer: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:

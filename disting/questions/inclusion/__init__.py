@@ -14,14 +14,6 @@ from disting.conditions.inclusion import inclusions_from_dict as inclusions_from
 from disting.conditions.inclusion import inclusions_to_dict as inclusions_to_dict
 from disting.questions.inclusion.confirmation import confirms as confirms
 from disting.questions.inclusion.decide import CLOSURE as CLOSURE
-from disting.questions.inclusion.decide import IDEALS as IDEALS
 from disting.questions.inclusion.decide import IMAGE as IMAGE
-from disting.questions.inclusion.decide import asked_closure as asked_closure
-from disting.questions.inclusion.decide import asked_image as asked_image
-from disting.questions.inclusion.decide import by_rank as by_rank
-from disting.questions.inclusion.decide import implied_image as implied_image
 from disting.questions.inclusion.decide import inclusions as inclusions
-from disting.questions.inclusion.decide import joined as joined
-from disting.questions.inclusion.decide import needs_ideals as needs_ideals
-from disting.questions.inclusion.decide import quick_closure as quick_closure
 from disting.questions.inclusion.decide import turned as turned

@@ -27,10 +27,10 @@ from disting.conditions.inclusion import (
     Inclusion,
     InclusionFinding,
     Inclusions,
-    inclusion_from_json,
-    inclusion_to_json,
-    inclusions_from_json,
-    inclusions_to_json,
+    inclusion_from_dict,
+    inclusion_to_dict,
+    inclusions_from_dict,
+    inclusions_to_dict,
 )
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import InclusionEvidence
@@ -223,6 +223,6 @@ def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> I
     return Inclusions(InclusionFinding(Inclusion.NEITHER, grade, safety, evidence), limits)
 
 
-CLOSURE = Question("closures", closure_of, inclusion_to_json, inclusion_from_json)
-IMAGE = Question("images", of_image, inclusion_to_json, inclusion_from_json)
-IDEALS = Question("inclusions by ideals", by_ideals, inclusions_to_json, inclusions_from_json)
+CLOSURE = Question.plain("closures", closure_of, inclusion_to_dict, inclusion_from_dict)
+IMAGE = Question.plain("images", of_image, inclusion_to_dict, inclusion_from_dict)
+IDEALS = Question.plain("inclusions by ideals", by_ideals, inclusions_to_dict, inclusions_from_dict)

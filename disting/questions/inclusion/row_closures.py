@@ -36,9 +36,8 @@ from disting.fibres.ideals.shares import may_share, told_apart
 from disting.fibres.ideals.system import terms
 from disting.model.question import Membership
 from disting.model.row import Row
-from disting.questions.inclusion.end_rows import end_resultant
-from disting.questions.inclusion.inner_rows import inner_resultant
 from disting.questions.inclusion.row_equations import equation_safety, label_of, row_equation
+from disting.questions.inclusion.row_resultants import end_resultant, inner_resultant
 
 # masses of a row whose equations are looked for: those of larger ones have too many monomials
 LARGEST_ROW = 3

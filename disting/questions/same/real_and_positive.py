@@ -20,7 +20,6 @@ odd n leaves at least one that is its own conjugate. A unique solution (n = 1) i
 reason.
 """
 
-import json
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -75,13 +74,13 @@ def lacking_real(given: Chain, other: Chain, settings: Settings) -> Values:
     return real_witness(given, other, settings.seed)
 
 
-def _values(text: str) -> Values:
-    return tuple((name, value) for name, value in json.loads(text))
+def _values(data: list[tuple[str, str]]) -> Values:
+    return tuple((name, value) for name, value in data)
 
 
-LACKING = Question("real models without equivalents", lacking_real, json.dumps, _values)
-POSITIVELY = Question(
-    "positive equivalents", positive_share, PositiveFinding.to_json, PositiveFinding.from_json
+LACKING = Question.plain("real models without equivalents", lacking_real, list, _values)
+POSITIVELY = Question.plain(
+    "positive equivalents", positive_share, PositiveFinding.to_dict, PositiveFinding.from_dict
 )
 
 

@@ -9,7 +9,7 @@ from disting.evidence.conditions import capital
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import allowed
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.report.fit.table_rows import Row
 from disting.report.fit.words import name, percent, readable
 from disting.report.words import plural

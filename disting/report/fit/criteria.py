@@ -7,7 +7,7 @@ from math import isfinite
 
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.practical import Thresholds
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.report.fit.thresholds import TITLES
 from disting.report.fit.words import readable
 

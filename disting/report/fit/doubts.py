@@ -13,9 +13,9 @@ from disting.fit.judge.reading import bad_lines
 from disting.fit.judge.responses import correlations, partners
 from disting.fit.noise.scatter import CLEAR, changed, scatter
 from disting.fit.results.confidence import response_of
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
-from disting.fit.select import Selection
 
 FEWEST = 8  # lines of a fit
 SMOOTHED = 5  # lines over which the scatter is looked at

@@ -15,7 +15,7 @@ from disting.fit.results.confidence import response_of
 from disting.fit.results.loop import loop_gain
 from disting.fit.results.reliance import nearest, position_of_load
 from disting.fit.results.samples import draws
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.report.fit.axes import logarithmic

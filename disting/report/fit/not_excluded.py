@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from disting.fit.judge.members import Member, Twin
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
 from disting.report.fit.onward import Link, Site, Step, step_to, steps_of

@@ -12,8 +12,8 @@ from urllib.parse import quote
 from disting.catalogs.damper_files import name_of as damper_name
 from disting.catalogs.files import name_of as catalog_name
 from disting.fit.judge.members import NOTHING, Member, Twin
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import as_listed, reference
-from disting.fit.select import Selection
 from disting.model.chain import Chain
 from disting.model.names import damping_option
 

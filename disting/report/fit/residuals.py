@@ -16,7 +16,7 @@ from disting.fit.judge.explanation import Miss
 from disting.fit.judge.members import QUANTILE
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.confidence import Confidence, confidence, response_of
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.report.fit.axes import logarithmic

@@ -8,8 +8,8 @@ from markupsafe import Markup
 
 from disting.fit.judge.candidate import Candidate
 from disting.fit.results.confidence import fit_percent
+from disting.fit.results.selection import Selection
 from disting.fit.search.setup import Setup, port
-from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.drawing import draw

@@ -13,8 +13,8 @@ from disting.fit.judge.reading import assumed
 from disting.fit.judge.responses import explanations
 from disting.fit.results.confidence import fit_percent
 from disting.fit.results.reliance import Statement
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import as_listed, reference
-from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.sentences import places, suspicions

@@ -11,7 +11,7 @@ from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import allowed
 from disting.fit.judge.modes import Result
 from disting.fit.judge.reading import read_in_words
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
 from disting.report.fit.answer import answer

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 from disting.fit.judge.explanation import allowed
 from disting.fit.judge.reading import outside
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
-from disting.fit.select import Selection
 from disting.measurement.closed_loop import FOLLOWS
 from disting.report.fit.doubts import (
     bad,

@@ -5,9 +5,9 @@ from math import floor, inf, isfinite, log10, pi
 from disting.fit.judge.admissible import UNDETERMINED
 from disting.fit.judge.modes import Result
 from disting.fit.results.confidence import fit_percent
+from disting.fit.results.selection import Selection
 from disting.fit.search.cost import Case
 from disting.fit.search.joint import AnyCost
-from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.measurement.units import differentiated
 from disting.model.chain import Chain, Sensor

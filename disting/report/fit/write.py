@@ -11,9 +11,9 @@ from typing import Any
 from disting.files import write_whole
 from disting.fit.judge.modes import Result, physical
 from disting.fit.results.export import Exported
+from disting.fit.results.selection import Selection
 from disting.fit.results.sweep import Profile, profile
 from disting.fit.search.candidates import reference as name_of
-from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall

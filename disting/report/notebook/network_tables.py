@@ -3,7 +3,7 @@ which explain a measurement.
 """
 
 from disting.equivalence.duplicates import Duplicate, Gate
-from disting.fit.networks import NetworkSelection
+from disting.fit.results.networks import NetworkSelection
 from disting.report.fit.words import readable
 from disting.report.notebook.markup import LONGEST, block, facts, line, more, table
 from disting.report.notebook.tables import table_of as table_of

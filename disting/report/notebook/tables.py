@@ -13,8 +13,8 @@ from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
 from disting.fit.judge.candidate import Candidate
 from disting.fit.plan.power import Plan, is_trusted
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
-from disting.fit.select import Selection
 from disting.general.global_identifiability import GlobalIdentifiability
 from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model

@@ -157,6 +157,7 @@ def _sections(one: Shown, level: int = 2) -> Iterator[Section]:
 
 def _shown(module: str, entry: Entry, addresses: Mapping[Place, str], within: str = "") -> Shown:
     leads = partial(_address, entry.place.module, addresses)
+    errors = partial(_address, "disting.errors", addresses)  # whoever raises them
     anchor = f"{within}.{entry.name}" if within else entry.name
     here = addresses.get(entry.place, "")
     elsewhere = "" if within or here.startswith(f"{page_name(module)}.html") else here
@@ -165,7 +166,7 @@ def _shown(module: str, entry: Entry, addresses: Mapping[Place, str], within: st
         entry=entry,
         anchor=anchor,
         signature=_signature(entry, leads),
-        raises=tuple(linked(name, leads) for name in entry.raises),
+        raises=tuple(linked(name, lambda e: leads(e) or errors(e)) for name in entry.raises),
         text=rendered(entry.text, leads),
         members=tuple(members),
         elsewhere=elsewhere,

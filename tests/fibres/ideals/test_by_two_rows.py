@@ -15,12 +15,12 @@ from disting.evidence.ideals import Vanishing
 from disting.fibres.ideals import (
     Limits,
     confirms_by_rows,
-    generic_rank,
     included_by_rows,
     normalised,
     refuted_by_rows,
 )
 from disting.fibres.ideals.by_two_rows import not_covered, vanishing
+from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.monodromy import _is_inseparable, poles_are_inseparable
 from disting.fibres.ideals.splits import gap, receptances, splits
 from disting.fibres.synthesis.decide import Grounds, member

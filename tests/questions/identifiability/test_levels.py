@@ -8,8 +8,8 @@ from math import comb
 import pytest
 
 from disting import Certainty, Chain, Family, Settings
-from disting.fibres.synthesis import Answer, Status
 from disting.fibres.synthesis.decide import rational_point
+from disting.fibres.synthesis.result import Answer, Status
 from disting.fibres.synthesis.target import target
 from disting.model.structure import Mass, Ports, Structure
 from disting.questions.identifiability import (

@@ -9,7 +9,6 @@ from itertools import product
 import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
-from disting.conditions.inclusion import inclusion_from_json, inclusion_to_json
 from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
@@ -21,7 +20,7 @@ from disting.evidence.across_sizes import (
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Solved
 from disting.model.symmetry import canonical
-from disting.questions.inclusion import Sense, confirms, inclusions
+from disting.questions.inclusion import CLOSURE, Sense, confirms, inclusions
 from disting.questions.inclusion.across_sizes import by_sizes, exceeds, included, twins
 from disting.questions.inclusion.limit_fibre import tells
 from disting.questions.inclusion.limits import is_limit
@@ -71,7 +70,7 @@ def test_every_pair_is_settled(sizes, damped, inside, outside):
     }
     for (a, b), finding in findings.items():
         assert confirms(finding.evidence, a, b) and not confirms(finding.evidence, b, a)
-        assert inclusion_from_json(inclusion_to_json(finding)) == finding
+        assert CLOSURE.decode(CLOSURE.encode(finding)) == finding
         assert a.name in finding.evidence.sentence(a.name, b.name) and finding.evidence.formula
 
 
@@ -203,7 +202,7 @@ def test_a_limit_and_then_a_fibre(number):
     assert finding.evidence.formula.startswith("grounded: k01 → 0")
     assert "k01 zero in the grounded row" in finding.evidence.sentence("S", "L")
     assert confirms(finding.evidence, small, large) and confirms(turned.evidence, large, small)
-    assert inclusion_from_json(inclusion_to_json(turned)) == turned
+    assert CLOSURE.decode(CLOSURE.encode(turned)) == turned
     solutions = tuple(tuple(x + 1 for x in q) for q in finding.evidence.solutions)
     for false in (
         {"solutions": solutions},

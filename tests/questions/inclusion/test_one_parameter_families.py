@@ -18,9 +18,10 @@ from disting.experiments.inclusion import inclusions_under
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.measured_evidence import confirms_inclusion
 from disting.model.question import Settings
-from disting.questions.inclusion import Inclusion, confirms, quick_closure
+from disting.questions.inclusion import Inclusion, confirms
 from disting.questions.inclusion.across_sizes import refuted
 from disting.questions.inclusion.closures import of_closure
+from disting.questions.inclusion.decide import quick_closure
 from disting.questions.inclusion.pole_sharing import excluding_points
 from disting.questions.inclusion.profiles import by_profiles
 from tests.oracles.one_parameter_families import (

@@ -6,8 +6,7 @@ import sympy as sp
 from disting.algebra.fractionfree import polynomial, resultant
 from disting.algebra.sampling import prime, residues
 from disting.model.row import Row
-from disting.questions.inclusion.end_rows import end_resultant
-from disting.questions.inclusion.inner_rows import inner_resultant
+from disting.questions.inclusion.row_resultants import end_resultant, inner_resultant
 
 S = sp.Symbol("s")
 P = prime("row resultants")

@@ -20,13 +20,16 @@ from disting.evidence.positive import (
     PositiveFinding,
     Share,
 )
-from disting.fibres.synthesis import Answer, Status, fibre, target
 from disting.fibres.synthesis.decide import rational_point
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.target import target
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding
 from disting.questions.positive.obstacles import obstacle, only_rows_sum_to_zero
 from disting.questions.positive.points import equivalent, random_point, read
+from disting.questions.same.real_and_positive import POSITIVELY
 from tests.oracles.positive_synthesis import positive_equivalent
 
 SHARES = {
@@ -78,7 +81,7 @@ def test_catalogues_have_no_open_pair(n, damped):
     for given, other in indistinguishable(n, damped):
         found = positive_finding(given, other)
         assert found.certainty is Certainty.THEOREM and confirms(found.evidence, given, other)
-        assert PositiveFinding.from_json(found.to_json()) == found
+        assert POSITIVELY.decode(POSITIVELY.encode(found)) == found
         shares[
             found.evidence.name if isinstance(found.evidence, Theorem) else found.share.value
         ] += 1

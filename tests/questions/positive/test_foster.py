@@ -6,7 +6,9 @@ from random import Random
 import pytest
 
 from disting import Chain
-from disting.fibres.synthesis import Answer, Status, fibre, target
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.target import target
 from disting.questions.positive.points import random_point
 
 CASES = [

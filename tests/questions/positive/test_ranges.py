@@ -5,11 +5,12 @@ from fractions import Fraction
 import pytest
 
 from disting import Certainty, Chain, Family, InputError
-from disting.evidence.positive import BoxMap, Points, PositiveFinding, Share
-from disting.fibres.synthesis import Answer
+from disting.evidence.positive import BoxMap, Points, Share
+from disting.fibres.synthesis.result import Answer
 from disting.questions.positive import confirms_within, ranges, within_ranges
 from disting.questions.positive.points import random_point, read
 from disting.questions.positive.ranges import equivalent_within
+from disting.questions.same.real_and_positive import POSITIVELY
 
 D3 = Family(3, damped=True)
 
@@ -44,7 +45,7 @@ def test_duality_within_ranges():
     assert not confirms_within(
         Points(found.evidence.without, found.evidence.with_one), D3[1], D3[11], box
     )
-    assert PositiveFinding.from_json(found.to_json()) == found
+    assert POSITIVELY.decode(POSITIVELY.encode(found)) == found
 
 
 def test_collocated_equivalents_are_all_listed():

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from disting.fit.judge.members import Twin
-from disting.fit.select import Selection
+from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit import fit_page

@@ -14,8 +14,9 @@ from disting.files import __version__
 from disting.fit.judge.modes import physical
 from disting.fit.judge.practical import Thresholds
 from disting.fit.results.model_file import read_model
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports
-from disting.fit.select import Selection, select
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.names import name_of
 from disting.report.fit import (
@@ -137,14 +138,14 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     admissible = sum(c.admissible for c in selection.candidates)
     others, more = len(selection.members) - 1, len(selection.containing)
     beginning = (
-        "2 masses, damper b2: this explains the measurement Of 24 fitted structures it is the"
+        "2 masses, damper b2: this explains the measurement Of 12 fitted structures it is the"
         " simplest that the data allow."
     )
-    assert beginning in said and (others, more) == (0, 7)
-    assert "7 larger ones contain it, with parts that these data do not show." in said
+    assert beginning in said and (others, more) == (0, 3)
+    assert "3 larger ones contain it, with parts that these data do not show." in said
     order = (
         f"misfit {readable(selection.explanation.chi2)}",
-        "structures left 8 of 24",
+        "structures left 4 of 12",
         "resonance 1 58",
         "The rule: Of",
         "In more words",
@@ -152,7 +153,7 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     places = [said.index(words) for words in order]
     assert places == sorted(places)
     assert f"5 parameters, cost J = {readable(selection.described.j_train)} on training" in said
-    assert f"{admissible} of 24 fitted candidates are admissible" in said
+    assert f"{admissible} of 12 fitted candidates are admissible" in said
     assert "antiresonance 1" in said and "kg m²" in said and "N m s/rad" in said
     drawings = [a for t, a in outline.elements if t == "svg"]
     sketched = len(selection.members) + sum(len(m.twins) for m in selection.members)
@@ -183,7 +184,7 @@ def test_more_candidates_than_fit_are_behind_details(
     # the package has a function of the module's name
     monkeypatch.setattr(import_module("disting.report.fit.selection_page"), "FIRST", 10)
     text = fit_page(selection, [], [starts], train)
-    assert "<summary>All 24 candidates</summary>" in text
+    assert "<summary>All 12 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2
     assert len(re.findall('class="chosen"', text)) in (1, 2)
 
@@ -192,9 +193,9 @@ def test_data_are_the_selection_s_own(selection: Selection, written: list[Path])
     assert selection.selected is not None
     chain, values = read_model(written[-2])
     assert chain == DRIVE and values == selection.selected.estimate.parameters
-    assert len(json.loads(written[-2].read_text(encoding="utf-8"))["candidates"]) == 24
+    assert len(json.loads(written[-2].read_text(encoding="utf-8"))["candidates"]) == 12
     rows = list(csv.DictReader(written[-1].read_text(encoding="utf-8").splitlines()))
-    assert [row["rank"] for row in rows] == [str(i) for i in range(1, 25)]
+    assert [row["rank"] for row in rows] == [str(i) for i in range(1, 13)]
     assert [float(row["j_test"]) for row in rows] == [c.j_test for c in selection.candidates]
     assert [row["admissible"] == "true" for row in rows] == [
         c.admissible for c in selection.candidates
@@ -286,7 +287,7 @@ def test_structures_that_no_data_can_tell_apart_are_named(starts: Drawn) -> None
 
 def test_no_alternatives_are_said_so(outline: Outline) -> None:
     assert (
-        "None: for generic positive parameters none of the 15 other candidates with 2 masses has"
+        "None: for generic positive parameters none of the 7 other candidates with 2 masses has"
         " the transfer function" in " ".join(outline.text.split())
     )
 

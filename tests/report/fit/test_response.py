@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.export import predicted
+from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
-from disting.fit.select import Selection, select
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.report.fit import residuals
 from disting.report.fit.distorted import beneath, gathered

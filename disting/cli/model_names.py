@@ -1,0 +1,110 @@
+"""Models as commands name them: numbered chains, networks in a notation, models of a file; and the
+values of their parameters.
+"""
+
+import argparse
+from collections.abc import Sequence
+
+from disting.cli.arguments import FILE, parted
+from disting.cli.plain import keep_apart
+from disting.errors import InputError
+from disting.general.any_model import of_network
+from disting.general.matrix_model import AnyModel
+from disting.general.model_files import read_models
+from disting.model.chain import Chain, Sensor
+from disting.model.names import NAME, chains_named, damping_option
+from disting.network.network import Network
+from disting.network.notation import network_of, notations_of
+
+MODEL = (
+    "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
+    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
+    " file.json:name, a model of your own"
+)
+
+
+def is_network(text: str, notation: str = "") -> bool:
+    """Whether a text is that of a network, not the name of a chain.
+
+    >>> is_network("R0-p(R1,C1)"), is_network("3:1+b2")
+    (True, False)
+    """
+    return bool(notations_of(text)) or bool(notation and not NAME.fullmatch(text))
+
+
+def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
+    """What is named by each text: a chain, a network in a notation, a model file.json:name."""
+    networks = {text: _network(text, options) for text in texts if FILE not in text}
+    named = [text for text, network in networks.items() if network is None]
+    if len(set(texts)) == len(set(named)):
+        if options.also and (options.prove or getattr(options, "bound", ())):
+            raise InputError(
+                "with --also the verdict is on several experiments: leave --prove and --bound away"
+            )
+        return [*chains_named(texts, damped=options.damped, sensor=options.quantity)]
+    if options.also:
+        raise InputError("--also belongs to numbered chains: leave it away")
+    if getattr(options, "bound", ()):
+        raise InputError("--bound belongs to numbered chains: leave it away")
+    if all(FILE in text for text in texts):
+        from disting.cli.verdicts import refuse_chain_options
+
+        refuse_chain_options(options)
+    if not named:
+        _refuse_damping(options)
+    chains = dict(
+        zip(
+            named,
+            chains_named(named, damped=options.damped, sensor=options.quantity),
+            strict=True,
+        )
+    )
+    lists = {path: read_models(path) for path, _ in map(parted, texts) if path}
+    keep_apart(model.name for found in lists.values() for model in found)
+    return [
+        lists[path][name] if path else networks[text] or chains[text]
+        for text, (path, name) in zip(texts, map(parted, texts), strict=True)
+    ]
+
+
+def _network(text: str, options: argparse.Namespace) -> AnyModel | None:
+    """The model of a network; None of the name of a chain."""
+    if not is_network(text, options.notation):
+        return None
+    quantity = Sensor(options.quantity)
+    return of_network(network_of(text, options.notation, quantity=quantity))
+
+
+def structures(
+    texts: Sequence[str], options: argparse.Namespace, quantity: Sensor = Sensor.ACCELERATION
+) -> list[Chain | Network]:
+    """Chains by their names or networks in a notation; raises InputError for both at once, and for
+    options of chains with networks.
+    """
+    said = [is_network(text, options.notation) for text in texts]
+    if not any(said):
+        return [*chains_named(texts, damped=options.damped, sensor=quantity)]
+    _refuse_damping(options)
+    if not all(said):
+        raise InputError(
+            f"{texts[said.index(False)]} is a numbered chain, {texts[said.index(True)]} a network:"
+            " write the chain as a network too, such as 1=2=3; F1; S3"
+        )
+    return [network_of(text, options.notation, quantity=quantity) for text in texts]
+
+
+def values_of(model: Chain | Network, texts: Sequence[str]) -> dict[str, float]:
+    """The values of all its parameters from texts such as m1=1,k12=3/4; raises InputError."""
+    from disting.equivalence.inputs import assignments, point_of  # a look-up needs none of it
+
+    exact = point_of(model, assignments([*texts]))
+    return {name: int(value.p) / int(value.q) for name, value in exact.items()}
+
+
+def _refuse_damping(options: argparse.Namespace) -> None:
+    """Raises InputError for --damped and --undamped, with networks."""
+    if options.damped is not None:
+        raise InputError(
+            f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
+            " dampers itself"
+        )

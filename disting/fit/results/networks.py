@@ -1,0 +1,121 @@
+"""What a fit of networks found: each with its values, which explain the data, which are left."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from disting.errors import listed
+from disting.fit.judge.explanation import FEW_CLEAR, Miss
+from disting.fit.judge.practical import Seen
+from disting.fit.noise.scatter import Scatter
+from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import Real
+from disting.model.presentation import Shown, summary
+from disting.network.network import Network
+from disting.network.notation.entries import entry_of
+from disting.schemas import Format
+from disting.verdict.decisions import Decisions
+
+BAR = " | "  # between names of networks, which have commas
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FittedNetwork:
+    """A network with its values of least |r|^2, r whitened, shape (n_y,), and how well it explains
+    the data.
+
+    `same`: other candidates that give the same responses for all positive values; `relative`:
+    standard deviations of the logarithms of the values, infinite of what the data or the network do
+    not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it.
+    """
+
+    network: Network
+    values: dict[str, float]
+    relative: dict[str, float]
+    rank: int
+    chi2: float
+    residual: Real = field(repr=False)
+    basis: Real = field(repr=False)
+    noise: Seen = field(repr=False)
+    same: tuple[str, ...] = ()
+    explains: bool = False
+    excluded_by: str = ""
+    misses: tuple[Miss, ...] = ()
+
+    @property
+    def cost(self) -> float:
+        """|r|^2."""
+        return float(self.residual @ self.residual)
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON; None for a deviation that is infinite."""
+        return {
+            "name": self.network.name,
+            "values": self.values,
+            "relative_deviations": {
+                name: x if np.isfinite(x) else None for name, x in self.relative.items()
+            },
+            "rank": self.rank,
+            "chi2": self.chi2,
+            "explains": self.explains,
+            "excluded_by": self.excluded_by,
+            "same": list(self.same),
+            "misses": [miss.sentence for miss in self.misses],
+        }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NetworkSelection(Shown):
+    """What was found: `fits`, the selected one first, then by chi2; all candidates (`networks`);
+    the responses (`measured`), and `scatter` of the lines.
+    """
+
+    fits: tuple[FittedNetwork, ...]
+    networks: tuple[Network, ...]
+    measured: tuple[FrequencyResponse, ...] = field(repr=False)
+    scatter: Scatter
+    decisions: Decisions = field(repr=False)
+
+    def __repr__(self) -> str:
+        chosen = self.selected
+        return summary(self, chosen.network.name if chosen else "none explains the data")
+
+    @property
+    def left(self) -> tuple[FittedNetwork, ...]:
+        """Those that explain the data and that no other one excludes."""
+        return tuple(f for f in self.fits if f.explains and not f.excluded_by)
+
+    @property
+    def selected(self) -> FittedNetwork | None:
+        """Of those that are left the one with the fewest determinable values, then the best."""
+        return min(self.left, key=lambda f: (f.rank, f.cost), default=None)
+
+    @property
+    def sentence(self) -> str:
+        """The answer in a sentence."""
+        chosen = self.selected
+        if self.scatter.clear < FEW_CLEAR:
+            return "The data are mostly noise: they support no network."
+        if chosen is None:
+            return "None of these networks explains the data."
+        twins = f", which cannot be told from {listed(chosen.same, BAR)}" if chosen.same else ""
+        others = [f.network.name for f in self.left if f is not chosen]
+        more = f" The data do not exclude {listed(others, BAR)} either." if others else ""
+        return f"{chosen.network.name} is the simplest that explains the data{twins}.{more}"
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        chosen, (first, *_) = self.selected, self.measured
+        return {
+            "format": Format.NETWORK_FIT.value,
+            "sentence": self.sentence,
+            "selected": chosen.network.name if chosen else None,
+            "scatter": self.scatter.typical,
+            "frequencies": {
+                "low": float(first.frequency[0]),
+                "high": float(first.frequency[-1]),
+                "lines": len(first),
+            },
+            "networks": [{"name": n.name, **entry_of(n)} for n in self.networks],
+            "fits": [fit.to_dict() for fit in self.fits],
+        }

@@ -1,0 +1,147 @@
+"""Equations that all damped rows with force and sensor on one mass fulfil, and all their limits:
+resultants, without any search.
+
+**At an end mass** (`end_resultant`). Let G = N/D be the receptance of a row of n masses whose force
+and sensor are at an end, e = deg N = 2n - 2, deg D = e + 2. Seen from the port, D/N = m s^2 + (what
+holds the port's mass at its own side) + W, and W belongs to the chain of the other n - 1 masses
+behind its first spring and damper k = d (s - z): W = k Z/(k + Z), where Z = C/A' belongs to the
+masses themselves, A' is monic of degree e - 2, and C = m' Y with a monic Y of degree e. Hence W =
+P/A, P = k Y, A = k A'/m' + Y, which is monic, and d is the leading coefficient of P. At z: P(z) =
+0, A(z) = Y(z), P'(z) = d Y(z):
+
+    P(z) = 0,   d A(z) = P'(z),   d the leading coefficient of P.
+    (1)
+
+N is A up to the factor b = b_e; let a = a_(e+2), so that m = a/b. Three kinds of rows:
+
+* Nothing at its own side (a free row, the port at either end): D = s^2 E. The other end is free
+  too, and with U = b E - a N, P = s^2 U/b^2. z is not 0, so U(z) = 0, and as d = u/b^2, u =
+  U_(e-1), (1) says u N(z) = b z^2 U'(z).
+* A wall at its own side (port at mass 1): D/N = m s^2 + T/N_0^2 + W with T = (D_1 N_0 - D_0 N_1) s
+  + D_0 N_0, for W = O(s^2). So E = (N_0^2 D - T N)/s^2 is a polynomial, and everything is as
+  before with N_0^2 N instead of N.
+* A wall at the other end (port at mass n): U = b D - a s^2 N, of degree e + 1, P = U/b^2, and (1)
+  says u N(z) = b U'(z).
+
+So the resultant of U and u N - b t U', t = s^2 or 1, vanishes for all models of the row, and for
+all their limits. It also does so where u = 0, which need not be a limit. So something better is
+taken. In the third case let V = u N - b U', of degree e with the leading coefficient -e b u. The
+coefficients of s^(e+1) and s^e in e b U + s V are e b u - e b u = 0 and e b U_e + u N_(e-1) - e b
+U_e = u N_(e-1), so
+
+    U~ = e b (e b U + s V) + N_(e-1) V
+
+has no larger degree than e - 1, and V and U~ have the root z in common. In the first two cases,
+from U(z) = 0 follows b E(z) = a N(z), and b (u E - a z^2 U')(z) = a (u N - b z^2 U')(z) = 0. The
+polynomial
+
+    V = u E - a s^2 U' + (e - 2) a s U - E_(e-1) U
+
+vanishes at z, too, and its coefficients of s^e and s^(e-1) are u a - a (e-1) u + (e-2) a u = 0 and
+u E_(e-1) - a (e-2) U_(e-2) + (e-2) a U_(e-2) - E_(e-1) u = 0. So the resultant of U and V, as
+polynomials of the formal degrees e - 1 and e - 2, vanishes for all models with b != 0, so for all
+of the row, and for all their limits.
+
+**At a mass that has a single mass beyond it** (`inner_resultant`): a resultant of resultants. Let G
+= N/D, e = deg N = 2n - 2. Cut at the port's mass, the row falls into two sides, so D/N = m s^2 +
+W_L + W_R and N is, up to a factor, the product of the denominators of W_L and W_R. Let the right
+side have a free end and be one mass m' behind a spring and damper k: W = k m' s^2/(m' s^2 + k), so
+W/s^2 = m' (1 + m' s^2/k)^-1 = m' + O(s^2). With rho_z = D(z)/N'(z), the residues of D/N,
+
+    W/s^2 = sum rho_z/(z^2 (s - z))  over the two zeros z of m' s^2 + k,
+
+as W = O(s^2) is a linear polynomial plus sum rho_z/(s - z). The derivative at 0 of the sum is 0:
+-sum rho_z/z^4 = 0. So with
+
+    x_z = D(z)/(z^4 N'(z)),    R(x) = Res_s(N, x s^4 N' - D),
+
+R has two roots x_z that add up to 0, in general not zero themselves. Let R(x) = P(x^2) + x Q(x^2):
+P and Q have a common root, so their resultant vanishes for generic models of the row, thus for
+all, and for all their limits.
+
+So that this says something where N has a smaller degree, s^4 N' is replaced by T = s^4 N' - e s^3
+N, which is the same at the zeros of N and has no larger degree, e + 2, than D; R is the resultant
+for the formal degrees e and e + 2. In a free row D = s^2 E: there R(x) = Res(N, x (s^2 N' - e s N)
+- E), formal degrees e and e. W_L/s^2 = m'' + O(s^2) holds for its other side as well (a row
+without a wall keeps its momentum), so all x_z add up to 0: R_(e-1) = 0, and the formal degree of Q
+is e/2 - 2, else e/2 - 1.
+"""
+
+from disting.algebra.fractionfree import Modular, interpolated, polynomial, resultant
+from disting.model.row import Row
+
+
+def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
+    """The resultant for a receptance modulo a prime, coefficients of the constant first; 0 where
+    it says nothing.
+
+    What is not 0 is no receptance of the row, and no limit of its receptances.
+    """
+    e = 2 * row.n_masses - 2
+    at_end = row.a == row.b and row.a in (1, row.n_masses)
+    if (
+        not row.damped
+        or row.ground_dampers
+        or not at_end
+        or e == 0
+        or len(num) > e + 1
+        or len(den) != e + 3
+    ):
+        return 0
+    n, d = polynomial(num, modulus), polynomial(den, modulus)
+    if row.grounded and row.a == row.n_masses:
+        a, b = int(d[e + 2]), int(n[e])
+        u = b * d - a * n.left_shift(2)
+        v = int(u[e + 1]) * n - b * u.derivative()
+        lower = e * b * (e * b * u + v.left_shift(1)) + int(n[e - 1]) * v
+        return resultant(v, lower, e, e - 1)
+    if row.grounded:
+        n0, n1, d0, d1 = (int(p[i]) for p in (n, d) for i in (0, 1))
+        held = polynomial([d0 * n0 % modulus, (d1 * n0 - d0 * n1) % modulus], modulus)
+        return _free(n0 * n0 * n, (n0 * n0 * d - held * n).right_shift(2), e)
+    return 0 if int(d[0]) or int(d[1]) else _free(n, d.right_shift(2), e)
+
+
+def _free(n: Modular, energy: Modular, e: int) -> int:
+    """Res(U, V) of the module's text for N and E."""
+    s = polynomial([0, 1], energy.modulus())
+    a, b = int(energy[e]), int(n[e])
+    u = b * energy - a * n
+    top = int(u[e - 1])
+    v = top * energy - a * s * s * u.derivative() + (e - 2) * a * s * u - int(energy[e - 1]) * u
+    return resultant(u, v, e - 1, e - 2)
+
+
+def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
+    """The resultant for a receptance modulo a prime, coefficients of the constant first; 0 where
+    it says nothing.
+
+    What is not 0 is no receptance of the row, and no limit of its receptances.
+    """
+    e, n = 2 * row.n_masses - 2, row.n_masses
+    alone = row.a == row.b and (row.a == n - 1 or (not row.grounded and row.a == 2))
+    if not row.damped or row.ground_dampers or not alone or e < (2 if row.grounded else 4):
+        return 0
+    if len(num) > e + 1 or len(den) != e + 3 or not (row.grounded or den[0] == den[1] == 0):
+        return 0
+    numerator, denominator = (
+        polynomial(num, modulus),
+        polynomial(den if row.grounded else den[2:], modulus),
+    )
+    r = _in_x(numerator, denominator, e, 4 if row.grounded else 2, modulus)
+    if row.grounded:
+        return resultant(
+            polynomial(r[::2], modulus), polynomial(r[1::2], modulus), e // 2, e // 2 - 1
+        )
+    if r[e - 1]:
+        return r[e - 1]
+    return resultant(
+        polynomial(r[::2], modulus), polynomial(r[1 : e - 1 : 2], modulus), e // 2, e // 2 - 2
+    )
+
+
+def _in_x(n: Modular, d: Modular, e: int, power: int, modulus: int) -> list[int]:
+    """Coefficients of R, interpolated."""
+    t = n.derivative().left_shift(power) - e * n.left_shift(power - 1)
+    top = e + power - 2
+    return interpolated([resultant(n, x * t - d, e, top) for x in range(e + 1)], modulus)
