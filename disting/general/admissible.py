@@ -19,7 +19,7 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import NoEquivalent, Point, Witnesses
+from disting.evidence.general import Explicit, NoEquivalent, Point, Witnesses
 from disting.general import listed, newton
 from disting.general.combination import excludes
 from disting.general.equivalent import spelled
@@ -74,7 +74,7 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
                 evidence=NoEquivalent(domain.value, left_given, closed),
             )
     if all(one and one.covering for one in ways):
-        return _always(ways, domain)
+        return _always(explicit(ways, left, right, domain), left, right)
     if domain is Domain.POSITIVE and are_one_ports(left, right):
         return Finding(
             ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
@@ -86,8 +86,8 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
         )
     if having and lacking:
         return _sometimes(_witnesses(left, right, having, lacking, domain))
-    if not lacking and all(one and (one.covering or one.path()) for one in ways):
-        return _always(ways, domain)
+    if not lacking and (found := explicit(ways, left, right, domain)):
+        return _always(found, left, right)
     if domain is Domain.POSITIVE:
         found = _by_lists(left, right, seed, LISTED) or _by_numbers(
             left, right, seed, LISTED, having
@@ -195,13 +195,10 @@ def _refuse_equivalents(ways: Ways, domain: Domain, seed: str) -> None:
             )
 
 
-def _always(ways: Ways, domain: Domain) -> Finding:
-    known = [one for one in ways if one]
-    evidence = explicit(known, domain)
-    if not fit(evidence, known[0].given, known[0].other):
+def _always(evidence: Explicit | None, left: AnyModel, right: AnyModel) -> Finding:
+    if evidence is None or not fit(evidence, left, right):
         raise ContradictionError(
-            f"a formula for {known[0].given.name} and {known[0].other.name} gives another transfer"
-            " function"
+            f"a formula for {left.name} and {right.name} gives another transfer function"
         )
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 

@@ -38,7 +38,7 @@ from disting.errors import InputError
 from disting.general.listed import is_in_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
-from disting.general.relations import Relation, coefficients, relations
+from disting.general.relations import Relation, coefficients, relations, slope
 from disting.general.target import rational_values, value_at
 
 BITS = 128
@@ -123,7 +123,7 @@ def _independent(
     """
     if not known:
         return (), ()
-    table = [[_slope(r, wanted, i, Fraction(0)) for r in known] for i in range(1, len(wanted))]
+    table = [[slope(r, wanted, i, Fraction(0)) for r in known] for i in range(1, len(wanted))]
     # the last columns first: those of the numerator
     columns, kept = _pivots(table[::-1]), _pivots([list(line) for line in zip(*table, strict=True)])
     chosen = tuple(sorted(len(wanted) - 1 - i for i in columns))
@@ -136,16 +136,6 @@ def _pivots(vectors: Sequence[Sequence[Fraction]]) -> list[int]:
                       zip(*vectors, strict=True)])
     reduced, rank = table.rref()
     return [next(j for j in range(len(vectors)) if reduced[i, j]) for i in range(rank)]
-
-
-def _slope(relation: Relation, at: Sequence[Any], by: int, zero: Any) -> Any:
-    """The derivative of a quadratic form by one variable."""
-    total = zero
-    for (i, j), number in relation:
-        for one, other in ((i, j), (j, i)):
-            if one == by:
-                total += at[other] * number
-    return total
 
 
 def _starts(system: System, near: Sequence[float]) -> Iterator[Sequence[float]]:
@@ -299,7 +289,7 @@ def _follow(system: System, box: Sequence[arb]) -> bool:
     for i in system.others:
         hull[i] = hull[i].union(found[i] / found[0] * hull[0])
     balls = [tuple((ij, _ball(x)) for ij, x in r) for r in system.relations]
-    table = [[_slope(r, hull, i, arb(0)) for i in system.others] for r in balls]
+    table = [[slope(r, hull, i, arb(0)) for i in system.others] for r in balls]
     return _solved(arb_mat(table), arb_mat([[0]] * len(table))) is not None
 
 

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations_with_replacement
+from typing import Any
 
 from flint import fmpz_mpoly, nmod_mat
 
@@ -37,7 +38,7 @@ def relations(left: Model, right: Model) -> tuple[Relation, ...]:
     >>> free = of_network(network_of("1=2, 1=3; F1; S2"))
     >>> [relation] = relations(free, free)
     >>> [(i, j, str(number)) for (i, j), number in relation]
-    [(3, 6, '-1'), (4, 5, '1')]
+    [(3, 5, '-1'), (4, 6, '1')]
     """
     count = sum(map(bool, coefficients(left)))
     pairs = list(combinations_with_replacement(range(count), 2))
@@ -53,6 +54,55 @@ def relations(left: Model, right: Model) -> tuple[Relation, ...]:
         if (relation := _lifted(line, pairs, modulus))
         and all(_holds(relation, model) for model in (left, right))
     )
+
+
+@lru_cache(maxsize=REMEMBERED)
+def dimension_at_most(model: Model) -> int:
+    """A bound of the dimension of its transfer functions: the number of ratios of coefficients less
+    that of independent equations between them, seen modulo a prime.
+
+    >>> dimension_at_most(Model.from_transfer_function(["1"], ["1", "a + b", "a*b"]))
+    2
+    """
+    known, modulus = relations(model, model), prime("relations")
+    point = residues("dimension", len(model.parameters), modulus)
+    at = [_value(terms, point, modulus) for terms in coefficients(model) if terms]
+    slopes = [[slope(r, at, i, Fraction(0)) for i in range(len(at))] for r in known]
+    rows = [[x.numerator * pow(x.denominator, -1, modulus) % modulus for x in r] for r in slopes]
+    return len(at) - 1 - (nmod_mat(rows, modulus).rank() if rows else 0)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def dimension_at_least(model: Model) -> int:
+    """The rank of the coefficients and their derivatives, less 1, at a point modulo a prime: the
+    dimension of what they are up to a common factor is not smaller.
+
+    >>> dimension_at_least(Model.from_transfer_function(["1"], ["1", "a + b", "a*b"]))
+    2
+    """
+    modulus = prime("relations")
+    point = residues("rank", len(model.parameters), modulus)
+    there = [terms for terms in coefficients(model) if terms]
+    rows = [[_value(terms, point, modulus) for terms in there]]
+    for i in range(len(point)):
+        rows.append([_value(_derivative(terms, i), point, modulus) for terms in there])
+    return int(nmod_mat(rows, modulus).rank()) - 1
+
+
+def _derivative(terms: Terms, by: int) -> Terms:
+    return tuple(
+        ((*e[:by], e[by] - 1, *e[by + 1 :]), number * e[by]) for e, number in terms if e[by]
+    )
+
+
+def slope(relation: Relation, at: Sequence[Any], by: int, zero: Any) -> Any:
+    """The derivative of a quadratic form by one variable."""
+    total = zero
+    for (i, j), number in relation:
+        for one, other in ((i, j), (j, i)):
+            if one == by:
+                total += at[other] * number
+    return total
 
 
 def _value(terms: Terms, point: Sequence[int], modulus: int) -> int:
