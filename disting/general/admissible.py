@@ -80,14 +80,16 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
             ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
         )
     having, lacking, shares = _seen(ways, domain, seed)
+    if lacking and not having and domain is Domain.POSITIVE:
+        having = _common(left, right)
     if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
         raise ContradictionError(
             f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none"
         )
     if having and lacking:
         return _sometimes(_witnesses(left, right, having, lacking, domain))
-    if not lacking and (found := explicit(ways, left, right, domain)):
-        return _always(found, left, right)
+    if not lacking and (formulas := explicit(ways, left, right, domain)):
+        return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
         found = _by_lists(left, right, seed, LISTED) or _by_numbers(
             left, right, seed, LISTED, having
@@ -275,8 +277,10 @@ def _by_numbers(
     return None
 
 
-def _common(left: Model, right: Model) -> Found | None:
+def _common(left: AnyModel, right: AnyModel) -> Found | None:
     """A point with a positive equivalent, where a search finds one."""
+    if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
+        return None
     for left_given, values, near in newton.common_points(left, right):
         given, other = (left, right) if left_given else (right, left)
         found = newton.having(given, values, other, near)

@@ -41,8 +41,8 @@ class Boundary:
 
 @lru_cache(maxsize=REMEMBERED)
 def at_boundary(given: AnyModel, other: AnyModel) -> Boundary | None:
-    """Parameters of the other model, and formulas for the others, that show a positive equivalent of
-    all generic values; None where none is found.
+    """Parameters of the other model, and formulas for the others, that show a positive equivalent
+    of all generic values; None where none is found.
 
     >>> a = Model.from_transfer_function("n", "(s + n + x)*(s + y)")
     >>> b = Model.from_transfer_function("n", "(s + n + x)*(s + y + z) - n*z")
@@ -81,9 +81,7 @@ def without(model: Model, zero: tuple[str, ...]) -> Model | None:
 
     sides = [tuple(map(left, side)) for side in (model.numerator_terms, model.denominator_terms)]
     names = tuple(model.parameters[i] for i in kept)
-    less = replace(
-        model, parameters=names, numerator_terms=sides[0], denominator_terms=sides[1]
-    )
+    less = replace(model, parameters=names, numerator_terms=sides[0], denominator_terms=sides[1])
     there = [list(map(bool, coefficients(m))) for m in (model, less)]
     return less if kept and there[0] == there[1] else None
 

@@ -112,7 +112,9 @@ def _system(given: Model, values: Values, other: Model) -> System | None:
     solved = tuple(i for i in range(1, len(wanted)) if i not in others)
     rows = tuple(terms for terms in coefficients(other) if terms)
     unknowns = len(other.parameters)
-    return System(rows, wanted, unknowns, solved, others, known) if len(solved) <= unknowns else None
+    return (
+        System(rows, wanted, unknowns, solved, others, known) if len(solved) <= unknowns else None
+    )
 
 
 def _independent(
@@ -132,8 +134,9 @@ def _independent(
 
 def _pivots(vectors: Sequence[Sequence[Fraction]]) -> list[int]:
     """Which of the vectors do not depend on those before."""
-    table = fmpq_mat([[fmpq(x.numerator, x.denominator) for x in line] for line in
-                      zip(*vectors, strict=True)])
+    table = fmpq_mat(
+        [[fmpq(x.numerator, x.denominator) for x in line] for line in zip(*vectors, strict=True)]
+    )
     reduced, rank = table.rref()
     return [next(j for j in range(len(vectors)) if reduced[i, j]) for i in range(rank)]
 
@@ -165,7 +168,9 @@ def common_points(left: Model, right: Model) -> Iterator[tuple[bool, Values, tup
 
     sides = [[t for t in coefficients(m) if t] for m in (left, right)]
     count = len(left.parameters)
-    ratios = [_ratios(rows, len(m.parameters)) for rows, m in zip(sides, (left, right), strict=True)]
+    ratios = [
+        _ratios(rows, len(m.parameters)) for rows, m in zip(sides, (left, right), strict=True)
+    ]
 
     def errors(logs: Any) -> tuple[Any, Any]:
         (one, slopes), (other, along) = ratios[0](logs[:count]), ratios[1](logs[count:])
@@ -288,8 +293,7 @@ def _follow(system: System, box: Sequence[arb]) -> bool:
     hull = [_ball(g) for g in system.wanted]
     for i in system.others:
         hull[i] = hull[i].union(found[i] / found[0] * hull[0])
-    balls = [tuple((ij, _ball(x)) for ij, x in r) for r in system.relations]
-    table = [[slope(r, hull, i, arb(0)) for i in system.others] for r in balls]
+    table = [[slope(r, hull, i, arb(0)) for i in system.others] for r in system.relations]
     return _solved(arb_mat(table), arb_mat([[0]] * len(table))) is not None
 
 

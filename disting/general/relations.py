@@ -1,6 +1,6 @@
-"""Quadratic equations between the coefficients of transfer functions that hold for all values of two
-models, such as a_1 b_0 = a_0 b_1 of machines that nothing holds: two models whose functions are the
-same have them in common.
+"""Quadratic equations between the coefficients of transfer functions that hold for all values of
+two models, such as a_1 b_0 = a_0 b_1 of machines that nothing holds: two models whose functions are
+the same have them in common.
 
 They are guessed from values modulo a prime and put in exactly: what is found is true.
 """
@@ -66,7 +66,7 @@ def dimension_at_most(model: Model) -> int:
     """
     known, modulus = relations(model, model), prime("relations")
     point = residues("dimension", len(model.parameters), modulus)
-    at = [_value(terms, point, modulus) for terms in coefficients(model) if terms]
+    at = [Fraction(_value(t, point, modulus)) for t in coefficients(model) if t]
     slopes = [[slope(r, at, i, Fraction(0)) for i in range(len(at))] for r in known]
     rows = [[x.numerator * pow(x.denominator, -1, modulus) % modulus for x in r] for r in slopes]
     return len(at) - 1 - (nmod_mat(rows, modulus).rank() if rows else 0)
@@ -101,7 +101,7 @@ def slope(relation: Relation, at: Sequence[Any], by: int, zero: Any) -> Any:
     for (i, j), number in relation:
         for one, other in ((i, j), (j, i)):
             if one == by:
-                total += at[other] * number
+                total += at[other] * number.numerator / number.denominator
     return total
 
 
@@ -131,9 +131,7 @@ def _kernel(rows: list[list[int]], modulus: int) -> list[list[int]]:
     return found
 
 
-def _lifted(
-    line: Sequence[int], pairs: Sequence[tuple[int, int]], modulus: int
-) -> Relation | None:
+def _lifted(line: Sequence[int], pairs: Sequence[tuple[int, int]], modulus: int) -> Relation | None:
     """Small fractions with these remainders."""
     found = []
     for pair, residue in zip(pairs, line, strict=True):
