@@ -36,9 +36,9 @@ class Explicit(_OverDomain):
     that applies.
 
     A value of `0` is that of a parameter that is to be small: then there is an equivalent near
-    these values. Positive ones have no exception where there is one formula each way, on no condition and
-    without a root or a 0, and it has plus signs only: then its values are positive wherever the
-    parameters are.
+    these values. Positive ones have no exception where there is one formula each way, on no
+    condition and without a root or a 0, and it has plus signs only: then its values are positive
+    wherever the parameters are.
     """
 
     kind: ClassVar[str] = "explicit"

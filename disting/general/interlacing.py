@@ -10,17 +10,18 @@ THEOREM. For generic values n can have any value of its sign, the a any positive
 -w of W any for which each w is between two neighbours a_i and a_(i+1), no two between the same. So
 two such machines with the same N, j, degree of W and sign of n give the same functions, special
 ones aside.
-Proof. (H) Seen at the mass v the dynamic stiffness is Z = m x + c + sum r_i x/(x + b_i), where b_1 <
-.. < b_(N-1) are the poles of the parts and m, c, r_i > 0; its zeros are the -a_i. So a_i < b_i <
+Proof. (H) Seen at the mass v the dynamic stiffness is Z = m x + c + sum r_i x/(x + b_i), where b_1
+< .. < b_(N-1) are the poles of the parts and m, c, r_i > 0; its zeros are the -a_i. So a_i < b_i <
 a_(i+1), and all such a, b, each with any factor, come from one Z (partial fractions). The terms may
-be given to the branches at v in any way by their numbers of masses, c to the branch with the
-spring to the ground, or to v if it is there: each branch gives any such share (the theorem on trees
-in the guide). So any of the b are the poles of the parts in question.
+be given to the branches at v in any way by their numbers of masses, c to the branch with the spring
+to the ground, or to v if it is there: each branch gives any such share (the theorem on trees in the
+guide). So any of the b are the poles of the parts in question.
 (C) Let k be the spring, h(x) the compliance between its ends when it is cut, a sum of r_i/(x + b_i)
 with r_i > 0, b_1 = 0 for the free part, b_2, .. the other poles of both parts. D is prod (x + b_i)
 (1 + k h) up to a factor, so b_i < a_i < b_(i+1), and all such a, b come from one k h (partial
-fractions). With k = 1 the terms may be given to both parts in any way by their numbers of masses, b_1 to the free one:
-each part, seen at its end, gives any such share (Foster, and the theorem on trees).
+fractions). With k = 1 the terms may be given to both parts in any way by their numbers of masses,
+b_1 to the free one: each part, seen at its end, gives any such share (Foster, and the theorem on
+trees).
 In both cases the w are any of the b between the a. Values times a number t leave a and w as they
 are and make n/t of n.
 """
