@@ -41,6 +41,7 @@ from disting.network.element import Element
 from disting.network.graph import parts
 from disting.network.network import Network
 
+FEWEST = 3  # masses: of two, formulas are found, which say more
 Ring = dict[str, fmpz_mpoly]
 """x and the values of the elements by name."""
 
@@ -73,7 +74,12 @@ def interlaced(model: AnyModel) -> Interlaced | None:
         return None
     network, there = model.network, tuple(map(bool, model.numerator_terms))
     masses = len(network.nodes)
-    if not is_held_tree(network) or model.degrees[1] != 2 * masses or not model.denominator[0]:
+    if (
+        masses < FEWEST
+        or not is_held_tree(network)
+        or model.degrees[1] != 2 * masses
+        or not model.denominator[0]
+    ):
         return None
     first = there.index(True)
     signs = {number > 0 for _, number in model.numerator_terms[first]}
