@@ -27,7 +27,7 @@ from disting.general.relations import coefficients, dimension_at_least, dimensio
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
 
-TRIED = 12  # sets of parameters
+LOOKED_AT, TRIED = 200, 12  # sets of parameters: by their rank, and for formulas
 REMEMBERED = 512
 
 
@@ -97,8 +97,8 @@ def keeps_functions(given: Model, other: Model, less: Model) -> bool:
 def _candidates(given: Model, other: Model) -> Iterator[tuple[str, ...]]:
     """Yield sets of parameters, those first that leave as many as the rank."""
     spare = len(other.parameters) - dimension_at_most(other)
-    for count in range(spare, 0, -1):
-        for zero in combinations(other.parameters, count):
-            less = without(other, zero)
-            if less is not None and keeps_functions(given, other, less):
-                yield zero
+    sets = (z for count in range(spare, 0, -1) for z in combinations(other.parameters, count))
+    for zero in islice(sets, LOOKED_AT):
+        less = without(other, zero)
+        if less is not None and keeps_functions(given, other, less):
+            yield zero

@@ -41,6 +41,7 @@ from disting.general.model import Model, Terms
 from disting.general.relations import Relation, coefficients, relations, slope
 from disting.general.target import rational_values, value_at
 
+MOST_TERMS = 1000  # of one model
 BITS = 128
 RADII = (1e-9, 1e-6, 1e-12)  # of the box, in times of the values
 STEPS = 4  # of Newton's method before a box is drawn
@@ -91,7 +92,11 @@ def having(
 
 
 def are_alike(given: Model, other: Model) -> bool:
-    """Whether both have the same coefficients, not always zero, of powers of the same s."""
+    """Whether both have the same coefficients, not always zero, of powers of the same s, and few
+    enough terms for a search.
+    """
+    if any(sum(map(len, coefficients(m))) > MOST_TERMS for m in (given, other)):
+        return False
     if not is_in_one_variable(given.powers, other.powers) or given.degrees != other.degrees:
         return False
     one, two = ([bool(c) for c in coefficients(m)] for m in (given, other))

@@ -17,6 +17,8 @@ from disting.algebra.sampling import prime, residues
 from disting.general.model import Model, Terms
 
 REMEMBERED = 256
+MOST = 140  # products of two coefficients, and
+MOST_TERMS = 1000  # of both models: few models that large are met, and none of their equations
 SPARE = 8  # more points than unknowns
 SMALL = 1 << 28  # of numerators and denominators of their numbers
 Relation = tuple[tuple[tuple[int, int], Fraction], ...]
@@ -31,7 +33,7 @@ def coefficients(model: Model) -> list[Terms]:
 @lru_cache(maxsize=REMEMBERED)
 def relations(left: Model, right: Model) -> tuple[Relation, ...]:
     """A basis of the quadratic forms that are zero at the coefficients of both, those left out that
-    are always zero.
+    are always zero; none are looked for between many coefficients.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
@@ -42,6 +44,11 @@ def relations(left: Model, right: Model) -> tuple[Relation, ...]:
     """
     count = sum(map(bool, coefficients(left)))
     pairs = list(combinations_with_replacement(range(count), 2))
+    if (
+        len(pairs) > MOST
+        or sum(len(t) for m in (left, right) for t in coefficients(m)) > MOST_TERMS
+    ):
+        return ()
     modulus, rows = prime("relations"), []
     for side, model in enumerate((left, right)):
         for k in range(len(pairs) // 2 + SPARE):
