@@ -27,6 +27,11 @@ THEOREMS = {
         "{left} and {right} are the same but for parts that can replace each other (two-terminal"
         " parts of two kinds of elements, or trees that hang at a compartment)"
     ),
+    "interlacing": (
+        "{left} and {right} are undamped trees of as many masses with one spring to the ground:"
+        " each gives any resonances, and any antiresonances each of which is between two"
+        " neighbouring ones of them"
+    ),
     "parts": (
         "{left} and {right} are undamped and their rows at both sides of the gap can be exchanged"
         " one by one"
@@ -35,6 +40,7 @@ THEOREMS = {
 RATIONAL = ("symmetry", "duality")
 """Theorems whose maps are rational, so that they take real parameters to real ones."""
 
+INTERLACING = "interlacing"
 REPLACEMENT = "replacement"
 """The theorem on networks of `disting.network.normal_form`."""
 
@@ -44,6 +50,7 @@ TITLES = {
     "duality": "duality theorem",
     "Foster": "Foster's theorem",
     "replacement": "replacement of parts",
+    "interlacing": "antiresonances between resonances",
     "parts": "reversal of undamped rows",
 }
 
@@ -82,7 +89,7 @@ class Theorem(Kind):
         known = {
             Domain.COMPLEX: True,
             Domain.REAL: self.name in RATIONAL,
-            Domain.POSITIVE: self.name in ("Foster and Cauer", REPLACEMENT),
+            Domain.POSITIVE: self.name in ("Foster and Cauer", INTERLACING, REPLACEMENT),
         }
         return Relation.INDISTINGUISHABLE if known[domain] else Relation.UNDECIDED
 

@@ -5,6 +5,7 @@ and without one; constants.
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
+from disting.errors import listed
 from disting.evidence.decision import Theorem
 from disting.evidence.kind import Carrier, Claim, Kind, plain_fields, read
 from disting.model.question import Domain, Relation
@@ -16,6 +17,7 @@ fractions between which it is).
 """
 Point = tuple[tuple[str, str], ...]  # parameter name, number
 SHOWN, LONGEST = 3, 160  # contradictions that are told, characters of each
+ZERO = "0"  # the value of what is to be small
 BOTH = (True, False)  # ways from one model to the other
 
 
@@ -33,8 +35,10 @@ class Explicit(_OverDomain):
     """All generic parameters of either model have an equivalent: those of the first formula
     that applies.
 
-    Positive ones have no exception where there is one formula each way, on no condition and without
-    a root, and it has plus signs only: then its values are positive wherever the parameters are.
+    A value of `0` is that of a parameter that is to be small: then there is an equivalent near
+    these values. Positive ones have no exception where there is one formula each way, on no
+    condition and without a root or a 0, and it has plus signs only: then its values are positive
+    wherever the parameters are.
     """
 
     kind: ClassVar[str] = "explicit"
@@ -44,7 +48,7 @@ class Explicit(_OverDomain):
     def without_exception(self, domain: Domain) -> bool:
         """Whether it holds for special values too."""
         plain = all(
-            not where and not root and not any("-" in value for _, value in values)
+            not where and not root and not any("-" in v or v == ZERO for _, v in values)
             for _, where, values, root in self.formulas
         )
         return (
@@ -69,7 +73,9 @@ class Explicit(_OverDomain):
 
 def _told(formula: Formula) -> str:
     _, where, values, root = formula
-    said = ", ".join(f"{name} = {value}" for name, value in values)
+    said = ", ".join(f"{name} = {value}" for name, value in values if value != ZERO)
+    small = [name for name, value in values if value == ZERO]
+    said = f"values near {said}, {listed(small)} being small" if small else said
     said += f" with {root[0]} the root of {root[1]} between {root[2]} and {root[3]}" if root else ""
     return said + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")
 

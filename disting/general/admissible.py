@@ -19,8 +19,8 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import NoEquivalent, Point, Witnesses
-from disting.general import listed
+from disting.evidence.general import Explicit, NoEquivalent, Point, Witnesses
+from disting.general import listed, newton
 from disting.general.combination import excludes
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
@@ -33,7 +33,8 @@ from disting.general.which_models import Way, way
 from disting.model.question import Domain
 
 POINTS = 40  # of either model
-FIRST, LISTED = 3, 24  # of either model, whose equivalents are all listed
+FIRST, LISTED = 3, 24  # of either model, whose equivalents are all listed or excluded
+SMALL = 5  # parameters: formulas for so few come before searches in rounded numbers
 GUARDS = 4  # of either model, where no equivalents are to be found
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
 TOO_LARGE = "the search for all equivalents grew too large"
@@ -47,8 +48,12 @@ def admissible_finding(left: AnyModel, right: AnyModel, domain: Domain, seed: st
     """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen. Lists of all
     equivalents of points cost milliseconds, so a few come first.
     """
-    if domain is Domain.POSITIVE and (found := _by_lists(left, right, seed, FIRST)):
-        return _sometimes(found)
+    if domain is Domain.POSITIVE:
+        found = _by_lists(left, right, seed, FIRST)
+        if found is None and max(len(m.parameters) for m in (left, right)) > SMALL:
+            found = _by_numbers(left, right, seed, FIRST)
+        if found:
+            return _sometimes(found)
     first = way(left, right, domain)
     second = None if first and first.never else way(right, left, domain)
     return of_ways(left, right, (first, second), domain, seed)
@@ -69,22 +74,26 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
                 evidence=NoEquivalent(domain.value, left_given, closed),
             )
     if all(one and one.covering for one in ways):
-        return _always(ways, domain)
+        return _always(explicit(ways, left, right, domain), left, right)
     if domain is Domain.POSITIVE and are_one_ports(left, right):
         return Finding(
             ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
         )
     having, lacking, shares = _seen(ways, domain, seed)
+    if lacking and not having and domain is Domain.POSITIVE:
+        having = _common(left, right)
     if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
         raise ContradictionError(
             f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none"
         )
     if having and lacking:
         return _sometimes(_witnesses(left, right, having, lacking, domain))
-    if not lacking and all(one and (one.covering or one.path()) for one in ways):
-        return _always(ways, domain)
+    if not lacking and (formulas := explicit(ways, left, right, domain)):
+        return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
-        found = _by_lists(left, right, seed, LISTED) or _by_combination(left, right, seed, having)
+        found = _by_lists(left, right, seed, LISTED) or _by_numbers(
+            left, right, seed, LISTED, having
+        )
         if found:
             return _sometimes(found)
     note = (
@@ -121,10 +130,19 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
         return False
     sides = {True: (left, right), False: (right, left)}
     first, second = sides[evidence.with_left_given], sides[evidence.without_left_given]
-    return _has(*first, with_, domain) and _has_none(*second, without, domain)
+    near = tuple(float(Fraction(x)) for _, x in evidence.equivalent)
+    return _has(*first, with_, near, domain) and _has_none(*second, without, domain)
 
 
-def _has(given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain) -> bool:
+def _has(
+    given: AnyModel,
+    other: AnyModel,
+    values: dict[str, Fraction],
+    near: tuple[float, ...],
+    domain: Domain,
+) -> bool:
+    if domain is Domain.POSITIVE and newton.having(given, values, other, near):
+        return True
     if domain is Domain.POSITIVE and listed.having(given, values, other):
         return True
     one = way(given, other, domain)
@@ -134,14 +152,13 @@ def _has(given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: 
 def _has_none(
     given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
 ) -> bool:
-    if domain is Domain.POSITIVE and listed.lacking(given, values, other):
-        return True
+    if domain is Domain.POSITIVE:
+        if isinstance(given, Model) and isinstance(other, Model) and excludes(given, values, other):
+            return True
+        if listed.lacking(given, values, other):
+            return True
     one = way(given, other, domain)
-    if one and one.lacking(values):
-        return True
-    if domain is not Domain.POSITIVE or not isinstance(given, Model):
-        return False
-    return isinstance(other, Model) and excludes(given, values, other)
+    return bool(one and one.lacking(values))
 
 
 def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
@@ -180,13 +197,10 @@ def _refuse_equivalents(ways: Ways, domain: Domain, seed: str) -> None:
             )
 
 
-def _always(ways: Ways, domain: Domain) -> Finding:
-    known = [one for one in ways if one]
-    evidence = explicit(known, domain)
-    if not fit(evidence, known[0].given, known[0].other):
+def _always(evidence: Explicit | None, left: AnyModel, right: AnyModel) -> Finding:
+    if evidence is None or not fit(evidence, left, right):
         raise ContradictionError(
-            f"a formula for {known[0].given.name} and {known[0].other.name} gives another transfer"
-            " function"
+            f"a formula for {left.name} and {right.name} gives another transfer function"
         )
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
@@ -239,19 +253,39 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
     return None
 
 
-def _by_combination(
-    left: AnyModel, right: AnyModel, seed: str, having: Found | None
+def _by_numbers(
+    left: AnyModel, right: AnyModel, seed: str, count: int, having: Found | None = None
 ) -> Witnesses | None:
-    """With a point that has a positive equivalent, one that has none by a combination of the
+    """A point that has a positive equivalent, found by a search in rounded numbers and shown by
+    intervals, and one, among so many of either model, that has none by a combination of the
     equations.
     """
-    if having is None or not (isinstance(left, Model) and isinstance(right, Model)):
+    if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
         return None
-    for left_given, given, other in ((True, left, right), (False, right, left)):
-        for values in islice(points(given, Domain.POSITIVE, seed), LISTED):
-            if excludes(given, values, other):
-                lacking = left_given, _written(values), ()
-                return _witnesses(left, right, having, lacking, Domain.POSITIVE)
+    having = having or _common(left, right)
+    if having is None:
+        return None
+    drawn = [
+        zip(repeat(side), islice(points(one, Domain.POSITIVE, seed), count))
+        for side, one in ((True, left), (False, right))
+    ]
+    for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
+        given, other = (left, right) if left_given else (right, left)
+        if not newton.having(given, values, other) and excludes(given, values, other):
+            lacking = left_given, _written(values), ()
+            return _witnesses(left, right, having, lacking, Domain.POSITIVE)
+    return None
+
+
+def _common(left: AnyModel, right: AnyModel) -> Found | None:
+    """A point with a positive equivalent, where a search finds one."""
+    if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
+        return None
+    for left_given, values, near in newton.common_points(left, right):
+        given, other = (left, right) if left_given else (right, left)
+        found = newton.having(given, values, other, near)
+        if found:
+            return left_given, _written(values), _rounded(other, found)
     return None
 
 

@@ -15,13 +15,14 @@ and x are unknown then.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from flint import ctx, fmpz_mpoly, fmpz_poly
 
 from disting.algebra.symbols import factored
-from disting.general.cases import Case, cases_of
+from disting.general.cases import Case, cases_of, inequalities
 from disting.general.orthant import Orthant, TooMuch, value_at
 from disting.model.question import Domain
 
@@ -49,6 +50,42 @@ def number_of_roots(ring: Orthant, case: Case) -> int | None:
     except TooMuch:
         pass
     return None
+
+
+def at_roots(ring: Orthant, case: Case) -> Case | str:
+    """A case with one equation in its only unknown, its inequalities as they are at the roots:
+    remainders, where the leading coefficient of the equation has one sign; else what would have to
+    hold and fails.
+    """
+    free = ring.occurring((*case.equations, *case.positive))
+    if ring.domain is not Domain.POSITIVE or len(case.equations) != 1 or len(free) != 1:
+        return case
+    (at,), (equation,) = free, case.equations
+    lead = ring.coefficients(equation, at)[-1]
+    sign = ring.sign(lead)
+    if not sign or not equation.degrees()[at]:
+        return case
+    try:
+        rests = [_remainder(ring, g, sign * equation, sign * lead, at) for g in case.positive]
+        positive, failing = inequalities(ring, rests)
+    except TooMuch:
+        return case
+    return f"{failing} > 0" if failing is not None else replace(case, positive=positive)
+
+
+def _remainder(
+    ring: Orthant, polynomial: fmpz_mpoly, equation: fmpz_mpoly, lead: fmpz_mpoly, at: int
+) -> fmpz_mpoly:
+    """What has the sign of a polynomial where an equation with a positive leading coefficient is
+    zero.
+    """
+    degree, x = int(equation.degrees()[at]), ring.generators[at]
+    while (high := int(polynomial.degrees()[at])) >= degree and polynomial:
+        if len(polynomial) * max(len(lead), len(equation)) > 100 * ring.terms:
+            raise TooMuch("a remainder of many terms")
+        first = ring.coefficients(polynomial, at)[-1]
+        polynomial = lead * polynomial - first * x ** (high - degree) * equation
+    return polynomial
 
 
 def _are_apart(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly, at: int) -> bool:

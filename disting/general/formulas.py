@@ -1,12 +1,13 @@
 """Equivalents as formulas: written down as evidence, and put into the transfer function again."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.rational_function import RationalFunction
-from disting.evidence.general import Explicit, Formula, NoEquivalent
+from disting.evidence.general import ZERO, Explicit, Formula, NoEquivalent
 from disting.general.between import End, Path
+from disting.general.boundary import Boundary, at_boundary, equivalents_without
 from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of
 from disting.general.expression import polynomial_text, text_of, tree
@@ -17,12 +18,23 @@ from disting.general.which_models import Way, way
 from disting.model.question import Domain
 
 
-def explicit(ways: list[Way], domain: Domain) -> Explicit:
-    """The evidence of two ways in which all generic parameters have an equivalent: the left
-    model's first.
+def explicit(
+    ways: Sequence[Way | None], left: AnyModel, right: AnyModel, domain: Domain
+) -> Explicit | None:
+    """The evidence of two ways in which all generic parameters have an equivalent, the left model's
+    first; None where one is not known to be such.
     """
-    both = zip((True, False), ways, strict=True)
-    return Explicit(domain.value, tuple(f for side, one in both for f in of_way(side, one)))
+    found = list[tuple[Formula, ...]]()
+    for side, given, other, one in zip(
+        (True, False), (left, right), (right, left), ways, strict=True
+    ):
+        formulas = tuple(of_way(side, one)) if one else ()
+        if not formulas and domain is Domain.POSITIVE and (near := at_boundary(given, other)):
+            formulas = tuple(of_boundary(side, other, near))
+        if not formulas:
+            return None
+        found.append(formulas)
+    return Explicit(domain.value, tuple(f for formulas in found for f in formulas))
 
 
 def of_way(left_given: bool, one: Way) -> Iterator[Formula]:
@@ -35,16 +47,38 @@ def of_way(left_given: bool, one: Way) -> Iterator[Formula]:
         yield _of_path(left_given, one, found)
 
 
+def of_boundary(left_given: bool, other: AnyModel, found: Boundary) -> Iterator[Formula]:
+    """Yield the formulas of equivalents near the boundary, those that are to be small being 0."""
+    for side, where, values, root in of_way(left_given, found.way):
+        known = dict(values)
+        yield side, where, tuple((q, known.get(q, ZERO)) for q in other.parameters), root
+
+
 def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
     """Whether every formula gives the same transfer function, and the ways found anew cover all
     parameters.
     """
-    domain = Domain(evidence.domain)
-    ways = [way(left, right, domain), way(right, left, domain)]
-    known = all(one and (one.covering or one.path()) for one in ways)
-    return (
-        known and {f[0] for f in evidence.formulas} == {True, False} and fit(evidence, left, right)
+    sides = {True: (left, right), False: (right, left)}
+    return fit(evidence, left, right) and all(
+        _covers([f for f in evidence.formulas if f[0] is side], *sides[side], evidence.domain)
+        for side in (True, False)
     )
+
+
+def _covers(formulas: list[Formula], given: AnyModel, other: AnyModel, domain: str) -> bool:
+    """Whether the way found anew gives all generic parameters an equivalent, near the boundary
+    where all formulas have the same zeros.
+    """
+    zeros = {tuple(q for q, text in values if text == ZERO) for _, _, values, _ in formulas}
+    if len(zeros) != 1:
+        return False
+    (zero,) = zeros
+    if not zero:
+        one = way(given, other, Domain(domain))
+        return bool(one and (one.covering or one.path()))
+    if not (isinstance(given, Model) and isinstance(other, Model)):
+        return False
+    return domain == Domain.POSITIVE and bool(equivalents_without(given, other, zero))
 
 
 def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
@@ -111,6 +145,7 @@ def _fits(formula: Formula, given: AnyModel, other: AnyModel, domain: Domain) ->
     ):
         return False
     point = [expansion.value(t) for t in trees]
+    inside = [v for v, (_, text) in zip(point, values, strict=True) if text != ZERO]
     generic = [RationalFunction(ring[n], one) for n in given.parameters]
     pairs = [
         (
@@ -128,7 +163,7 @@ def _fits(formula: Formula, given: AnyModel, other: AnyModel, domain: Domain) ->
     leads = [there[-1] for _, there in pairs]
     sides = [
         side
-        for v in (*point, *leads)
+        for v in (*inside, *leads)
         for side in ((v.num, v.den) if domain is Domain.POSITIVE else (v.den,))
     ]
     return all(_is_apart(x, equation) for x in (*(v.num for v in leads), *sides)) and all(

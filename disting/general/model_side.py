@@ -19,7 +19,7 @@ from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import GENERIC, Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
-from disting.evidence.decision import REPLACEMENT, Theorem
+from disting.evidence.decision import INTERLACING, REPLACEMENT, Theorem
 from disting.evidence.general import AtInverse, Constants, Replaced, Witnesses
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
@@ -31,6 +31,7 @@ from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
 from disting.general.exponents import determined
 from disting.general.forms import by_forms, by_inverse, confirms_forms
+from disting.general.interlacing import interlace
 from disting.general.matrix_model import AnyModel
 from disting.general.model_inclusions import (
     confirms_inclusion,
@@ -49,6 +50,7 @@ from disting.questions.same.exact import resting_on_ranks
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
+NETWORKS = {REPLACEMENT: replaceable, INTERLACING: interlace}
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
@@ -195,8 +197,8 @@ class ComparedModel(Side[AnyModel]):
         one_order = Carrier.CONDITION not in evidence.claim.carriers and self.has_other_readings
         if one_order and not any(evidence.shows(d) is Relation.INDISTINGUISHABLE for d in Domain):
             return False
-        if evidence == Theorem(REPLACEMENT):
-            return _replaceable(self, other)
+        if isinstance(evidence, Theorem) and evidence.name in NETWORKS:
+            return self.is_writable and other.is_writable and _applies(evidence.name, self, other)
         if isinstance(evidence, Replaced | AtInverse):
             return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = _models(self, other)
@@ -226,10 +228,8 @@ class ComparedModel(Side[AnyModel]):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
         if not (self.is_writable and other.is_writable):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        if domain is Domain.POSITIVE and _replaceable(self, other):
-            return Finding(
-                ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(REPLACEMENT)
-            )
+        if domain is Domain.POSITIVE and (name := _theorem(self, other)):
+            return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
         found = self._in_every_order(other, found)
         names = {LEFT: self.name, RIGHT: other.name}
@@ -262,7 +262,7 @@ class ComparedModel(Side[AnyModel]):
         left = [
             (a, b)
             for a, b in pairs
-            if not (_renamed(a, b) or (known and _replaceable(a, b)))
+            if not (_renamed(a, b) or (known and _theorem(a, b)))
             and a.is_writable
             and b.is_writable
         ]
@@ -301,10 +301,16 @@ def comparable(left: ComparedModel, right: ComparedModel) -> bool:
     return alike and left.is_writable and right.is_writable
 
 
-def _replaceable(left: ComparedModel, right: ComparedModel) -> bool:
-    """Whether both are networks that give the same functions, special ones aside."""
+def _theorem(left: ComparedModel, right: ComparedModel) -> str:
+    """The theorem by which both are networks that give the same functions, special ones aside; ""
+    of none.
+    """
     written = left.is_writable and right.is_writable
-    return written and replaceable(left.subject, right.subject)
+    return next((name for name in NETWORKS if written and _applies(name, left, right)), "")
+
+
+def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:
+    return NETWORKS[name](left.subject, right.subject)
 
 
 def _renamed(left: ComparedModel, right: ComparedModel) -> bool:

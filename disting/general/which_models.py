@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from disting.general.between import Path, by_count, odd_path, path, without_equations
 from disting.general.cases import Case, orders, searched
-from disting.general.counts import number_of_roots
+from disting.general.counts import at_roots, number_of_roots
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
@@ -103,10 +103,13 @@ def way(given: AnyModel, other: AnyModel, domain: Domain) -> Way | None:
 
 
 def _with_roots(parted: Parted) -> Parted:
-    """The same without cases that have no root."""
+    """The same without cases that have no root, inequalities as they are at the roots."""
     search, kept = parted.search, list[Case]()
-    for case in parted.others:
-        if number_of_roots(search.ring, case) == 0:
+    for left in parted.others:
+        case = at_roots(search.ring, left)
+        if isinstance(case, str):
+            search.closed.append(case)
+        elif number_of_roots(search.ring, case) == 0:
             search.closed.append(
                 f"{case.equations[0]} = 0 with {' and '.join(f'{g} > 0' for g in case.positive)}"
             )

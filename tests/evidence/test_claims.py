@@ -36,7 +36,7 @@ def test_theorems(domain):
         == {
             Domain.COMPLEX: set(THEOREMS),
             Domain.REAL: {"symmetry", "duality"},
-            Domain.POSITIVE: {"Foster and Cauer", "replacement"},
+            Domain.POSITIVE: {"Foster and Cauer", "interlacing", "replacement"},
         }[domain]
     )
 

@@ -1,0 +1,165 @@
+"""Undamped machines whose force and sensor are apart: what poles and zeros they can have.
+
+Let N masses be joined by springs as a tree, with one more spring to the ground; x = s^2. Then G = n
+x^j W(x)/D(x), D = (x + a_1) .. (x + a_N) with 0 < a_1 < a_2 < .. for generic values. Let the zeros
+of W be the poles of some of the parts into which the machine falls (H) when one mass is held, or
+(C) when one spring between masses is cut, each once; a pole at 0, of a part that is free then, left
+out.
+
+THEOREM. For generic values n can have any value of its sign, the a any positive ones, and the zeros
+-w of W any for which each w is between two neighbours a_i and a_(i+1), no two between the same. So
+two such machines with the same N, j, degree of W and sign of n give the same functions, special
+ones aside.
+Proof. (H) Seen at the mass v the dynamic stiffness is Z = m x + c + sum r_i x/(x + b_i), where b_1
+< .. < b_(N-1) are the poles of the parts and m, c, r_i > 0; its zeros are the -a_i. So a_i < b_i <
+a_(i+1), and all such a, b, each with any factor, come from one Z (partial fractions). The terms may
+be given to the branches at v in any way by their numbers of masses, c to the branch with the spring
+to the ground, or to v if it is there: each branch gives any such share (the theorem on trees in the
+guide). So any of the b are the poles of the parts in question.
+(C) Let k be the spring, h(x) the compliance between its ends when it is cut, a sum of r_i/(x + b_i)
+with r_i > 0, b_1 = 0 for the free part, b_2, .. the other poles of both parts. D is prod (x + b_i)
+(1 + k h) up to a factor, so b_i < a_i < b_(i+1), and all such a, b come from one k h (partial
+fractions). With k = 1 the terms may be given to both parts in any way by their numbers of masses,
+b_1 to the free one: each part, seen at its end, gives any such share (Foster, and the theorem on
+trees).
+In both cases the w are any of the b between the a. Values times a number t leave a and w as they
+are and make n/t of n.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import prod
+
+from flint import fmpz_mpoly
+
+from disting.algebra.determinants import minors
+from disting.algebra.symbols import symbols
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.network.element import Element
+from disting.network.graph import parts
+from disting.network.network import Network
+
+FEWEST = 3  # masses: of two, formulas are found, which say more
+Ring = dict[str, fmpz_mpoly]
+"""x and the values of the elements by name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Interlaced:
+    """Number of masses, which powers of s are in the numerator, and its sign."""
+
+    masses: int
+    numerator: tuple[bool, ...]
+    sign: int
+
+
+def interlace(left: AnyModel, right: AnyModel) -> bool:
+    """Whether the theorem says that both give the same functions; False says nothing.
+
+    >>> from disting.general.any_model import of_network
+    >>> from disting.network import network_of
+    >>> star, chain = "#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2"
+    >>> interlace(*(of_network(network_of(text)) for text in (star, chain)))
+    True
+    """
+    one = interlaced(left)
+    return one is not None and one == interlaced(right)
+
+
+def interlaced(model: AnyModel) -> Interlaced | None:
+    """The functions of a machine of the theorem, None of any other."""
+    if not isinstance(model, Model) or model.network is None or model.powers.weights:
+        return None
+    network, there = model.network, tuple(map(bool, model.numerator_terms))
+    masses = len(network.nodes)
+    if (
+        masses < FEWEST
+        or not is_held_tree(network)
+        or model.degrees[1] != 2 * masses
+        or not model.denominator[0]
+    ):
+        return None
+    first = there.index(True)
+    signs = {number > 0 for _, number in model.numerator_terms[first]}
+    if any(there[first + 1 :: 2]) or len(signs) > 1:
+        return None
+    ring = symbols(["x", *model.parameters])
+    zeros = ring["x"] * 0
+    for at, terms in enumerate(model.numerator_terms[first::2]):
+        for exponents, number in terms:
+            powers = zip(model.parameters, exponents, strict=True)
+            zeros += int(number) * ring["x"] ** at * prod(ring[p] ** int(e) for p, e in powers)
+    if not any(_are_zeros_of(zeros, chosen) for chosen in _choices(network, ring)):
+        return None
+    return Interlaced(masses, there, 1 if signs.pop() else -1)
+
+
+def is_held_tree(network: Network) -> bool:
+    """Whether it is made of masses, springs that join them as a tree, and one to the ground."""
+    elements, nodes = network.elements, network.nodes
+    springs = [e for e in elements if e.letter == "k"]
+    joints = [e for e in springs if 0 not in _ends(e)]
+    return (
+        sorted(e.nodes for e in elements if e.letter == "m") == [(i,) for i in nodes]
+        and len(elements) == len(network.seen) == 2 * len(nodes)
+        and len(springs) == len(nodes) == len(joints) + 1
+        and not any(e.ratio for e in elements)
+        and len(set(parts(nodes, map(_ends, joints)).values())) == 1
+        and network.shape == (1, 1)
+    )
+
+
+def _ends(element: Element) -> tuple[int, int]:
+    first, second, *_ = (*element.nodes, 0)
+    return first, second
+
+
+def _choices(network: Network, ring: Ring) -> Iterator[tuple[fmpz_mpoly, ...]]:
+    """Yield the polynomials of all choices of parts that are left where a mass is held or a spring
+    between masses is cut.
+    """
+    cut = [
+        [e for e in network.elements if e is not k] for k in network.elements if 0 not in _ends(k)
+    ]
+    ways = [*((network.elements, i) for i in network.nodes), *((rest, 0) for rest in cut)]
+    for elements, held in ways:
+        left = [i for i in network.nodes if i != held]
+        joints = [e for e in map(_ends, elements) if not {0, held} & {*e}]
+        of = parts(left, joints)
+        found = [
+            _polynomial([i for i in left if of[i] == part], elements, ring)
+            for part in sorted(set(of.values()))
+        ]
+        for count in range(len(found) + 1):
+            yield from combinations(found, count)
+
+
+def _polynomial(nodes: Sequence[int], elements: Sequence[Element], ring: Ring) -> fmpz_mpoly:
+    """The determinant of x M + K of these masses, all others being held; without the factor x of a
+    part that is free.
+    """
+    zero = ring["x"] * 0
+    table = [[zero for _ in nodes] for _ in nodes]
+    for e in elements:
+        ends = [nodes.index(i) for i in _ends(e) if i in nodes]
+        value = ring[e.value] * (ring["x"] if e.letter == "m" else 1)
+        for i in ends:
+            for j in ends:
+                table[i][j] += value if i == j else -value
+    return _lowest(minors(table, {0: ring["x"] ** 0})[(1 << len(nodes)) - 1], ring["x"])[0]
+
+
+def _lowest(polynomial: fmpz_mpoly, x: fmpz_mpoly) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+    """Without factors x, and what is left of that at x = 0."""
+    while (polynomial % x).is_zero():
+        polynomial = polynomial // x
+    return polynomial, polynomial % x
+
+
+def _are_zeros_of(polynomial: fmpz_mpoly, chosen: Sequence[fmpz_mpoly]) -> bool:
+    """Whether it is the product of these but for a factor without x."""
+    x = polynomial.context().gens()[0]
+    wanted = prod(chosen, start=x**0)
+    return bool(polynomial * (wanted % x) == wanted * (polynomial % x))

@@ -1,0 +1,73 @@
+"""Undamped trees with force and sensor apart, against searches by numbers that know no theorem."""
+
+import random
+from itertools import combinations
+
+import pytest
+
+from disting import Relation, compare, verify
+from disting.general.any_model import of_network
+from disting.general.interlacing import interlace, interlaced
+from disting.network.families import family_of
+from disting.network.notation import network_of
+from disting.verdict.verdict_file import verdict_file
+from tests.oracles.twins import twin
+
+SAME = [
+    ("#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2"),  # a mass is held
+    ("#~1, 1~2, 1~3; F1; S2:1", "#~1, 1~2, 2~3; F2:1; S3:2"),  # a spring is cut
+    ("#~1, 1~2, 2~3; F2; S3", "#~1, 1~2, 2~3; F3; S2:1"),
+    ("#~1, 1~2, 1~3; F2; S3", "#~1, 1~2, 2~3; F1; S3"),  # no antiresonance
+]
+OTHER = [
+    "#~1, #~2, 1~2; F1; S2",  # two springs to the ground
+    "1~2, 2~3; F1; S2",  # none
+    "#~1, 1~2, 1~3, 2~3; F1; S2",  # a loop
+    "#=1, 1=2, 1=3; F1; S2",  # dampers
+    "#~1, 1~2, 1~3; F1; S3:2",  # zeros that may be anywhere
+    "R1-p(R2,C1)",
+]
+
+
+@pytest.mark.parametrize("pair", SAME)
+def test_trees_that_are_the_same(pair):
+    assert compare(*pair).relation is Relation.INDISTINGUISHABLE
+    assert both_ways(pair, 3)
+
+
+def both_ways(pair, times):
+    left, right = map(network_of, pair)
+    draw = random.Random(pair[0])
+    ways = ((left, right), (right, left))
+    return all(twin(*way, draw)[1] is not None for way in ways for _ in range(times))
+
+
+@pytest.mark.parametrize("text", OTHER)
+def test_machines_that_the_theorem_does_not_speak_of(text):
+    assert interlaced(of_network(network_of(text))) is None
+
+
+def test_signs_and_numbers_of_zeros_are_told_apart():
+    star, chain = ("#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S3")
+    assert not interlace(*(of_network(network_of(t)) for t in (star, chain)))
+    turned = [of_network(network_of(f"#~1, 1~2, 1~3; F1; {s}")) for s in ("S2:1", "S1:2")]
+    assert [m and m.sign for m in map(interlaced, turned)] == [-1, 1]
+
+
+def test_a_verdict_is_verified_and_a_lie_is_not():
+    data = verdict_file(*SAME[0])
+    assert data["evidence"]["name"] == "interlacing" and verify(data).standing.value == "holds"
+    other = verdict_file("#~1, 1~2, 1~3; F1; S3:2", SAME[0][1])
+    lie = data | {"models": other["models"]}
+    assert verify(lie).standing.value != "holds"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["machines-3", "trees-4"])
+def test_all_pairs_of_a_family(name):
+    """Each of 20 random points has a twin each way, and none is told apart otherwise."""
+    models = [m for m in map(of_network, family_of(name).networks) if interlaced(m)]
+    pairs = [p for p in combinations(models, 2) if interlace(*p)]
+    random.Random(name).shuffle(pairs)
+    for left, right in pairs[:40]:
+        assert both_ways((left.network.name, right.network.name), 20), (left.name, right.name)
