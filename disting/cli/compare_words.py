@@ -34,9 +34,7 @@ def explained(
     heading = in_colour(verdict.relation.upper(), verdict.relation)
     lines = [heading, "", *drawings, ""]
     lines += [*unknown, *[""] * bool(unknown)]
-    if verdict.evidence:
-        lines += [shown(verdict, what), ""]
-    lines.append(verdict.sentence)
+    lines += [shown(verdict, what), "", verdict.sentence]
     if verdict.evidence:
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]
     lines.append(f"domain     {verdict.domain} parameters{_over_complex(verdict)}")

@@ -54,8 +54,7 @@ def _verdict(shown: Verdict) -> str:
         (f"positive {shown.right}", _share(shown.right_positive, shown.left)),
         ("given up", "; ".join(shown.notes)),
     ]
-    seen = measured(shown)
-    return block(line(shown.sentence, bold=True), line(seen) if seen else "", facts(rows))
+    return block(line(shown.sentence, bold=True), line(measured(shown)), facts(rows))
 
 
 def _inclusion(shown: Verdict, found: Inclusion) -> str:
