@@ -16,11 +16,18 @@ from disting.fit.select import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
 from disting.report.fit.onward import commands, renamed
 from disting.report.fit.responses import fits_of
 from disting.report.fit.sentences import first_lines, learned, suspicions, which_mass
-from disting.report.fit.words import fit_in_words, percent, result_unit, with_error
+from disting.report.fit.words import (
+    cost_in_words,
+    fit_in_words,
+    percent,
+    result_unit,
+    with_error,
+)
 from disting.report.fit.words import name as name_of
 from disting.verdict.result import Relation
 
@@ -52,6 +59,9 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     )
     yield ""
     yield from _table((left or found.candidates)[:SHOWN])
+    cost = cost_in_words(found.task.cost)
+    yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
+    yield f"badly determined, the higher the worse: {columns(found.thresholds)}"
     yield ""
     chain = found.described.chain
     yield (
@@ -177,16 +187,21 @@ def _named(names: list[str]) -> str:
 
 
 def _table(candidates: Any) -> Iterator[str]:
-    yield f"{'J test':>9} {'J train':>9} {'N_p':>4} {'cond.':>6} {'PII':>7} {'coll.':>6}  structure"
+    jointly, weakest, alike = (said for said, _ in HEADS)
+    yield f"{'misfit J of lines':>19} {'':>10}   {'badly determined':>17}"
+    yield (
+        f"{'unseen':>9} {'fitted':>9} {'parameters':>10} {jointly:>8} {weakest:>8} {alike:>8}"
+        "  structure"
+    )
     for c in candidates:
         p = c.practical
         indices = (
-            f"{_index(p.condition_index):>6} {_index(p.importance_ratio):>7}"
-            f" {_index(p.collinearity):>6}"
+            f"{_index(p.condition_index):>8} {_index(p.importance_ratio):>8}"
+            f" {_index(p.collinearity):>8}"
         )
         mark = "" if c.admissible else "  (not all determined)"
         yield (
-            f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
+            f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:10d} {indices}  {name_of(c.chain)}"
             f"{mark}"
         )
 

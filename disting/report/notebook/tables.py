@@ -169,11 +169,11 @@ def _selection(shown: Selection) -> str:
     head = [
         "candidate",
         "",
-        "N_p",
-        "J test",
+        "parameters",
+        "misfit on unseen data (J test)",
         "χ² per line",
-        "condition index",
-        "weight",
+        "badly determined (condition index)",
+        "Akaike weight",
         "excluded",
     ]
     first = list(shown.candidates[:LONGEST])
