@@ -38,7 +38,6 @@ from disting.model.presentation import Shown, summary
 from disting.network.network import Network
 from disting.questions.inclusion import Inclusion
 from disting.schemas import Format
-from disting.simulation.mechanics import checked
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Relation, Verdict
@@ -168,9 +167,9 @@ def plan(
 ) -> Plan:
     """Power of data of `model` with these parameters against `rival`, at angular frequencies
     [rad/s] whose lines scatter by `rho`, shape (n_f,) each. Raises InputError for missing,
-    unknown or negative values, and for a chain beside a network.
+    unknown or negative values (not asked for where both behave the same), and for a chain beside a
+    network.
     """
-    checked(model, values)
     engine = engine or Engine()
     rival = shown_as(rival, sensor_of(model))
     verdict = compare(model, rival, engine=engine) if model != rival else None
