@@ -34,6 +34,11 @@ from disting.verdict.further_words import AnyFurther, anywhere, conclusion
 from disting.verdict.meaning import shown as measured
 from disting.verdict.result import Relation, Verdict
 
+COLUMNS = (
+    "misfit: J, of data that a fit has not seen; badly known: condition index, critical above 30;"
+    " weight: how likely it is beside the others (Akaike)."
+)
+
 
 @singledispatch
 def table_of(shown: Any) -> str:
@@ -170,10 +175,10 @@ def _selection(shown: Selection) -> str:
         "candidate",
         "",
         "parameters",
-        "misfit on unseen data (J test)",
+        "misfit",
         "χ² per line",
-        "badly determined (condition index)",
-        "Akaike weight",
+        "badly known",
+        "weight",
         "excluded",
     ]
     first = list(shown.candidates[:LONGEST])
@@ -184,6 +189,7 @@ def _selection(shown: Selection) -> str:
         line(_explained(shown)),
         table(head, rows),
         more(len(shown.candidates), "candidates", "selection.candidates has them all."),
+        line(COLUMNS),
         *map(line, _members(shown)),
     )
 
