@@ -141,7 +141,10 @@ def both_ways(
 
     unknown = set(limits) - {name for chain in chains for name in chain.parameters}
     if unknown:
-        raise InputError(f"no parameter of the two models is called {listed(sorted(unknown))}")
+        there = listed(dict.fromkeys(name for chain in chains for name in chain.parameters))
+        raise InputError(
+            f"no parameter of the two models is called {listed(sorted(unknown))}; there are {there}"
+        )
     sides = list(
         zip(
             (verdict.left, verdict.right),

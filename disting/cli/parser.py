@@ -6,6 +6,7 @@ them, which loads libraries that help needs not.
 """
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -310,8 +311,31 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""
-        complain(f"{_short(message).rstrip('.')} (see '{self.prog} --help')")
+        said = _short(self._plain(message)).rstrip(".")
+        complain(f"{said} (see '{self.prog} --help')")
         self.exit(2)
+
+    def _plain(self, message: str) -> str:
+        """What argparse says of a missing word or a wrong number, with what belongs there."""
+        if match := re.fullmatch(r"the following arguments are required: ([^,]+).*", message):
+            return f"{match[1]} is missing{self._meaning(match[1])}"
+        if match := re.fullmatch(r"argument (.+): expected one argument", message):
+            return f"{match[1]} needs a value{self._meaning(match[1])}"
+        wanted = {"float": "a number", "int": "a whole number"}
+        match = re.fullmatch(r"(.+): invalid (float|int) value: (.+)", message)
+        return f"{match[1]}: {wanted[match[2]]} is needed, not {match[3]}" if match else message
+
+    def _meaning(self, name: str) -> str:
+        """The first words of the help of an argument, after what stands for its value."""
+        for action in self._actions:
+            if action.choices and action.metavar == name:
+                return f": one of {', '.join(action.choices)}"
+            names = (action.metavar, action.dest, "/".join(action.option_strings))
+            if name in names and action.help:
+                value = f": {action.metavar}" * bool(action.option_strings and action.metavar)
+                said = re.split(r"; | \(", action.help)[0]
+                return f"{value}: {said}"
+        return ""
 
 
 class _HelpAll(argparse.Action):

@@ -33,7 +33,7 @@ def test_what_is_no_band(text, capsys):
         main(["fit", "--demo", "--band", text])
     told = capsys.readouterr().err
     assert (
-        "expected one argument" if text[0] == "-" else "a range is written like 11..250"
+        "--band needs a value: LOW..HIGH" if text[0] == "-" else "a range is written like 11..250"
     ) in told
 
 
