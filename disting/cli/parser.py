@@ -297,7 +297,9 @@ class _Parser(argparse.ArgumentParser):
             own = [word for word in args or () if word.lower().endswith(".json")]
             if own and not meant:  # names of models after the file that holds them
                 meant = [f"; a model of a file is written {own[0]}:NAME"]
-            self.error(f"unrecognized arguments: {' '.join(rest)}{''.join(meant)}")
+            self.error(
+                f"unrecognized arguments: {' '.join(rest)}{''.join(meant) or '; leave them away'}"
+            )
         return found, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
