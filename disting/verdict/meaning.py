@@ -26,9 +26,10 @@ PARTS = {
 }  # of a machine, and of any other model
 
 
-def shown(verdict: Verdict, what: str = RESPONSE) -> str:
+def shown(verdict: Verdict, what: str = RESPONSE, everywhere: bool = False) -> str:
     """What a measurement of either model shows, or, where nothing is decided, why and what helps.
-    `what` is measured: a response, of circuits an impedance.
+    `what` is measured: a response, of circuits an impedance. `everywhere`: special values, of which
+    the verdict does not speak, are known to be no exception.
 
     Of unequal ranks (conditions 4 and 5): the behaviours of the model of smaller rank lie in a
     variety of smaller dimension, so a generic behaviour of the other one is not there; the number
@@ -36,7 +37,7 @@ def shown(verdict: Verdict, what: str = RESPONSE) -> str:
     """
     left, right, machines = verdict.left, verdict.right, all(verdict.premises)
     if verdict.relation is Relation.INDISTINGUISHABLE:
-        return _the_same(verdict, what)
+        return _the_same(verdict, what, everywhere)
     if verdict.relation is Relation.SOMETIMES:
         return (
             f"It depends on the values: some {what}s fit both {left} and {right}, others only one"
@@ -94,10 +95,10 @@ def undetermined(name: str, rank: int, parameters: int) -> str:
     )
 
 
-def _the_same(verdict: Verdict, what: str) -> str:
+def _the_same(verdict: Verdict, what: str, everywhere: bool) -> str:
     left, right = verdict.left, verdict.right
     over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"
-    aside = ", special values aside" * verdict.has_exceptions
+    aside = ", special values aside" * (verdict.has_exceptions and not everywhere)
     return (
         f"For every {left} there is a {right}{over} with exactly the same {what}, and vice"
         f" versa{aside}. What is measured here does not tell them apart."
