@@ -30,7 +30,8 @@ def explained(
     everywhere: bool = False,
 ) -> str:
     """Relation, drawings, what of the models is `unknown` whatever is measured, what a measurement
-    (of `what`) shows (`everywhere`: at special values too), sentence, evidence, certainty, domain, inclusion.
+    (of `what`) shows (`everywhere`: at special values too), sentence, evidence, certainty, domain,
+    inclusion.
     """
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
