@@ -63,10 +63,10 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
     yield f"badly determined, the higher the worse: {columns(found.thresholds)}"
     yield ""
-    chain = found.described.chain
+    chain, explains = found.described.chain, found.explanation.explains
+    what = "selected" if explains else "the best one, which does not explain the data"
     yield (
-        f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}  "
-        f" {text_drawing(chain)}"
+        f"{what if found.selected else 'the best one'}: {name_of(chain)}   {text_drawing(chain)}"
     )
     yield from [f"  {renamed(found)}"] if renamed(found) else []
     yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
@@ -77,7 +77,7 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from _excluded(found)
     yield from _set(found)
     yield from _relied_on(found)
-    if found.selected:
+    if found.selected and explains:
         yield ""
         yield from _alternatives(found)
     rest = [said for said in suspicions(found) if said not in first_lines(found)]
