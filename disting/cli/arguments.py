@@ -122,7 +122,9 @@ def frequency_range(text: str) -> tuple[float, float]:
     except ValueError:
         limits = (1.0, 0.0)
     if not limits[0] < limits[1]:
-        raise argparse.ArgumentTypeError(f"a range is written like 11..250, not {shown(text)}")
+        raise argparse.ArgumentTypeError(
+            f"a range is written like 11..250, the lower end first, not {shown(text)}"
+        )
     return limits
 
 

@@ -31,7 +31,7 @@ from disting.errors import InputError
 from disting.experiments import named
 from disting.general.any_model import measured
 from disting.general.matrix_model import AnyModel
-from disting.general.special_values import special_values
+from disting.general.special_values import SpecialValues, special_values
 from disting.model.chain import Chain, Sensor
 from disting.model.names import name_of, read
 from disting.model.question import Domain, Settings
@@ -135,21 +135,22 @@ def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
 def _told(found: Judged, options: argparse.Namespace) -> Iterator[str]:
     """The verdict in words."""
     verdict, chains = found.verdict, _chains(found.models)
-    unknown = _unknown(verdict, found.known)
-    yield explained(verdict, list(map(in_letters, found.models)), unknown, measured(found.models))
-    if verdict.domain is Domain.POSITIVE:
-        yield from _at_special_values(found.models, verdict)
+    unknown, special = _unknown(verdict, found.known), _at_special_values(found.models, verdict)
+    drawn, everywhere = list(map(in_letters, found.models)), special is not None and special.is_same
+    yield explained(verdict, drawn, unknown, measured(found.models), everywhere)
+    said = special.sentence(verdict.left, verdict.right) if special else ""
+    yield from [f"special    {said}"] * bool(said)
     if chains and _tells_ways(verdict, options):
         yield from both_ways(verdict, chains, dict(options.bound))
 
 
-def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> Iterator[str]:
+def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> SpecialValues | None:
     """The second answer, on all positive values, where the verdict leaves special ones out."""
     models = [side for side in sides if not isinstance(side, Chain)]
-    different = verdict.relation is Relation.DISTINGUISHABLE
-    if len(models) == len(sides) and (verdict.has_exceptions or different):
-        said = special_values(*models).sentence(verdict.left, verdict.right)
-        yield from [f"special    {said}"] * bool(said)
+    asked = verdict.has_exceptions or verdict.relation is Relation.DISTINGUISHABLE
+    if verdict.domain is Domain.POSITIVE and len(models) == len(sides) and asked:
+        return special_values(*models)
+    return None
 
 
 def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:

@@ -23,10 +23,15 @@ MOST_TERMS = 30  # of a transfer function that is written out
 
 
 def explained(
-    verdict: Verdict, drawn: list[str], unknown: Sequence[str] = (), what: str = RESPONSE
+    verdict: Verdict,
+    drawn: list[str],
+    unknown: Sequence[str] = (),
+    what: str = RESPONSE,
+    everywhere: bool = False,
 ) -> str:
     """Relation, drawings, what of the models is `unknown` whatever is measured, what a measurement
-    (of `what`) shows, sentence, evidence, certainty, domain, inclusion.
+    (of `what`) shows (`everywhere`: at special values too), sentence, evidence, certainty, domain,
+    inclusion.
     """
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
@@ -34,9 +39,7 @@ def explained(
     heading = in_colour(verdict.relation.upper(), verdict.relation)
     lines = [heading, "", *drawings, ""]
     lines += [*unknown, *[""] * bool(unknown)]
-    if verdict.evidence:
-        lines += [shown(verdict, what), ""]
-    lines.append(verdict.sentence)
+    lines += [shown(verdict, what, everywhere), "", verdict.sentence]
     if verdict.evidence:
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]
     lines.append(f"domain     {verdict.domain} parameters{_over_complex(verdict)}")
@@ -143,7 +146,10 @@ def both_ways(
 
     unknown = set(limits) - {name for chain in chains for name in chain.parameters}
     if unknown:
-        raise InputError(f"no parameter of the two models is called {listed(sorted(unknown))}")
+        there = listed(dict.fromkeys(name for chain in chains for name in chain.parameters))
+        raise InputError(
+            f"no parameter of the two models is called {listed(sorted(unknown))}; there are {there}"
+        )
     sides = list(
         zip(
             (verdict.left, verdict.right),

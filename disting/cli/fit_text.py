@@ -16,11 +16,18 @@ from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.drawing import text_drawing
+from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
 from disting.report.fit.onward import commands, renamed
 from disting.report.fit.responses import fits_of
 from disting.report.fit.sentences import first_lines, learned, suspicions, which_mass
-from disting.report.fit.words import fit_in_words, percent, result_unit, with_error
+from disting.report.fit.words import (
+    cost_in_words,
+    fit_in_words,
+    percent,
+    result_unit,
+    with_error,
+)
 from disting.report.fit.words import name as name_of
 from disting.verdict.result import Relation
 
@@ -52,11 +59,14 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     )
     yield ""
     yield from _table((left or found.candidates)[:SHOWN])
+    cost = cost_in_words(found.task.cost)
+    yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
+    yield f"badly determined, the higher the worse: {columns(found.thresholds)}"
     yield ""
-    chain = found.described.chain
+    chain, explains = found.described.chain, found.explanation.explains
+    what = "selected" if explains else "the best one, which does not explain the data"
     yield (
-        f"{'selected' if found.selected else 'the best one'}: {name_of(chain)}  "
-        f" {text_drawing(chain)}"
+        f"{what if found.selected else 'the best one'}: {name_of(chain)}   {text_drawing(chain)}"
     )
     yield from [f"  {renamed(found)}"] if renamed(found) else []
     yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
@@ -67,7 +77,7 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from _excluded(found)
     yield from _set(found)
     yield from _relied_on(found)
-    if found.selected:
+    if found.selected and explains:
         yield ""
         yield from _alternatives(found)
     rest = [said for said in suspicions(found) if said not in first_lines(found)]
@@ -177,16 +187,21 @@ def _named(names: list[str]) -> str:
 
 
 def _table(candidates: Any) -> Iterator[str]:
-    yield f"{'J test':>9} {'J train':>9} {'N_p':>4} {'cond.':>6} {'PII':>7} {'coll.':>6}  structure"
+    jointly, weakest, alike = (said for said, _ in HEADS)
+    yield f"{'misfit J of lines':>19} {'':>10}   {'badly determined':>17}"
+    yield (
+        f"{'unseen':>9} {'fitted':>9} {'parameters':>10} {jointly:>8} {weakest:>8} {alike:>8}"
+        "  structure"
+    )
     for c in candidates:
         p = c.practical
         indices = (
-            f"{_index(p.condition_index):>6} {_index(p.importance_ratio):>7}"
-            f" {_index(p.collinearity):>6}"
+            f"{_index(p.condition_index):>8} {_index(p.importance_ratio):>8}"
+            f" {_index(p.collinearity):>8}"
         )
         mark = "" if c.admissible else "  (not all determined)"
         yield (
-            f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:4d} {indices}  {name_of(c.chain)}"
+            f"{c.j_test:9.4g} {c.j_train:9.4g} {c.n_parameters:10d} {indices}  {name_of(c.chain)}"
             f"{mark}"
         )
 

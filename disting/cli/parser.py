@@ -3,6 +3,7 @@ understand.
 """
 
 import argparse
+import re
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -105,7 +106,9 @@ class _Parser(argparse.ArgumentParser):
             own = [word for word in args or () if word.lower().endswith(".json")]
             if own and not meant:  # names of models after the file that holds them
                 meant = [f"; a model of a file is written {own[0]}:NAME"]
-            self.error(f"unrecognized arguments: {' '.join(rest)}{''.join(meant)}")
+            self.error(
+                f"unrecognized arguments: {' '.join(rest)}{''.join(meant) or '; leave them away'}"
+            )
         return found, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
@@ -119,8 +122,31 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""
-        complain(f"{_short(message).rstrip('.')} (see '{self.prog} --help')")
+        said = _short(self._plain(message)).rstrip(".")
+        complain(f"{said} (see '{self.prog} --help')")
         self.exit(2)
+
+    def _plain(self, message: str) -> str:
+        """What argparse says of a missing word or a wrong number, with what belongs there."""
+        if match := re.fullmatch(r"the following arguments are required: ([^,]+).*", message):
+            return f"{match[1]} is missing{self._meaning(match[1])}"
+        if match := re.fullmatch(r"argument (.+): expected one argument", message):
+            return f"{match[1]} needs a value{self._meaning(match[1])}"
+        wanted = {"float": "a number", "int": "a whole number"}
+        match = re.fullmatch(r"(.+): invalid (float|int) value: (.+)", message)
+        return f"{match[1]}: {wanted[match[2]]} is needed, not {match[3]}" if match else message
+
+    def _meaning(self, name: str) -> str:
+        """The first words of the help of an argument, after what stands for its value."""
+        for action in self._actions:
+            if action.choices and action.metavar == name:
+                return f": one of {', '.join(action.choices)}"
+            names = (action.metavar, action.dest, "/".join(action.option_strings))
+            if name in names and action.help:
+                value = f": {action.metavar}" * bool(action.option_strings and action.metavar)
+                said = re.split(r"; | \(", action.help)[0]
+                return f"{value}: {said}"
+        return ""
 
 
 class _HelpAll(argparse.Action):

@@ -139,6 +139,8 @@ def _effort(
     if options.lines is not None and options.lines < FEWEST:
         raise InputError(f"at least {FEWEST} lines are needed, not {options.lines}")
     number = _number(options.noise)
+    if (options.noise or "").endswith("%"):
+        raise InputError("noise is written as a share: --noise 0.02 for 2 %")
     if options.noise is not None and number is None:
         return _measured(options, model, values)
     if number is None and named is None:

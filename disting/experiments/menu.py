@@ -76,7 +76,8 @@ class Costs:
             raise InputError(f"costs are those of {', '.join(PRICES)}, not of {shown(unknown[0])}")
         wrong = [name for name, cost in self.of.items() if not (isfinite(cost) and cost > 0)]
         if wrong:
-            raise InputError(f"the cost of {wrong[0]} is a positive number")
+            cost = shown(self.of[wrong[0]])
+            raise InputError(f"the cost of {wrong[0]} is a positive number, not {cost}")
         object.__setattr__(self, "of", COSTS | dict(self.of))
 
     @staticmethod

@@ -102,7 +102,7 @@ def ways(left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()) 
 
 
 def moved(experiment: Experiment, places: Places) -> Experiment:
-    """The experiment at the places of the right chain."""
+    """The experiment at the places of the right chain; raises KeyError for a mass without one."""
     return experiment.moved(dict(places).__getitem__)
 
 

@@ -57,7 +57,8 @@ class LocalIdentifiability:
 
 
 def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> LocalIdentifiability:
-    """Local identifiability of each parameter from the transfer functions.
+    """Local identifiability of each parameter from the transfer functions. Raises InputError for
+    what is no model.
 
     >>> from disting.general.model import Model
     >>> m = Model.from_transfer_function(["k"], ["a*b", "c"])

@@ -111,13 +111,18 @@ class SpecialValues:
     right: tuple[Special, ...] | None
 
     @property
+    def is_same(self) -> bool:
+        """Whether each is known to give all that the other one gives."""
+        return bool(self.left_in_right and self.right_in_left)
+
+    @property
     def is_known(self) -> bool:
         """Whether one of them is known to give all that the other one gives."""
         return bool(self.left_in_right or self.right_in_left)
 
     def sentence(self, left: str, right: str) -> str:
         """Both in words; "" where neither is known to give all that the other one gives."""
-        if self.left_in_right and self.right_in_left:
+        if self.is_same:
             return f"{left} and {right} give the same, for all positive values (proven)."
         if not self.is_known:
             return ""

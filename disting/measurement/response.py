@@ -194,7 +194,13 @@ class FrequencyResponse(Shown):
         """The lines from `low` to `high` [Hz], both included; raises InputError where fewer
         than 8 remain.
         """
-        return self.subset((self.frequency >= low) & (self.frequency <= high))
+        inside = (self.frequency >= low) & (self.frequency <= high)
+        if (count := int(inside.sum())) < checks.FEWEST:
+            raise InputError(
+                f"{count} of {len(self)} lines, which go from {self.frequency[0]:g} to"
+                f" {self.frequency[-1]:g} Hz, lie in the band; {checks.FEWEST} are needed: widen it"
+            )
+        return self.subset(inside)
 
     def thinned(self, count: int) -> "FrequencyResponse":
         """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale;

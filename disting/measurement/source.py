@@ -32,7 +32,7 @@ def source(path: str | Path) -> Source:
     if file.is_dir():
         raise InputError(f"{file} is a folder; name a file with measured data")
     if not file.exists():
-        raise InputError(f"there is no file {file}")
+        raise InputError(f"there is no file {file}; check its name and folder")
     return Source(file.name, read_bounded(file, WANTED, LARGEST))
 
 

@@ -126,7 +126,8 @@ def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
     best = max(DIALECTS, key=readable, default=DIALECTS[0])
     if not lines or not readable(best):
         raise InputError(
-            f"{origin} holds no columns of numbers separated by comma, semicolon, tab or blanks"
+            f"{origin} holds no columns of numbers separated by comma, semicolon, tab or blanks:"
+            " save the measurement as CSV"
         )
     return best
 

@@ -12,7 +12,7 @@ from enum import StrEnum
 from functools import lru_cache
 from typing import Any
 
-from disting.errors import ConstraintViolation, InputError, shown
+from disting.errors import ConstraintViolation, InputError, listed, shown
 from disting.model.constraints import Indices, violated
 from disting.model.presentation import Drawn
 from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
@@ -111,7 +111,7 @@ class Chain(Drawn):
         if self.n_masses < 1:
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
         for broken in violated(self.indices, (36, 37)):
-            raise ConstraintViolation(_refusal(self.indices, broken.equation, broken.text))
+            raise ConstraintViolation(broken.refusal(self.indices))
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
 
@@ -236,13 +236,6 @@ def as_sensor(value: Sensor | str) -> Sensor:
 def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:
     chosen = tuple(sorted(set(masses)))
     if chosen and not 1 <= chosen[0] <= chosen[-1] <= n_masses:
-        raise InputError(f"ground dampers sit at masses 1 to {n_masses}, not at {chosen}")
+        wrong = listed(str(i) for i in chosen if not 1 <= i <= n_masses)
+        raise InputError(f"ground dampers sit at masses 1 to {n_masses}, not at {wrong}")
     return chosen
-
-
-def _refusal(i: Indices, equation: int, text: str) -> str:
-    given = f"N_B={i.n_masses}, n_gap={i.gap}, n_act-={i.act_minus}, n_act+={i.act_plus}"
-    return (
-        f"constraint ({equation}) {text} is violated by {given}, n_meas-={i.meas_minus},"
-        f" n_meas+={i.meas_plus}"
-    )

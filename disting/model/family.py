@@ -129,7 +129,8 @@ class Family(Shown):
     def __getitem__(self, number: int) -> Chain:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= len(self):
             raise InputError(
-                f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {shown(number)}"
+                f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {shown(number)};"
+                f" 'disting models {self.n_masses}' lists them"
             )
         return self._model(number - 1)
 

@@ -97,7 +97,8 @@ def chain_svg(chain: Chain) -> str:
 
 
 def chain_png(chain: Chain, *, scale: float = 3) -> bytes:
-    """PNG of a chain, `scale` pixels a unit.
+    """PNG of a chain, `scale` pixels a unit. Raises InputError for a scale that is no positive
+    number.
 
     >>> chain_png(Chain(2))[1:4]
     b'PNG'

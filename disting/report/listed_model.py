@@ -97,7 +97,7 @@ def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
     low, high = sorted((number, other))
     named = replace(verdict, left=shown.label(low), right=shown.label(high))
     both = [shown.found.family[n - 1] for n in (low, high)]
-    said = shows(named, measured(both)) or "Nothing here settles them over positive parameters."
+    said = shows(named, measured(both))
     names = shown.cards[number - 1].model.name, shown.cards[other - 1].model.name
     command = ""
     if shown.numbered:

@@ -30,7 +30,8 @@ def network_svg(network: Network) -> str:
 
 
 def network_png(network: Network, *, scale: float = 3) -> bytes:
-    """PNG of a network, `scale` pixels a unit.
+    """PNG of a network, `scale` pixels a unit. Raises InputError for a scale that is no positive
+    number.
 
     >>> from disting import network_of
     >>> network_png(network_of("1=2=3, 2=4; F1; S4"))[1:4]

@@ -6,9 +6,11 @@ only.
 
 from functools import cache
 from io import BytesIO
+from math import inf
 
 from PIL import Image, ImageDraw, ImageFont
 
+from disting.errors import InputError, shown
 from disting.report.scene import (
     FILE_PALETTE,
     Anchor,
@@ -34,8 +36,11 @@ def png(
     colours: int = 0,
 ) -> bytes:
     """PNG bytes, `scale` pixels a unit, on a ground of the palette's paper colour; `colours`: at
-    most so many, a file of a third of the size, 0 as many as there are.
+    most so many, a file of a third of the size, 0 as many as there are. Raises InputError for a
+    scale that is no positive number.
     """
+    if not 0 < scale < inf:
+        raise InputError(f"the scale of a picture is a positive number, not {shown(scale)}")
     width, height = (max(1, round(side * scale)) for side in (scene.width, scene.height))
     canvas = Image.new("RGB", (width * oversample, height * oversample), palette[Ink.PAPER])
     pen = ImageDraw.Draw(canvas)

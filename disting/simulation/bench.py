@@ -187,7 +187,8 @@ def demo(seed: int = 0) -> TimeSeries:
 
     Inertias per torque constant 0.0045 and 0.005 A s^2/rad, antiresonance 53 Hz, resonance 77 Hz,
     dead time 0.3 ms; excited by a Schroeder multisine of 1 A (rms) from 10 to 250 Hz.
-    `demo().response("acceleration")` is what a fit begins with.
+    `demo().response("acceleration")` is what a fit begins with. Raises InputError for a seed below
+    0.
 
     >>> demo().input.unit, demo().output.unit
     ('A', 'rad')

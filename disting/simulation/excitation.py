@@ -53,7 +53,11 @@ class Excitation:
 
     def __post_init__(self) -> None:
         if not 0 < self.low < self.high < np.inf or not 0 < self.rms < np.inf or self.every < 1:
-            raise InputError("an excitation has 0 < low < high [Hz], a positive rms and every >= 1")
+            raise InputError(
+                f"an excitation has 0 < low < high [Hz], a positive rms and every >= 1, not"
+                f" low = {shown(self.low)}, high = {shown(self.high)}, rms = {shown(self.rms)},"
+                f" every = {shown(self.every)}"
+            )
         try:
             object.__setattr__(self, "kind", Kind(self.kind))
         except ValueError:

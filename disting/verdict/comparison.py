@@ -53,7 +53,7 @@ def compare(
 
     `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
     representation and raises ContradictionError where two decide differently; `engine` brings
-    settings and a store (default: none).
+    settings and a store (default: none). Raises InputError for what names no model.
 
     `experiments`: all ways in which both machines are measured, with one parameter vector for all;
     `Experiment()` is that of the chains as they are. A pair of experiments names the places of the

@@ -5,11 +5,13 @@ here is all that is measured, from the force to the sensor or from the inputs to
 parameters are generic, finite and not zero.
 """
 
+from disting.conditions.rule import EXACT
 from disting.conditions.side import COUNTED, HALVES
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.decision import DeadTime
 from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion
+from disting.verdict.cascade import open_note
 from disting.verdict.result import Relation, Verdict
 
 RESPONSE = "response"  # what is measured where nothing else is said
@@ -24,9 +26,10 @@ PARTS = {
 }  # of a machine, and of any other model
 
 
-def shown(verdict: Verdict, what: str = RESPONSE) -> str:
-    """What a measurement of either model shows; "" where nothing is decided. `what` is measured: a
-    response, of circuits an impedance.
+def shown(verdict: Verdict, what: str = RESPONSE, everywhere: bool = False) -> str:
+    """What a measurement of either model shows, or, where nothing is decided, why and what helps.
+    `what` is measured: a response, of circuits an impedance. `everywhere`: special values, of which
+    the verdict does not speak, are known to be no exception.
 
     Of unequal ranks (conditions 4 and 5): the behaviours of the model of smaller rank lie in a
     variety of smaller dimension, so a generic behaviour of the other one is not there; the number
@@ -34,7 +37,7 @@ def shown(verdict: Verdict, what: str = RESPONSE) -> str:
     """
     left, right, machines = verdict.left, verdict.right, all(verdict.premises)
     if verdict.relation is Relation.INDISTINGUISHABLE:
-        return _the_same(verdict, what)
+        return _the_same(verdict, what, everywhere)
     if verdict.relation is Relation.SOMETIMES:
         return (
             f"It depends on the values: some {what}s fit both {left} and {right}, others only one"
@@ -54,7 +57,7 @@ def shown(verdict: Verdict, what: str = RESPONSE) -> str:
             delayed = left if given else right
             return f"Towards high frequencies the phase of {delayed} falls without an end."
         case None:
-            return ""
+            return _not_known(verdict, what)
         case _:
             said = f"One of {left} and {right} has {what}s that the other never has"
             # one that is a limit of the other comes as close as one likes
@@ -92,13 +95,34 @@ def undetermined(name: str, rank: int, parameters: int) -> str:
     )
 
 
-def _the_same(verdict: Verdict, what: str) -> str:
+def _the_same(verdict: Verdict, what: str, everywhere: bool) -> str:
     left, right = verdict.left, verdict.right
     over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"
-    aside = ", special values aside" * verdict.has_exceptions
+    aside = ", special values aside" * (verdict.has_exceptions and not everywhere)
     return (
         f"For every {left} there is a {right}{over} with exactly the same {what}, and vice"
         f" versa{aside}. What is measured here does not tell them apart."
+    )
+
+
+def _not_known(verdict: Verdict, what: str) -> str:
+    """What an undecided verdict leaves to who measures, and what may decide after all."""
+    said = f"Not known: a measurement may or may not tell {verdict.left} and {verdict.right} apart."
+    if verdict.notes[:1] and verdict.notes[0].startswith(open_note("")):
+        return (
+            f"{said} Some values, perhaps negative ones, give both the same {what}; whether"
+            f" {verdict.domain} ones do is open. What helps: the values of your own machine;"
+            " 'disting equivalents' with --set lists what else does the same with positive values."
+        )
+    if any(note.startswith(EXACT.in_words()) for note in verdict.notes):
+        return (
+            f"{said} They are too large for the exact decision, or it would take too long. What"
+            " helps: ask smaller ones of the same kind (fewer elements; of machines also without"
+            " dampers), and take the answer as theirs alone."
+        )
+    return (
+        f"{said} What was asked does not decide it. What helps: let everything decide, without"
+        " --conditions and --representation, where they were given."
     )
 
 

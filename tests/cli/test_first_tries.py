@@ -33,7 +33,7 @@ def test_what_is_no_band(text, capsys):
         main(["fit", "--demo", "--band", text])
     told = capsys.readouterr().err
     assert (
-        "expected one argument" if text[0] == "-" else "a range is written like 11..250"
+        "--band needs a value: LOW..HIGH" if text[0] == "-" else "a range is written like 11..250"
     ) in told
 
 
@@ -46,6 +46,8 @@ def test_a_fit_in_which_nothing_explains_ends_with_status_1(tmp_path):
     done = called("fit", path, "--masses", "1")
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert "explains" in done.stdout or "noise" in done.stdout
+    assert "the best one, which does not explain the data: 1 mass" in done.stdout
+    assert "selected" not in done.stdout and "\nnext:" not in done.stdout
     assert called("fit", path, "--models", "p(R1,C1)", "--quantity", "position").returncode == 1
 
 

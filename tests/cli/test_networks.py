@@ -196,3 +196,16 @@ def test_damaged_files_are_refused(fit_file, tmp_path, change, words):
 def test_bad_input(command, words):
     done = called(*shlex.split(command))
     assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_special_values_are_left_aside_only_where_they_are() -> None:
+    """In the sentence for who measures: two arcs in series and their parallel form give the same for
+    all positive values, a branched machine gives more than the row.
+    """
+    for models, aside in (
+        (("R0-p(R1,C1)", "p(R0,R1-C1)"), False),
+        (("1~2~3, 2~4; F1; S1", "1~2~3~4; F1; S1"), True),
+    ):
+        said = called("compare", *models).stdout
+        (first,) = (line for line in said.splitlines() if line.startswith("For every "))
+        assert ("special values aside" in first) == aside and "special    " in said

@@ -22,7 +22,34 @@ MEANT = [
     (("catalog", "build", "3", "--ouz", "x"), "did you mean --out?", "disting catalog build"),
     (("cache", "info", "x"), "unrecognized arguments: x", "disting cache info"),
     (("models", "3", "--range"), "unrecognized arguments: --range", "disting models"),
-    (("compare", "3:1"), "required: M:J", "disting compare"),
+    (("compare", "3:1"), "M:J is missing: the other model", "disting compare"),
+]
+WITH_A_REMEDY = [
+    (("catalog",), "ACTION is missing: one of build, "),
+    (("compare",), "N:I is missing: a model: masses:number, as 'disting models' lists it"),
+    (("draw", "3:1", "--svg"), "--svg needs a value: FILE: write the drawing as SVG"),
+    (
+        ("plan", "2:1", "2:2", "--noise"),
+        "--noise needs a value: X|FRF.csv: relative noise of a line",
+    ),
+    (("fit", "x.csv", "--torque-constant", "zero"), "a number is needed, not 'zero'"),
+    (("simulate", "--samples", "many"), "a whole number is needed, not 'many'"),
+    (("fit", "x.csv", "--bound", "k12=5..1"), "the lower end first, not '5..1'"),
+    (("fit", "missing.csv"), "there is no file missing.csv; check its name and folder"),
+    (
+        ("fit", "good.csv", "--band", "200-300"),
+        "0 of 60 lines, which go from 1 to 60 Hz, lie in the band",
+    ),
+    (
+        ("fit", "good.csv", "--masses", "2", "--sensor", "3"),
+        "the sensor is at a mass from 1 to 2, not 3",
+    ),
+    (("compare", "3:1", "3:99"), "'disting models 3' lists them"),
+    (("compare", "3:1+b7", "3:2"), "sit at masses 1 to 3, not at 7"),
+    (("compare", "3:1", "3:2", "--bound", "k9=0..1"), "k9; there are m1, m2, m3, k12, k23"),
+    (("plan", "1:1", "1:1+b1", "--set", "m1=1", "--noise", "2%"), "--noise 0.02 for 2 %"),
+    (("simulate", "1:1", "--set", "m1=1", "--low", "900"), "not low = 900.0, high = 250.0"),
+    (("next", "3:1", "--cost", "sensor=-1"), "is a positive number, not -1"),
 ]
 MOVED = [
     (("compare", "3:1", "3:4", "--sensor", "velocity"), "is --quantity"),
@@ -41,6 +68,18 @@ def test_what_was_meant_is_named_with_the_help_of_the_command(
     done = called(*words)
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
     assert says in done.stderr and done.stderr.endswith(f"(see '{command} --help')\n")
+
+
+@pytest.mark.parametrize(("words", "says"), WITH_A_REMEDY)
+def test_a_mistake_is_answered_with_cause_and_remedy(
+    words: tuple[str, ...], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    lines = [f"{f},1,0" for f in range(1, 61)]
+    Path("good.csv").write_text("\n".join(["f [Hz],re [rad/s^2],im [rad/s^2]", *lines]))
+    done = called(*words)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert says in done.stderr.splitlines()[-1] and "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize(("words", "says"), MOVED)

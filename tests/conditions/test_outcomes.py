@@ -195,12 +195,14 @@ def test_condition_5_is_asked_after_3_and_4_only(other):
 
 def test_condition_5_is_abandoned_where_a_matroid_is_too_large():
     full, limited = handmade(GENERAL), handmade(GENERAL, limit=3)
-    assert limited.matroid == Unsearched("more than 3 subsets: 4 rows of rank 3")
+    assert limited.matroid == Unsearched(
+        "more than 3 sets of coefficients to look at: 4 rows of rank 3"
+    )
     for pair in ((full, limited), (limited, full), (limited, limited)):
         finding = condition_5(*pair)
         assert (finding.outcome, finding.note) == (
             ABANDONED,
-            "more than 3 subsets: 4 rows of rank 3",
+            "more than 3 sets of coefficients to look at: 4 rows of rank 3",
         )
 
 
@@ -227,7 +229,10 @@ def test_a_small_limit_leaves_pairs_undecided_and_never_decides_wrongly(limit, l
         assert found.relation in (truth, Relation.UNDECIDED)
         if found.relation is not truth:
             undecided += 1
-            assert any(f"was abandoned: more than {limit} subsets" in note for note in found.notes)
+            assert any(
+                f"was abandoned: more than {limit} sets of coefficients" in note
+                for note in found.notes
+            )
     assert undecided == lost
 
 

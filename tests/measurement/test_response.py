@@ -115,7 +115,7 @@ def test_lines_are_chosen_by_band_number_or_truth():
         band.deviation, band.omega
     )
     assert response.subset(OMEGA > 50) == response.subset(np.arange(5, 20))
-    with pytest.raises(InputError, match="too few"):
+    with pytest.raises(InputError, match="lie in the band; 8 are needed"):
         response.masked(low=1e3)
     for wrong in ([20, *range(8)], [0.5] * 9, np.ones(19, dtype=bool)):
         with pytest.raises(InputError):

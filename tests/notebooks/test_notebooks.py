@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[2]
 NOTEBOOKS = sorted((ROOT / "reports" / "notebooks").glob("*.ipynb"))
 NAMES = [
     "belt-axis", "bench-commissioned", "impedance-spectra", "own-models", "structure-and-behaviour",
+    "two-responses",
 ]  # fmt: skip
 LARGEST = 300_000  # bytes
 PATHS = re.compile(r"/(?:home|root|tmp|Users|usr|opt|var|work)/|[A-Z]:\\\\")

@@ -279,6 +279,10 @@ def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> Non
         "encoder": "Two encoders",
     }
     assert {word: found(tab, word)[0] for word in first} == first
+    for word in ("friction", "noise", "sensor", "unit"):  # names of the reference too
+        assert not [p for p in where(tab, word)[:4] if p.startswith(("Python: ", "All commands"))]
+    assert "disting plan" in found(tab, "plan")[:3]
+    assert where(tab, "Friction")[0] == "Python: disting.simulation"
     assert "When not to use it" in where(tab, "backlash") and "Read measured data" in where(
         tab, "frequency response"
     )

@@ -8,7 +8,7 @@ from functools import cache
 import pytest
 import sympy
 
-from disting import Family, View, catalog, compare, transfer_function
+from disting import Family, Query, View, catalog, compare, transfer_function
 from disting.evidence.conditions import Counts, Ranks
 from disting.experiments import Experiment
 from disting.model.names import chain_of
@@ -47,16 +47,14 @@ def test_the_steeper_curve_is_steeper(n, damped):
 
 
 @pytest.mark.parametrize(("n", "damped"), SIZES)
-def test_every_decided_pair_has_a_sentence_that_names_both(n, damped):
+def test_every_pair_has_a_sentence_that_names_both(n, damped):
     for view in View:
         for _, _, verdict in catalog(n, damped=damped).pairs(view):
             said = shown(verdict)
-            if verdict.relation is Relation.UNDECIDED:
-                assert said == ""
-            else:
-                assert said.endswith(".") and {verdict.left, verdict.right} <= set(
-                    re.findall(r"\d+:\d+", said)
-                )
+            assert said.endswith(".") and {verdict.left, verdict.right} <= set(
+                re.findall(r"\d+:\d+", said)
+            )
+            assert said.startswith("Not known: ") == (verdict.relation is Relation.UNDECIDED)
 
 
 def test_the_model_of_smaller_rank_satisfies_more_equations():
@@ -120,3 +118,20 @@ def test_a_sensor_that_stands_still():
     verdict = compare(chain, chain, experiments=[(Experiment(locked=1), Experiment(locked=2))])
     assert verdict.relation is Relation.DISTINGUISHABLE
     assert re.search(r"sensor of .+ locked never moves, that of .+ locked does", shown(verdict))
+
+
+OPEN = [
+    (("3:1", "3:11"), {"query": Query(View.COMBINED)}, "without --conditions"),
+    (("1=2=3=4=5, 3=6; F1; S1", "1=2=3=4=5, 2=6; F1; S1"), {}, "ask smaller ones of the same kind"),
+    (("#~1, #~2, 1~2; F1; S2", "#~1, 1~2; F1; S2"), {}, "'disting equivalents' with --set"),
+]
+
+
+@pytest.mark.parametrize(("models", "asked", "remedy"), OPEN)
+def test_what_is_not_known_says_why_and_what_helps(models, asked, remedy):
+    """Conditions that are silent, models that are too large, positive values alone that are open."""
+    verdict = compare(*models, **asked)
+    assert verdict.relation is Relation.UNDECIDED
+    said = shown(verdict)
+    assert said.startswith("Not known: ") and all(name in said for name in models)
+    assert remedy in said and sum(words in said for _, _, words in OPEN) == 1

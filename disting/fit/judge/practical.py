@@ -32,28 +32,34 @@ class Seen(Protocol):
 
 
 def importance(columns: Real) -> Real:
-    """delta_j^msqr = |S_j Delta p_j| of (16), shape (n_p,); Brun et al. 2001.
+    """delta_j^msqr = |S_j Delta p_j| of (16), shape (n_p,); Brun et al. 2001. Raises InputError
+    for what is no finite matrix.
 
     >>> importance(np.array([[3.0, 0.0], [4.0, 1.0]])).tolist()
     [5.0, 1.0]
     """
-    return np.asarray(np.linalg.norm(columns, axis=0))
+    return np.asarray(np.linalg.norm(_finite(columns), axis=0))
 
 
 def unit_columns(columns: Real) -> Real:
     """S-tilde: columns of unit length; columns of zeros stay. Raises InputError for what is no
     finite matrix.
     """
-    matrix = np.asarray(columns, dtype=float)
-    if matrix.ndim != 2 or not matrix.size or not np.all(np.isfinite(matrix)):
-        raise InputError("a sensitivity matrix has rows and columns of finite numbers")
+    matrix = _finite(columns)
     length = np.linalg.norm(matrix, axis=0)
     return np.asarray(matrix / np.where(length > 0, length, 1.0))
 
 
+def _finite(columns: Real) -> Real:
+    matrix = np.asarray(columns, dtype=float)
+    if matrix.ndim != 2 or not matrix.size or not np.all(np.isfinite(matrix)):
+        raise InputError("a sensitivity matrix has rows and columns of finite numbers")
+    return matrix
+
+
 def collinearity_index(columns: Real) -> float:
     """gamma = 1 / smallest singular value of S-tilde (17); infinite for dependent columns;
-    critical above 5 to 20.
+    critical above 5 to 20. Raises InputError for what is no finite matrix.
 
     >>> collinearity_index(np.array([[1.0, 1.0], [0.0, 1.0]])).__round__(6)
     1.847759
@@ -64,7 +70,7 @@ def collinearity_index(columns: Real) -> float:
 
 def condition_indices(columns: Real) -> Real:
     """mu_max / mu_k of S-tilde (18), rising, shape (n_p,); Belsley 1991; critical above 10 to
-    30.
+    30. Raises InputError for what is no finite matrix.
 
     >>> condition_indices(np.eye(2)).tolist()
     [1.0, 1.0]
@@ -88,6 +94,11 @@ def collinearity_by_subset(columns: Real) -> Iterator[tuple[tuple[int, ...], flo
     for size in range(2, n + 1):
         for chosen in combinations(range(n), size):
             yield chosen, collinearity_index(matrix[:, chosen])
+
+
+CONDITION = "badly determined together: {} (condition index {})"
+IMPORTANCE = "with little effect: {} (PII ratio {})"
+COLLINEARITY = "made up for by each other: {} (collinearity index {})"
 
 
 @dataclass(frozen=True)
@@ -137,7 +148,7 @@ def practical(columns: Real, names: Sequence[str], noise: Seen) -> Practical:
     (n_y, n_p), of free parameters.
 
     Where all are fixed nothing depends on the data, so that nothing is undetermined: every index
-    is 1.
+    is 1. Raises InputError for what is no finite matrix.
     """
     if not names:
         return Practical(
@@ -225,9 +236,9 @@ class Thresholds:
         least = max(found.importance.values(), default=0.0) / self.importance_ratio
         weak = ", ".join(name for name, value in found.importance.items() if not value >= least)
         rows = [
-            ("condition index", found.condition_index, self.condition_index, along),
-            ("PII ratio", found.importance_ratio, self.importance_ratio, weak),
-            ("collinearity index", found.collinearity, self.collinearity, along),
+            (CONDITION, found.condition_index, self.condition_index, along),
+            (IMPORTANCE, found.importance_ratio, self.importance_ratio, weak),
+            (COLLINEARITY, found.collinearity, self.collinearity, along),
         ]
         unknown = dict.fromkeys(who for _, value, limit, who in rows if value == inf > limit)
         infinite = [
@@ -236,7 +247,7 @@ class Thresholds:
             if not (found.unidentifiable and who == along)
         ]
         finite = [
-            f"{what} {v:.3g} exceeds {limit:g} ({who})"
+            what.format(who, f"{v:.3g} exceeds {limit:g}")
             for what, v, limit, who in rows
             if v != inf and not v <= limit
         ]

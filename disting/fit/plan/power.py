@@ -166,7 +166,9 @@ def plan(
     progress: Progress = silent,
 ) -> Plan:
     """Power of data of `model` with these parameters against `rival`, at angular frequencies
-    [rad/s] whose lines scatter by `rho`, shape (n_f,) each. Raises InputError.
+    [rad/s] whose lines scatter by `rho`, shape (n_f,) each. Raises InputError for missing,
+    unknown or negative values (not asked for where both behave the same), and for a chain beside a
+    network.
     """
     engine = engine or Engine()
     rival = shown_as(rival, sensor_of(model))

@@ -22,6 +22,7 @@ from disting.fit.search.starts import Scale, natural, scale, stacked
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Sensor
 from disting.network.network import Network
+from disting.simulation.mechanics import checked
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
@@ -72,9 +73,12 @@ def plant_of(structure: AnyStructure, omega: Real) -> AnyPlant:
 
 
 def response_of(structure: AnyStructure, values: Mapping[str, float], omega: Real) -> Complex:
-    """G(j omega), shape (n_f,), of a structure at its values."""
+    """G(j omega), shape (n_f,), of a structure at its values; raises InputError for missing,
+    unknown or negative ones.
+    """
     plant = plant_of(structure, omega)
-    return plant.response(np.array([values[name] for name in plant.parameters]))
+    given = checked(structure, values)
+    return plant.response(np.array([given[name] for name in plant.parameters]))
 
 
 def search(

@@ -55,8 +55,8 @@ def identifiability(
     the same behaviour.
 
     It is the same for all chains of one canonical form, up to names. A chain can be named, such as
-    "3:1+b2": `damped` and `sensor` say then how it is meant. Raises ContradictionError for
-    a defect of the program.
+    "3:1+b2": `damped` and `sensor` say then how it is meant. Raises InputError for a text that
+    names no chain, ContradictionError for a defect of the program.
 
     >>> identifiability(Chain(2, meas_plus=2, damped=False)).sentence
     '3 parameters, only 2 determinable: m1 + m2, k12/(m1*m2).'

@@ -122,7 +122,7 @@ def encoded(answer: ParameterIdentifiability) -> str:
 
 
 def decoded(text: str) -> ParameterIdentifiability:
-    """Inverse of `encoded`."""
+    """Inverse of `encoded`; raises KeyError, TypeError or ValueError for what is none."""
     return ParameterIdentifiability.from_dict(json.loads(text))
 
 

@@ -20,6 +20,22 @@ MEANINGS = {
         "how far the other parameters can compensate a change of one: 1 not at all, 20 to 95 %"
     ),
 }
+HEADS = (("jointly", "condition index"), ("weakest", "PII ratio"), ("alike", "collinearity"))
+"""The criteria as columns of a table, as `columns` explains them, and their terms."""
+
+
+def columns(thresholds: Thresholds) -> str:
+    """What the columns of `HEADS` say, in one sentence.
+
+    >>> print(columns(Thresholds()).partition(";")[0])
+    jointly, some combination of parameters (condition index, critical above 30)
+    """
+    return (
+        "jointly, some combination of parameters (condition index, critical above"
+        f" {thresholds.condition_index:g}); weakest, the parameter of the smallest effect, beside"
+        f" that of the largest (PII ratio, {thresholds.importance_ratio:g}); alike, one that others"
+        f" make up for (collinearity index, {thresholds.collinearity:g})"
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -113,7 +113,11 @@ def renamed(found: Selection) -> str:
 
 
 def commands(found: Selection) -> tuple[str, ...]:
-    """Ready command lines for the next steps."""
+    """Ready command lines for the next steps; none from a structure that does not explain the data,
+    whose values mean nothing.
+    """
+    if not found.explanation.explains:
+        return ()
     first = found.described
     rest = [m.name for m in found.members[1:]]
     damped = damping_option(first.chain.damped)

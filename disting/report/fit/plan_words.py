@@ -265,8 +265,8 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f"test            {found.surplus} degree{plural} of freedom{larger}, level {percent(LEVEL)}"
     )
     yield (
-        f"noncentrality   {readable(found.noncentrality)}; power {percent(POWER)} needs"
-        f" {readable(found.needed)}"
+        f"noncentrality   {readable(found.noncentrality)} squared units of noise between both"
+        f" (lambda); power {percent(POWER)} needs {readable(found.needed)}"
     )
     yield f"power           {chance(found.power)}"
     lines = max(FEWEST, ceil(found.factor * len(hertz)))

@@ -16,7 +16,7 @@ from disting.measurement import FrequencyResponse
 from disting.report.environment import render
 from disting.report.fit.answer import answer
 from disting.report.fit.convergence import hits, hits_in_words
-from disting.report.fit.criteria import limits, nearest, weakest
+from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
 from disting.report.fit.not_excluded import shown_set
 from disting.report.fit.onward import Site, next_steps
 from disting.report.fit.responses import drawing, seen_together, shown_responses
@@ -85,6 +85,8 @@ def fit_page(
         responses=shown,
         figures=figures[sum(len(one.panels) for one in shown) :],
         limits=limits(candidate, selection.thresholds),
+        heads=HEADS,
+        columns=columns(selection.thresholds),
         limits_of=lambda c: limits(c, selection.thresholds),
         weakest=weakest(candidate),
         nearest=nearest(selection)[:NEAREST],

@@ -34,6 +34,11 @@ from disting.verdict.further_words import AnyFurther, anywhere, conclusion
 from disting.verdict.meaning import shown as measured
 from disting.verdict.result import Relation, Verdict
 
+COLUMNS = (
+    "misfit: J, of data that a fit has not seen; badly known: condition index, critical above 30;"
+    " weight: how likely it is beside the others (Akaike)."
+)
+
 
 @singledispatch
 def table_of(shown: Any) -> str:
@@ -54,8 +59,7 @@ def _verdict(shown: Verdict) -> str:
         (f"positive {shown.right}", _share(shown.right_positive, shown.left)),
         ("given up", "; ".join(shown.notes)),
     ]
-    seen = measured(shown)
-    return block(line(shown.sentence, bold=True), line(seen) if seen else "", facts(rows))
+    return block(line(shown.sentence, bold=True), line(measured(shown)), facts(rows))
 
 
 def _inclusion(shown: Verdict, found: Inclusion) -> str:
@@ -170,10 +174,10 @@ def _selection(shown: Selection) -> str:
     head = [
         "candidate",
         "",
-        "N_p",
-        "J test",
+        "parameters",
+        "misfit",
         "χ² per line",
-        "condition index",
+        "badly known",
         "weight",
         "excluded",
     ]
@@ -185,6 +189,7 @@ def _selection(shown: Selection) -> str:
         line(_explained(shown)),
         table(head, rows),
         more(len(shown.candidates), "candidates", "selection.candidates has them all."),
+        line(COLUMNS),
         *map(line, _members(shown)),
     )
 

@@ -21,7 +21,8 @@
     });
   };
   // how well an entry answers: its title before its words, a beginning before a middle, a short title before a long one, the guide before the reference
-  const REFERENCE = /^guide\/(?:python-|commands)/, BEHIND = 95;
+  const REFERENCE = /^guide\/(?:python-|commands|development)/, BEHIND = 95;
+  const NAME = /[A-Z_.]|--|disting/, FIRST = 5; // friction is a word, of which the guide tells first; Friction is a name
   const weight = (entry, query, words) => {
     if (!words.every((word) => entry.text.includes(word))) return 0;
     const title = entry.low;
@@ -33,7 +34,8 @@
     const query = text.trim().toLowerCase(), words = query.split(/\s+/).filter(Boolean);
     if (!words.length) return [];
     const ranked = entries.map((entry) => [weight(entry, query, words), entry]).filter(([w]) => w).sort((a, b) => b[0] - a[0]);
-    return [...models(query), ...ranked.map(([, entry]) => entry)].slice(0, MOST);
+    const every = ranked.map(([, entry]) => entry), first = NAME.test(text) ? [] : every.filter((entry) => entry.low === `disting ${query}` || !REFERENCE.test(entry.address)).slice(0, FIRST);
+    return [...new Set([...models(query), ...first, ...every])].slice(0, MOST);
   };
   const excerpt = (entry, query) => {
     const at = Math.max(0, entry.words.toLowerCase().indexOf(query.trim().toLowerCase().split(/\s+/)[0]) - AROUND / 2);

@@ -55,7 +55,7 @@ def test_columns_sort_both_ways_infinite_numbers_last(tab, selection: Selection)
         before = column(n)
         tab.get_by_role("button", name=head).click()
         assert column(n) == sorted(before)
-        assert tab.locator('th[aria-sort="ascending"]').inner_text().startswith(head)
+        assert tab.locator('th[aria-sort="ascending"]').inner_text().count(head) == 1
         tab.get_by_role("button", name=head).click()
         assert column(n) == sorted(before, reverse=True)
     tab.get_by_role("button", name="Rank").click()
