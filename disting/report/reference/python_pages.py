@@ -117,15 +117,15 @@ class Shown:
         return self.entry.text.split("\n\n")[0].replace("`", "")
 
 
-def python_pages() -> Iterator[GuidePage]:
+@cache
+def python_pages() -> tuple[GuidePage, ...]:
     """A page for every public module; a name that two of them hand on is explained in the first."""
     offered = {name: sorted(entries(name), key=lambda e: e.name.lower()) for name in MODULES}
     addresses: dict[Place, str] = {}
     for name, found in offered.items():
         for entry in found:
             addresses.setdefault(entry.place, f"{page_name(name)}.html#{entry.name}")
-    for name, found in offered.items():
-        yield _page(name, found, addresses)
+    return tuple(_page(name, found, addresses) for name, found in offered.items())
 
 
 def page_name(module: str) -> str:
