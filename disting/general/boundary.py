@@ -27,7 +27,7 @@ from disting.general.relations import coefficients, dimension_at_least, dimensio
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
 
-LOOKED_AT, TRIED = 200, 12  # sets of parameters: by their rank, and for formulas
+LOOKED_AT, TRIED = 200, 4  # sets of parameters: by their rank, and for formulas
 REMEMBERED = 512
 
 

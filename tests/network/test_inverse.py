@@ -1,17 +1,20 @@
 """A network at 1/s, by Kirchhoff's and Newton's laws; and verdicts that rest on it."""
 
-import json
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from disting import compare, verify
-from disting.evidence.general import AtInverse
+from disting import compare
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
+from disting.evidence.general import AtInverse, Replaced
+from disting.general.any_model import of_network
+from disting.general.forms import by_inverse, confirms_forms
 from disting.network.families import family_of
 from disting.network.inverse import at_inverse
 from disting.network.notation import network_of
-from disting.verdict.verdict_file import verdict_file
 from tests.oracles.plain_network import equations
 
 LEFT, RIGHT = "#~1, 1~2, 2~3; F2; S2:1", "#~1, 1~2, 2~3; F2:1; S3:1"
@@ -50,11 +53,18 @@ def test_without_a_counterpart_there_is_none(text):
     assert at_inverse(network_of(text)) is None
 
 
-def test_what_one_pair_leaves_open_the_other_one_decides():
-    found = compare(LEFT, RIGHT)
-    assert found.relation.value == "sometimes" and isinstance(found.evidence, AtInverse)
-    assert "With 1/s for s" in found.sentence
-    assert type(found).from_dict(json.loads(json.dumps(found.to_dict()))) == found
+def asked():
+    """Both models, and what the pair with 1/s for s says of them."""
+    left, right = (of_network(network_of(text)) for text in (LEFT, RIGHT))
+    return left, right, by_inverse(left, right, "disting")
+
+
+def test_the_other_pair_says_the_same():
+    _, _, found = asked()
+    assert found.outcome is Outcome.SOMETIMES and isinstance(found.evidence, AtInverse)
+    assert "With 1/s for s" in found.evidence.sentence("A", "B")
+    assert Finding.from_json(found.to_json(), rule=ADMISSIBLE) == found
+    assert compare(LEFT, RIGHT).relation.value == "sometimes"
 
 
 def test_circuits_with_inductors_are_told_as_those_with_capacitors():
@@ -65,14 +75,16 @@ def test_circuits_with_inductors_are_told_as_those_with_capacitors():
 
 
 def test_its_evidence_is_checked():
-    data = verdict_file(LEFT, RIGHT)
-    assert verify(data).sentence == "holds"
-    for name, value in (("left", data["evidence"]["right"]), ("right", "R1")):
-        forged = data | {"evidence": data["evidence"] | {name: value}}
-        assert verify(forged).standing.value == "does not hold"
-    inner = data["evidence"]["inner"]
-    changed = json.loads(json.dumps(data))
-    point = (inner.get("inner") or inner)["point_with"]
-    place = changed["evidence"]["inner"]
-    (place.get("inner") or place)["point_with"] = [[point[0][0], "7/5"], *point[1:]]
-    assert verify(changed).standing.value == "does not hold"
+    left, right, found = asked()
+    evidence = found.evidence
+    assert confirms_forms(evidence, left, right, "tf")
+    for forged in (replace(evidence, left=evidence.right), replace(evidence, right="R1")):
+        assert not confirms_forms(forged, left, right, "tf")
+    inner = evidence.inner
+    whole = isinstance(inner, Replaced)
+    points = inner.inner if whole else inner
+    lie = replace(
+        points, point_without=points.point_with, without_left_given=points.with_left_given
+    )
+    changed = replace(evidence, inner=replace(inner, inner=lie) if whole else lie)
+    assert not confirms_forms(changed, left, right, "tf")
