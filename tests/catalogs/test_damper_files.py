@@ -50,7 +50,7 @@ from disting.verdict.grouping import classes
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
 MODELS = {3: 88, 4: 464, 5: 2336}
-UNDECIDED = 533  # of 2,727,280 damped pairs of 5 masses
+UNDECIDED = 272  # of 2,727,280 damped pairs of 5 masses
 ALL = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
 
 
@@ -223,7 +223,7 @@ def one_of_each(known):
     ("damped", "kinds"), [(True, {"shared"}), (False, {"shared", "solved", "refuted"})]
 )
 def test_what_was_settled_once_is_sure_and_holds(damped, kinds):
-    """One of each kind and, by hand, every third."""
+    """One of each kind and, by hand, every ninth."""
     known = settled(damped)
     assert all(f.safety >= 100 and f.outcome in DECIDES for f in known.values())
     assert one_of_each(known).keys() >= kinds
@@ -233,7 +233,7 @@ def test_what_was_settled_once_is_sure_and_holds(damped, kinds):
 @pytest.mark.slow
 @pytest.mark.parametrize("damped", [False, True])
 def test_what_was_settled_once_holds(damped):
-    assert all(holds(found, *pair, Settings()) for pair, found in [*settled(damped).items()][::3])
+    assert all(holds(found, *pair, Settings()) for pair, found in [*settled(damped).items()][::9])
 
 
 def forged(found):
