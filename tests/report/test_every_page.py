@@ -202,7 +202,7 @@ def test_notebooks_are_listed_where_they_are(site: Path) -> None:
     for address, root in (("index.html", "guide/"), ("guide/gallery.html", "")):
         links = {str(a["href"]) for _, a in outline(site / address).elements if "href" in a}
         assert [name for name in names if f"{root}notebook-{name}.html" not in links] == []
-    assert len(names) == 5
+    assert len(names) == 6
 
 
 def test_every_page_has_its_sign_the_product_and_help(site: Path) -> None:
