@@ -28,6 +28,7 @@ from disting.general.formulas import explicit, fit
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
+from disting.general.search import common_points
 from disting.general.target import fibre_equations, rational_values, target
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
@@ -281,7 +282,7 @@ def _common(left: AnyModel, right: AnyModel) -> Found | None:
     """A point with a positive equivalent, where a search finds one."""
     if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
         return None
-    for left_given, values, near in newton.common_points(left, right):
+    for left_given, values, near in common_points(left, right):
         given, other = (left, right) if left_given else (right, left)
         found = newton.having(given, values, other, near)
         if found:

@@ -26,29 +26,25 @@ still hold no singular matrix, so q' is an equivalent of p'.
 Where x comes from does not matter: a search in rounded numbers proposes it.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from itertools import chain
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mat
 
-from disting.algebra.sampling import residues
 from disting.errors import InputError
 from disting.general.listed import is_in_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.relations import Relation, coefficients, relations, slope
+from disting.general.search import values_near
 from disting.general.target import rational_values, value_at
 
 MOST_TERMS = 1000  # of one model
 BITS = 128
 RADII = (1e-9, 1e-6, 1e-12)  # of the box, in times of the values
 STEPS = 4  # of Newton's method before a box is drawn
-STARTS = 8  # of a search
-FARTHEST = 20.0  # logarithm of a value: farther away it runs to zero or infinity
-CLOSE = 1e-9  # relative error of coefficients, where a search has found something
-DIGITS = 100  # denominators of points that are proposed
 Values = dict[str, Fraction]
 
 
@@ -84,7 +80,9 @@ def having(
     system = _system(given, values, other)
     if system is None:
         return None
-    for start in _starts(system, near):
+    wanted = [float(g / system.wanted[0]) for g in system.wanted[1:]]
+    searched = values_near(system.rows, wanted, system.unknowns)
+    for start in chain([near] if near else [], searched):
         found = _certified(system, start)
         if found:
             return found
@@ -144,97 +142,6 @@ def _pivots(vectors: Sequence[Sequence[Fraction]]) -> list[int]:
     )
     reduced, rank = table.rref()
     return [next(j for j in range(len(vectors)) if reduced[i, j]) for i in range(rank)]
-
-
-def _starts(system: System, near: Sequence[float]) -> Iterator[Sequence[float]]:
-    """Values given, then those at which searches in rounded numbers have ended."""
-    import numpy as np  # imported late: all of it takes longer than most of what is asked
-
-    if near:
-        yield near
-    goal = np.array([float(g / system.wanted[0]) for g in system.wanted[1:]])
-    ratios = _ratios(system.rows, system.unknowns)
-
-    def errors(logs: Any) -> tuple[Any, Any]:
-        found, slopes = ratios(logs)
-        return found / goal - 1, slopes / goal[:, None]
-
-    for k in range(STARTS):
-        found = _search(errors, f"{k}", system.unknowns)
-        if found is not None:
-            yield found
-
-
-def common_points(left: Model, right: Model) -> Iterator[tuple[bool, Values, tuple[float, ...]]]:
-    """Yield rounded values of one model with those of the other one that have nearly the same
-    transfer function, and whether they are of the left one: where to look for equivalents.
-    """
-    import numpy as np
-
-    sides = [[t for t in coefficients(m) if t] for m in (left, right)]
-    count = len(left.parameters)
-    ratios = [
-        _ratios(rows, len(m.parameters)) for rows, m in zip(sides, (left, right), strict=True)
-    ]
-
-    def errors(logs: Any) -> tuple[Any, Any]:
-        (one, slopes), (other, along) = ratios[0](logs[:count]), ratios[1](logs[count:])
-        found = one / other
-        both = [slopes / other[:, None], -along * (found / other)[:, None]]
-        return found - 1, np.hstack(both)
-
-    for k in range(STARTS):
-        found = _search(errors, f"common:{k}", count + len(right.parameters))
-        if found is None:
-            continue
-        values = found[:count], found[count:]
-        for at, model in enumerate((left, right)):
-            rounded = [Fraction(x).limit_denominator(DIGITS) for x in values[at]]
-            if all(rounded):
-                yield not at, dict(zip(model.parameters, rounded, strict=True)), values[1 - at]
-
-
-def _ratios(rows: Sequence[Terms], unknowns: int) -> Callable[[Any], tuple[Any, Any]]:
-    """All c_i/c_0 of logarithms of values, and their derivatives, in rounded numbers."""
-    import numpy as np
-
-    terms = [(i, e, float(c)) for i, row in enumerate(rows) for e, c in row]
-    places = np.array([i for i, _, _ in terms])
-    powers = np.array([e for _, e, _ in terms], float)
-    numbers = np.array([c for _, _, c in terms])
-
-    def at(logs: Any) -> tuple[Any, Any]:
-        each = numbers * np.exp(np.clip(powers @ logs, -300, 300))
-        totals, slopes = np.bincount(places, each, len(rows)), np.zeros((len(rows), unknowns))
-        np.add.at(slopes, places, each[:, None] * powers)
-        found = totals[1:] / totals[0]
-        return found, slopes[1:] / totals[0] - found[:, None] * slopes[0] / totals[0]
-
-    return at
-
-
-def _search(
-    errors: Callable[[Any], tuple[Any, Any]], label: str, unknowns: int
-) -> tuple[float, ...] | None:
-    """Positive values where all errors are nearly zero, by least squares from a drawn start."""
-    import numpy as np
-    from scipy.optimize import least_squares
-
-    start = np.array([(x - 2001) / 1000 for x in residues(f"start:{label}", unknowns, 4001)])
-    with np.errstate(all="ignore"):
-        if not np.all(np.isfinite(errors(start)[0])):
-            return None
-        found = least_squares(
-            lambda x: errors(x)[0],
-            start,
-            lambda x: errors(x)[1],
-            xtol=1e-15,
-            ftol=1e-15,
-            gtol=1e-15,
-        )
-    if np.max(np.abs(found.fun)) > CLOSE or np.max(np.abs(found.x)) > FARTHEST:
-        return None
-    return tuple(map(float, np.exp(found.x)))
 
 
 def _certified(system: System, start: Sequence[float]) -> tuple[float, ...] | None:

@@ -11,13 +11,14 @@ import pytest
 from disting import Model, Relation, compare, local_identifiability, verify
 from disting.general.admissible import points
 from disting.general.any_model import of_network
-from disting.general.newton import common_points, having
+from disting.general.newton import having
 from disting.general.relations import (
     coefficients,
     dimension_at_least,
     dimension_at_most,
     relations,
 )
+from disting.general.search import common_points
 from disting.model.question import Domain
 from disting.network.notation import network_of
 from disting.verdict.verdict_file import verdict_file
