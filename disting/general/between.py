@@ -21,6 +21,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import residues
+from disting.algebra.symbols import factored
 from disting.general.cases import Case, numbered, placed
 from disting.general.counts import number_of_roots
 from disting.general.orthant import Orthant
@@ -107,11 +108,21 @@ def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | No
     """The path, unless a polynomial that must not be zero has a common root with the equation
     for all p.
     """
-    whole, equation = numbered(ring, case), case.equations[0]
+    whole, equation = numbered(ring, case), _of_odd_roots(case.equations[0], at)
     if any(c.gcd(equation).degrees()[at] for c in whole.nonzero):
         return None
     values = dict(whole.solved) | {at: RationalFunction(ring.generators[at], ring.number(1))}
     return Path(equation, at, low, high, tuple(values[i] for i in ring.unknowns))
+
+
+def _of_odd_roots(equation: fmpz_mpoly, at: int) -> fmpz_mpoly:
+    """What has the roots of an equation at which it changes its sign, once each, whatever the p:
+    factors without the unknown and even powers do not belong to an equation for it.
+    """
+    parts = factored(equation)[1]
+    if all(f.degrees()[at] and power == 1 for f, power in parts):
+        return equation
+    return prod((f for f, power in parts if f.degrees()[at] and power % 2), start=equation**0)
 
 
 def _seen(ring: Orthant, polynomial: fmpz_mpoly) -> int:

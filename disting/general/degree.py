@@ -91,6 +91,6 @@ def _degree(model: Model, values: dict[str, Fraction]) -> int:
     known and regular.
     """
     goal = goal_of(model, values)
-    found = (goal and positive(goal, model)) or ()
+    found = (goal and positive(goal, model, thorough=True)) or ()
     signs = [orientation(model, e) for e in found]
     return sum(signs) if all(signs) else 0

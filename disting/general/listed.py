@@ -31,7 +31,7 @@ from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.errors import InputError
 from disting.general.any_model import in_powers
 from disting.general.equivalent import Equivalent, sign_at
-from disting.general.fibre import Extent, solved
+from disting.general.fibre import Extent, solved, without_zeros
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
@@ -101,12 +101,18 @@ def goal_of(given: Model, values: Values) -> Target | None:
         return None
 
 
-def positive(goal: Target, other: Model) -> tuple[Equivalent, ...] | None:
-    """All positive equivalents; None where they are not all known."""
+def positive(goal: Target, other: Model, thorough: bool = False) -> tuple[Equivalent, ...] | None:
+    """All positive equivalents; None where they are not all known. `thorough`: where that grows too
+    large, by equations in the inverses of some unknowns.
+    """
+    equations = fibre_equations(goal, other)
     try:
-        found = solved(fibre_equations(goal, other), other.parameters, "list", Bounds())
+        found = solved(equations, other.parameters, "list", Bounds())
     except TooLarge:
-        return None
+        every = (
+            without_zeros(equations[:-1], other.parameters, "list", Bounds()) if thorough else None
+        )
+        return every and tuple(e for e in every if e.domain is Domain.POSITIVE)
     if found.extent in (Extent.NONE, Extent.FINITE):
         return tuple(e for e in found.equivalents if e.domain is Domain.POSITIVE)
     return () if Domain.POSITIVE in found.excluded or Domain.REAL in found.excluded else None

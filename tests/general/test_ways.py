@@ -284,6 +284,15 @@ def test_a_common_root_is_no_path():
     assert path(ring, replace(case, nonzero=(x - p,)))
 
 
+def test_a_factor_without_the_root_is_no_part_of_its_equation():
+    """One factor of the numerator is found first; what is left is a3**2 x**2 - a1 a3**2."""
+    left, right = (
+        tf("b1**2 - 3*b3**2*s", "(2*b2*b3 + 1)*s"),
+        tf("a1 - 3*a3**2*s", "(2*a2*a3 + 1)*s"),
+    )
+    assert compare(left, right).relation is Relation.INDISTINGUISHABLE
+
+
 def test_formulas_that_divide_by_zero_are_refused():
     """c = a/(x^4 - 4x^2 + 4) with x^2 = 2: the polynomials agree where the equation holds, but
     c does not exist.
