@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 from disting.errors import listed
 from disting.evidence.decision import Theorem
 from disting.evidence.kind import Carrier, Claim, Kind, plain_fields, read
+from disting.evidence.seen import Labels
 from disting.model.question import Domain, Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
@@ -22,7 +23,9 @@ BOTH = (True, False)  # ways from one model to the other
 
 
 @dataclass(frozen=True, slots=True)
-class _OverDomain(Kind):
+class OverDomain(Kind):
+    """What is said of equivalents in one domain of parameters."""
+
     domain: str
 
     def shows(self, domain: Domain) -> Relation:
@@ -31,19 +34,24 @@ class _OverDomain(Kind):
 
 
 @dataclass(frozen=True, slots=True)
-class Explicit(_OverDomain):
+class Explicit(OverDomain):
     """All generic parameters of either model have an equivalent: those of the first formula
     that applies.
 
-    A value of `0` is that of a parameter that is to be small: then there is an equivalent near
-    these values. Positive ones have no exception where there is one formula each way, on no
-    condition and without a root or a 0, and it has plus signs only: then its values are positive
-    wherever the parameters are.
+    Over positive parameters a value of `0` is that of one that is to be small: then there is an
+    equivalent near these values. Positive ones have no exception where there is one formula each
+    way, on no condition and without a root or a 0, and it has plus signs only: then its values are
+    positive wherever the parameters are.
     """
 
     kind: ClassVar[str] = "explicit"
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE)
     formulas: tuple[Formula, ...]
+
+    def small(self, formula: Formula) -> tuple[str, ...]:
+        """Names of those that are to be small: over real parameters 0 is a value as any other."""
+        zero = tuple(name for name, value in formula[2] if value == ZERO)
+        return zero if self.domain == Domain.POSITIVE else ()
 
     def without_exception(self, domain: Domain) -> bool:
         """Whether it holds for special values too."""
@@ -61,7 +69,7 @@ class Explicit(_OverDomain):
         for way, given, searched in zip(BOTH, (left, right), (right, left), strict=True):
             every = [f for f in self.formulas if f[0] is way]
             more = f" ({len(every)} formulas for different parameters)" if len(every) > 1 else ""
-            said.append(f"{given} is {searched} at {_told(every[0])}{more}")
+            said.append(f"{given} is {searched} at {_told(every[0], self.small(every[0]))}{more}")
         values = "" if self.without_exception(Domain.POSITIVE) else " but special ones"
         return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters{values}."
 
@@ -71,17 +79,16 @@ class Explicit(_OverDomain):
         return "∀ p ∈ A ∃ q ∈ A: Φ₂(q) = Φ₁(p),  ∀ q ∈ A ∃ p ∈ A: Φ₁(p) = Φ₂(q)"
 
 
-def _told(formula: Formula) -> str:
+def _told(formula: Formula, small: Labels) -> str:
     _, where, values, root = formula
-    said = ", ".join(f"{name} = {value}" for name, value in values if value != ZERO)
-    small = [name for name, value in values if value == ZERO]
+    said = ", ".join(f"{name} = {value}" for name, value in values if name not in small)
     said = f"values near {said}, {listed(small)} being small" if small else said
     said += f" with {root[0]} the root of {root[1]} between {root[2]} and {root[3]}" if root else ""
     return said + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")
 
 
 @dataclass(frozen=True, slots=True)
-class NoEquivalent(_OverDomain):
+class NoEquivalent(OverDomain):
     """No generic parameters of one model have an equivalent: in each case one of the
     `contradictions` would have to hold.
 
@@ -136,7 +143,7 @@ class Constants(Kind):
 
 
 @dataclass(frozen=True, slots=True)
-class Witnesses(_OverDomain):
+class Witnesses(OverDomain):
     """At the rational `point_with` the other model has the `equivalent` (rounded), at
     `point_without` none in the domain.
 

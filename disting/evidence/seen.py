@@ -50,9 +50,9 @@ class Seen:
 @dataclass(frozen=True, slots=True)
 class SeenPair:
     """Both models: whether a renaming `renames` the left one to the right one, and evidence is
-    `found_again` by the method that finds such. Of chains also the `numberings` of the masses of a
-    part, which the left one is or the right one, in the whole, and the model with the elements of
-    both.
+    `found_again` by the method that finds such. Of chains and networks also the `numberings` of
+    the nodes of a part, which the left one is or the right one, in the whole; of chains the model
+    with the elements of both.
     """
 
     left: Seen

@@ -60,25 +60,26 @@ def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
     """
     sides = {True: (left, right), False: (right, left)}
     return fit(evidence, left, right) and all(
-        _covers([f for f in evidence.formulas if f[0] is side], *sides[side], evidence.domain)
-        for side in (True, False)
+        _covers({evidence.small(f) for f in evidence.formulas if f[0] is side}, evidence, *pair)
+        for side, pair in sides.items()
     )
 
 
-def _covers(formulas: list[Formula], given: AnyModel, other: AnyModel, domain: str) -> bool:
+def _covers(
+    small: set[tuple[str, ...]], evidence: Explicit, given: AnyModel, other: AnyModel
+) -> bool:
     """Whether the way found anew gives all generic parameters an equivalent, near the boundary
-    where all formulas have the same zeros.
+    where the same unknowns are small in all formulas.
     """
-    zeros = {tuple(q for q, text in values if text == ZERO) for _, _, values, _ in formulas}
-    if len(zeros) != 1:
+    if len(small) != 1:
         return False
-    (zero,) = zeros
+    (zero,) = small
     if not zero:
-        one = way(given, other, Domain(domain))
+        one = way(given, other, Domain(evidence.domain))
         return bool(one and (one.covering or one.path()))
     if not (isinstance(given, Model) and isinstance(other, Model)):
         return False
-    return domain == Domain.POSITIVE and bool(equivalents_without(given, other, zero))
+    return bool(equivalents_without(given, other, zero))
 
 
 def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:

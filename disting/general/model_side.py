@@ -20,7 +20,7 @@ from disting.conditions.side import GENERIC, Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import AtInverse, Constants, Replaced, Witnesses
+from disting.evidence.general import AtInverse, Constants, OverDomain, Replaced
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
@@ -193,7 +193,9 @@ class ComparedModel(Side[AnyModel]):
         return replace(found, certainty=Certainty.BOUNDED, safety=safety)
 
     def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:
-        """Whether evidence of a verdict is true of both."""
+        """Whether evidence of a verdict is true of both, as those who decide by it see them:
+        conditions know the elements of networks.
+        """
         one_order = Carrier.CONDITION not in evidence.claim.carriers and self.has_other_readings
         if one_order and not any(evidence.shows(d) is Relation.INDISTINGUISHABLE for d in Domain):
             return False
@@ -201,8 +203,8 @@ class ComparedModel(Side[AnyModel]):
             return self.is_writable and other.is_writable and _applies(evidence.name, self, other)
         if isinstance(evidence, Replaced | AtInverse):
             return confirms_forms(evidence, self.subject, other.subject, representation)
-        pair = _models(self, other)
-        if isinstance(evidence, Witnesses):
+        pair = self.subject, other.subject
+        if isinstance(evidence, OverDomain):
             pair = _unnamed(self, other, Domain(evidence.domain))
         return model_evidence.confirms_models(evidence, *pair, representation)
 

@@ -72,7 +72,11 @@ def entry_of(network: Network) -> dict[str, object]:
 
 
 def _is_read_back(entry: Entry, network: Network) -> bool:
-    return network_of_entry(entry, network.name) == network
+    """Whether the entry is this network: a list of flows has no two alike, nor names for them."""
+    try:
+        return network_of_entry(entry, network.name) == network
+    except InputError:
+        return False
 
 
 def _notation(key: str, notation: str) -> str:
