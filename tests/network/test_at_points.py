@@ -109,7 +109,6 @@ def test_all_kinds(text) -> None:
         ("1=2*i; F1; S2:1", "a difference of positions that a gear keeps apart"),
         ("1=2*3; F1; S2", "a ratio that is a number"),
         ("R0-p(R1,P1)", "a constant phase element"),
-        ("1>2; in 1; out 1", "a pole of all values that cancels"),
     ],
 )
 def test_others_are_written_out(text, why) -> None:
