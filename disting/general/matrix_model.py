@@ -23,9 +23,11 @@ from disting.general.model import (
     parameters_of,
     refuse_name,
     transfer_functions,
+    unwritten,
 )
 from disting.general.powers import PLAIN, Powers
 from disting.model.presentation import Shown, plural, summary
+from disting.network.forests import counts_of
 from disting.network.network import Network
 
 MOST_ENTRIES = 100
@@ -120,9 +122,14 @@ class MatrixModel(Shown):
         """The transfer functions of a network, a row for each output, a column for each input;
         raises InputError.
         """
-        ratios = network_ratios(network)
-        powers = network_powers([x for row in ratios for x in row], network)
-        found = of_ratios(ratios, network.parameters, network.name, powers)
+        rows = tuple(tuple(_counted(cell) for cell in row) for row in network.cells)
+        if all(known for row in rows for known, _ in row):
+            entries = tuple(tuple(entry for _, entry in row) for row in rows)
+            found = MatrixModel(network.parameters, entries, network.name)
+        else:
+            ratios = network_ratios(network)
+            powers = network_powers([x for row in ratios for x in row], network)
+            found = of_ratios(ratios, network.parameters, network.name, powers)
         object.__setattr__(found, "network", network)
         return found
 
@@ -163,6 +170,14 @@ class MatrixModel(Shown):
 
 AnyModel = Model | MatrixModel
 """A general model."""
+
+
+def _counted(cell: Network) -> tuple[bool, Model | None]:
+    """Whether what a network does between two ports is known without its terms, and what it is."""
+    if not cell.seen:
+        return True, None
+    known = counts_of(cell, cell.halves) is not None
+    return known, unwritten(replace(cell, name="entry")) if known else None
 
 
 def _shown(

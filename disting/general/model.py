@@ -153,9 +153,9 @@ class Model(Shown):
             ((ratio,),) = network_ratios(network)
             powers = network_powers([ratio], network)
             made = _model(ratio, network.parameters, network.name, powers)
+            object.__setattr__(made, "network", network)
         else:
-            made = _unwritten(network)
-        object.__setattr__(made, "network", network)
+            made = unwritten(network)
         chain = as_chain(network)
         if chain is not None and not names_another(network.name, chain):
             object.__setattr__(made, "chain", chain)
@@ -311,8 +311,10 @@ def _model(
     return entry_of(ratio, parameters, name, powers)
 
 
-def _unwritten(network: Network) -> Model:
-    """The model of a network whose terms are counted, but not written out yet."""
+def unwritten(network: Network) -> Model:
+    """The model of a network with one input and one output whose terms are counted, but not written
+    out yet.
+    """
     made = object.__new__(Model)
     for name, value in (
         ("parameters", network.parameters),

@@ -3,10 +3,11 @@ function at points, without polynomials in its values.
 
 Powers of s that occur, degrees and numbers of terms are known exactly (`disting.network.forests`).
 
-LEMMA. A coefficient of N and of D over the leading one of D is the constant 0 or not constant, that
-leading one itself aside. Proof: times a number, all admittances take G over that number, so b_i/a_m
-is homogeneous of degree -1 in them; p_e -> p_e h^-r_e takes G(s) to G(s/h), so a_i/a_m is
-homogeneous of degree m - i in h.
+LEMMA. Without flows a coefficient of N and of D over the leading one of D is the constant 0 or not
+constant, that leading one itself aside. Proof: times a number, all admittances take G over that
+number, so b_i/a_m is homogeneous of degree -1 in them; p_e -> p_e h^-r_e takes G(s) to G(s/h), so
+a_i/a_m is homogeneous of degree m - i in h. Of flows D has the leading coefficient 1, and all terms
+of a coefficient have as many values as its power of s lacks: it is a number where that are none.
 
 The same numbers, so the same bounds of errors, follow as from the polynomials written out. Where
 they are not known, the polynomials are written out (`disting.general.behaviour`).
@@ -20,10 +21,11 @@ from typing import ClassVar
 from disting.algebra.quotient import Quotient, coefficient_rows
 from disting.algebra.sampling import Size
 from disting.behaviour.chain_model import UNBOUNDED
+from disting.behaviour.sample import label, shared_poles
 from disting.general.any_model import unnamed
 from disting.general.behaviour import GeneralModel, Known, known_invariants, summary_size
 from disting.general.matrix_model import AnyModel
-from disting.model.protocol import Columns, Degrees
+from disting.model.protocol import ZERO, Columns, Degrees
 from disting.network.at_points import Assembly, Sides, assembly, quotient_at, sides_at
 from disting.network.forests import Counts, counts, counts_of
 from disting.network.network import Network
@@ -31,84 +33,121 @@ from disting.network.network import Network
 
 @dataclass(frozen=True, slots=True)
 class NetworkModel:
-    """The transfer function of a network whose terms are counted, in powers of s or of s^(1/2)."""
+    """The transfer functions of a network whose terms are counted, in powers of s or of s^(1/2).
 
-    network: Network
+    `cells`: the network between each output and each input, row by row; None where no way leads.
+    """
+
+    parameters: tuple[str, ...]
+    cells: tuple[Network | None, ...]
     halves: bool
     dead_time: ClassVar[bool] = False
-    is_numbered: ClassVar[bool] = False
     most_subsets: ClassVar[int] = UNBOUNDED
     lost_bits: ClassVar[int] = 1
 
     @property
-    def parameters(self) -> tuple[str, ...]:
-        """Those of the network."""
-        return self.network.parameters
-
-    @property
     def n_states(self) -> int:
-        """The larger degree of numerator and denominator."""
-        return max(self.degrees[0])
+        """The largest degree of a numerator or a denominator."""
+        return max(max(d) for d in self.degrees)
 
     @property
     def content(self) -> tuple[object, ...]:
-        """The network, whatever it is called."""
-        return self.network, self.halves
+        """The networks, whatever they are called."""
+        return *self.cells, self.halves
+
+    @property
+    def is_numbered(self) -> bool:
+        """Whether there are several."""
+        return len(self.cells) > 1
 
     @property
     def degrees(self) -> tuple[Degrees, ...]:
-        """Those of the transfer function."""
-        return (self._counts.degrees,)
+        """Those of all transfer functions."""
+        return tuple(ZERO if known is None else known.degrees for known in self._counts)
 
-    def quotients(self, point: Sequence[int], modulus: int) -> tuple[Quotient, ...]:
-        """The transfer function, at a point without zeros."""
-        return (quotient_at(self._assembly, point, modulus),)
+    def quotients(self, point: Sequence[int], modulus: int) -> tuple[Quotient | None, ...]:
+        """The transfer functions, at a point without zeros."""
+        return tuple(
+            None if of is None else quotient_at(of, point, modulus) for of in self._assemblies
+        )
 
     def columns(self, point: Sequence[int], modulus: int) -> Columns:
-        """Those of the functions c_i a_m, at a point without zeros; none at one of the few where
-        too few numbers s show them.
+        """Those of the functions c_i a_m of all, at a point without zeros; none at one of the few
+        where too few numbers s show them.
         """
-        found = sides_at(self._assembly, point, modulus)
-        if found is None:
-            return (), [()] * len(point)
-        rows = _products(found, self._counts, modulus)
+        rows = list[tuple[int, list[int]]]()
+        for of, known in zip(self._assemblies, self._counts, strict=True):
+            if of is None or known is None:
+                continue
+            found = sides_at(of, point, modulus)
+            if found is None:
+                return (), [()] * len(point)
+            rows += _products(found, known, modulus)
         return tuple(value for value, _ in rows), list(zip(*(g for _, g in rows), strict=True))
 
     def minor_size(self, markov: int | None) -> Size:
         """Bounds for the cleared minors of the Jacobian: the sizes of a coefficient's numbers, all
         1, sum to the number of its terms.
         """
-        known = self._counts
-        bits = max(*known.num, *known.den).bit_length()
-        return summary_size(self.degrees, [(known.degree, bits)], len(self.parameters), markov)
+        largest = [
+            (known.degree, max(*known.num, *known.den).bit_length())
+            for known in self._counts
+            if known is not None
+        ]
+        return summary_size(self.degrees, largest, len(self.parameters), markov)
 
     def constants(self, markov: int | None) -> Mapping[str, str]:
-        """Those that are the constant 0."""
-        return {
-            name: str(x) for name, x in known_invariants(*_ratios(self._counts), markov).items()
-        }
-
-    @property
-    def _assembly(self) -> Assembly:
-        found = assembly(self.network, self.halves)
-        assert found is not None
+        """Those that are proven constant: 0, or the number of their terms."""
+        found: dict[str, str] = {}
+        for i, known in enumerate(self._counts):
+            if known is None:
+                continue
+            named = known_invariants(*_ratios(known), markov)
+            shared = shared_poles(self.degrees, i) if markov is None else None
+            if shared is not None:
+                zeros = {f"a{k}": Fraction(0) for k in range(known.degrees[1])}
+                named = {n: v for n, v in named.items() if n[0] == "b"} | zeros
+            labels = (label(n, i, shared) if self.is_numbered else n for n in named)
+            found |= dict(zip(labels, map(str, named.values()), strict=True))
         return found
 
     @property
-    def _counts(self) -> Counts:
-        return counts(self._assembly)
+    def _assemblies(self) -> tuple[Assembly | None, ...]:
+        return tuple(None if c is None else assembly(c, self.halves) for c in self.cells)
+
+    @property
+    def _counts(self) -> tuple[Counts | None, ...]:
+        return tuple(None if of is None else counts(of) for of in self._assemblies)
 
 
 def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:
     """What a model reveals, whatever it is called: of a network at points where its terms are
-    counted, of others by its polynomials.
+    counted and transfer functions of as many poles have all of them in common, of others by its
+    polynomials.
     """
     network, halves = model.network, model.powers.halves
     if network is not None and network.parameters == model.parameters:
         plain = replace(network, name="network")
-        if counts_of(plain, halves) is not None:
-            return NetworkModel(plain, halves)
+        cells = tuple(c if c.seen else None for row in plain.cells for c in row)
+        known = all(c is None or counts_of(c, halves) for c in cells)
+        found = NetworkModel(plain.parameters, cells, halves)
+        if known and _shares_poles(found):
+            return found
     return GeneralModel(unnamed(model))
+
+
+def _shares_poles(model: NetworkModel) -> bool:
+    """Whether transfer functions with as many poles have one denominator: that of one graph."""
+    firsts = (shared_poles(model.degrees, i) for i in range(len(model.cells)))
+    return all(
+        first is None or _elements(model.cells[first]) == _elements(cell)
+        for first, cell in zip(firsts, model.cells, strict=True)
+        if cell is not None
+    )
+
+
+def _elements(cell: Network | None) -> frozenset[str]:
+    return frozenset() if cell is None else frozenset(map(str, cell.seen))
 
 
 def _products(found: Sides, known: Counts, modulus: int) -> list[tuple[int, list[int]]]:
@@ -136,6 +175,7 @@ def _ratios(known: Counts) -> tuple[list[Known], list[Known]]:
     """What is known of the coefficients over the leading one."""
     lost = known.lost
     top, bottom = (
-        [None if c else Fraction(0) for c in side[lost:]] for side in (known.num, known.den)
+        [Fraction(c) if i == free or not c else None for i, c in enumerate(side)][lost:]
+        for side, free in zip((known.num, known.den), known.free, strict=True)
     )
     return top, [*bottom[:-1], Fraction(1)]

@@ -3,83 +3,111 @@ transfer function with their derivatives modulo a prime.
 
     G(s) = s^q c^T P^-1 b,   D = det P,   N = s^q c^T adj(P) b
 
-At a number s the inverse of P gives it all. With w = p_e s^(r_e) the entry of an element, v its
-vector, x = P^-1 b, y = P^-1 c and h = v^T P^-1 v:
+At a number s the inverse of P gives it all. An element adds w u v^T with w = p_e s^(r_e). With
+x = P^-1 b, y = P^-T c, the derivatives along any u' and v' are those of
 
-    dD/dp_e = s^(r_e) D h,   dN/dp_e = s^(r_e) (N h - D (v^T x)(v^T y))
+    D (v'^T P^-1 u'),   N (v'^T P^-1 u') - D (y^T u') (v'^T x)
 
-The degree in s is at most the sum of the highest powers of all rows; so many numbers s and one
-more give the coefficients. Reciprocal networks without gears: P is symmetric. Node 0 has no row.
-A value that divides enters as 1/p; both sides are multiplied by it.
+u and v for the entry of the element itself; for the ratio g of a gear, u = v = e_i - g e_j, those
+with -w e_j for one of both. The degree in s is at most the sum of the highest powers of all rows;
+so many numbers s and one more give the coefficients. Node 0 has no row. A value that divides enters
+as 1/p; both sides are multiplied by it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import islice
 
 from flint import nmod_mat, nmod_poly
 
 from disting.algebra.quotient import Quotient, lowest_terms
+from disting.network.element import Element
 from disting.network.network import Network
 
 REMEMBERED = 1024  # assemblies
+Vector = tuple[tuple[int, int], ...]
+"""Rows with their signs."""
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """An element: the place of its value among the parameters, its power of s, whether 1/p stands
-    for p, and its rows.
+    """An element: the place of its value among the parameters (None of a compartment, whose entry
+    is s), its power of s, whether 1/p stands for p, where it pulls and what it feels, and the place
+    of its ratio, which multiplies the last row of both (None without a gear).
     """
 
-    place: int
+    place: int | None
     power: int
     divides: bool
-    rows: tuple[int, ...]
+    pulls: Vector
+    feels: Vector
+    ratio: int | None
+
+    def value(self, point: Sequence[int]) -> int:
+        """That of its parameter."""
+        return 1 if self.place is None else point[self.place]
+
+    def sides(self, point: Sequence[int]) -> tuple[Vector, Vector]:
+        """u and v with the ratio that it has at a point."""
+        if self.ratio is None:
+            return self.pulls, self.feels
+        (i, one), (j, sign) = self.feels
+        return (((i, one), (j, sign * point[self.ratio])),) * 2
 
 
 @dataclass(frozen=True, slots=True)
-class Assembly:
-    """P, b and c of a network: `size` rows, `entries`, the ports' rows with their signs, `gained`
-    the power of s that multiplies the numerator; `n_values` parameters. Powers are those of s, or
-    of s^(1/2).
+class Frame:
+    """P of a network: `size` rows, `entries`; `n_values` parameters. Powers are those of s, or of
+    s^(1/2).
     """
 
     size: int
     entries: tuple[Entry, ...]
-    force: tuple[tuple[int, int], ...]
-    sensor: tuple[tuple[int, int], ...]
-    gained: int
     n_values: int
-
-    @property
-    def sign(self) -> int:
-        """That of all terms of N; 0 where they can have several."""
-        if self.force == self.sensor:
-            return 1
-        if self.force == tuple((i, -x) for i, x in self.sensor):
-            return -1
-        if len(self.force) == len(self.sensor) == 1:
-            return self.force[0][1] * self.sensor[0][1]
-        return 0
 
     @property
     def highest(self) -> int:
         """Bound of the degree of D in s."""
-        return sum(
-            max((e.power for e in self.entries if i in e.rows), default=0) for i in range(self.size)
-        )
+        powers = [0] * self.size
+        for e in self.entries:
+            for i, _ in e.pulls:
+                powers[i] = max(powers[i], e.power)
+        return sum(powers)
 
-    def rows(self, terms: Sequence[int]) -> list[list[int]]:
-        """P with these numbers for the terms of its entries."""
+    def rows(self, terms: Sequence[int], point: Sequence[int]) -> list[list[int]]:
+        """P with these numbers for the terms of its entries, and ratios as at a point."""
         found = [[0] * self.size for _ in range(self.size)]
         for e, term in zip(self.entries, terms, strict=True):
-            for i in e.rows:
-                found[i][i] += term
-            if len(e.rows) > 1:
-                i, j = e.rows
-                found[i][j] -= term
-                found[j][i] -= term
+            u, v = e.sides(point)
+            for i, a in u:
+                for j, b in v:
+                    found[i][j] += a * b * term
         return found
+
+
+@dataclass(frozen=True, slots=True)
+class Assembly:
+    """P, b and c of a network: its frame, the ports' rows with their signs, `gained` the power of s
+    that multiplies the numerator.
+    """
+
+    frame: Frame
+    force: Vector
+    sensor: Vector
+    gained: int
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """P^-1 and D at a number s; `ways` the derivatives of w u v^T by each entry and each ratio: a
+    number w, pairs of u' and v' to be summed, and the sum of v'^T P^-1 u'.
+    """
+
+    s: int
+    den: int
+    inverse: tuple[tuple[int, ...], ...]
+    ways: tuple[tuple[int, tuple[tuple[Vector, Vector], ...], int], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,85 +122,118 @@ class Sides:
 
 @lru_cache(maxsize=REMEMBERED)
 def assembly(network: Network, halves: bool) -> Assembly | None:
-    """That of a reciprocal network with one force and one sensor, without gears and exponents, in
-    powers of s or of s^(1/2); None of others.
+    """That of a network with one input and one output, without exponents and without ratios that
+    are numbers other than 1, in powers of s or of s^(1/2); None of others.
     """
-    if network.is_directed or network.exponents or network.shape != (1, 1):
+    if network.exponents or network.shape != (1, 1):
         return None
     plain = network.grounded
-    if any(e.ratio for e in plain.elements) or not plain.elements:
+    if any(e.ratio and e.known_ratio is not None for e in plain.elements) or not plain.elements:
         return None
     step = 1 if halves else 2
     lift = max((0, *(-e.kind.halves for e in plain.elements))) // step
     places = {name: i for i, name in enumerate(network.parameters)}
-    entries = tuple(
-        Entry(
-            places[e.value],
-            e.kind.halves // step + lift,
-            e.kind.divides,
-            tuple(i - 1 for i in e.nodes if i),
-        )
-        for e in plain.elements
-    )
     force, sensor = (
         tuple(sorted((i - 1, x) for i, x in port.ends.items()))
         for port in (plain.inputs[0], plain.outputs[0])
     )
     size = max(i for e in plain.elements for i in e.nodes)
-    gained = 2 * network.order // step + lift
-    return Assembly(size, entries, force, sensor, gained, len(network.parameters))
+    entries = tuple(_entry(e, places, e.kind.halves // step + lift) for e in plain.elements)
+    frame = Frame(size, entries, len(network.parameters))
+    return Assembly(frame, force, sensor, 2 * network.order // step + lift)
+
+
+def _entry(e: Element, places: dict[str, int], power: int) -> Entry:
+    pulls, feels = (
+        tuple((i - 1, -1 if isinstance(x, str) else int(x)) for i, x in side.items())
+        for side in (e.pulls, e.feels)
+    )
+    place, ratio = places.get(e.value), places[e.ratio] if e.ratio else None
+    return Entry(place, power, e.kind.divides, pulls, feels, ratio)
 
 
 def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
     """N and D at a point without zeros; None where P cannot be inverted at enough numbers s."""
-    values = [pow(point[e.place], -1, modulus) if e.divides else point[e.place] for e in of.entries]
-    wanted = of.highest + 1
-    numbers, seen = list[int](), list[list[int]]()
-    for s in range(1, 2 * wanted + 1):
-        row = _at_number(of, values, s, modulus)
-        if row:
-            numbers.append(s)
-            seen.append(row)
-        if len(seen) == wanted:
-            break
-    if len(seen) < wanted:
+    seen = _solved(of.frame, tuple(point), modulus)
+    if not seen:
         return None
+    rows, wanted = [_at_number(of, at, modulus) for at in seen], len(seen)
     powers = nmod_mat(
-        wanted, wanted, [pow(s, j, modulus) for s in numbers for j in range(wanted)], modulus
+        wanted, wanted, [pow(at.s, j, modulus) for at in seen for j in range(wanted)], modulus
     )
-    known = nmod_mat(wanted, len(seen[0]), [x for row in seen for x in row], modulus)
+    width = len(rows[0])
+    known = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
     solved = [int(x) for x in powers.solve(known).entries()]
-    width = len(seen[0])
     num, den, *slopes = (nmod_poly(solved[i::width], modulus) for i in range(width))
     return _turned(of, point, num, den, slopes)
 
 
-def _at_number(of: Assembly, values: Sequence[int], s: int, modulus: int) -> list[int] | None:
-    """N without s^q and D, then the derivatives of both by the entry of each element."""
+@lru_cache(maxsize=4)  # for the other ports of the same network
+def _solved(of: Frame, point: tuple[int, ...], modulus: int) -> tuple[Solved, ...]:
+    """As many numbers s as there can be powers, or none where too few are found."""
+    values = [pow(e.value(point), -1, modulus) if e.divides else e.value(point) for e in of.entries]
+    wanted = of.highest + 1
+    tried = (_at(of, point, values, s, modulus) for s in range(1, 2 * wanted + 1))
+    found = tuple(islice((at for at in tried if at), wanted))
+    return found if len(found) == wanted else ()
+
+
+def _at(
+    of: Frame, point: tuple[int, ...], values: Sequence[int], s: int, modulus: int
+) -> Solved | None:
     powers = [pow(s, e.power, modulus) for e in of.entries]
-    rows = of.rows([w * value for w, value in zip(powers, values, strict=True)])
+    terms = [w * value % modulus for w, value in zip(powers, values, strict=True)]
+    rows = of.rows(terms, point)
     matrix = nmod_mat(of.size, of.size, [x % modulus for row in rows for x in row], modulus)
     den = int(matrix.det())
     if not den:
         return None
     flat, n = [int(x) for x in matrix.inv().entries()], of.size
-    inverse = [flat[i * n : i * n + n] for i in range(n)]
-    moved, turned = (
-        [sum(x * inverse[i][j] for i, x in port) for j in range(n)]
-        for port in (of.force, of.sensor)
-    )
-    num = den * sum(x * moved[i] for i, x in of.sensor) % modulus
+    inverse = tuple(tuple(flat[i * n : i * n + n]) for i in range(n))
+    ways = []
+    for e, power, term in zip(of.entries, powers, terms, strict=True):
+        for w, pairs in _ways(e, point, power, term):
+            square = 0
+            for u, v in pairs:
+                for i, a in u:
+                    for j, b in v:
+                        square += a * b * inverse[j][i]
+            ways.append((w, pairs, square % modulus))
+    return Solved(s, den, inverse, tuple(ways))
+
+
+def _ways(
+    e: Entry, point: Sequence[int], power: int, term: int
+) -> Iterator[tuple[int, tuple[tuple[Vector, Vector], ...]]]:
+    """Yield the derivatives of an element's w u v^T by its entry and by its ratio: a number, and
+    pairs of u' and v' to be summed.
+    """
+    u, v = e.sides(point)
+    yield power, ((u, v),)
+    if e.ratio is not None:
+        turned = (e.feels[1],)
+        yield term, ((turned, v), (u, turned))
+
+
+def _at_number(of: Assembly, at: Solved, modulus: int) -> list[int]:
+    """N without s^q and D, then the derivatives of both by the entry of each element, and by the
+    ratio of each gear.
+    """
+    inverse, den = at.inverse, at.den
+    x = [sum(a * row[i] for i, a in of.force) for row in inverse]
+    y = [sum(a * inverse[i][j] for i, a in of.sensor) for j in range(len(inverse))]
+    num = den * sum(a * x[i] for i, a in of.sensor) % modulus
     found = [num, den]
-    for e, w in zip(of.entries, powers, strict=True):
-        i, *more = e.rows
-        here, there, square = moved[i], turned[i], inverse[i][i]
-        for j in more:
-            here, there = here - moved[j], there - turned[j]
-            square += inverse[j][j] - 2 * inverse[i][j]
-        found += [
-            w * (num * square - den * here * there) % modulus,
-            w * den * square % modulus,
-        ]
+    for w, pairs, square in at.ways:
+        here = 0
+        for u, v in pairs:
+            there = moved = 0
+            for i, a in u:
+                there += a * y[i]
+            for j, b in v:
+                moved += b * x[j]
+            here += there * moved
+        found += [w * (num * square - den * here) % modulus, w * den * square % modulus]
     return found
 
 
@@ -182,17 +243,21 @@ def _turned(
     """The same times all values that divide, with the derivatives by the values themselves."""
     modulus, zero = num.modulus(), num - num
     whole = 1
-    for e in of.entries:
-        whole = whole * point[e.place] % modulus if e.divides else whole
+    for e in of.frame.entries:
+        whole = whole * e.value(point) % modulus if e.divides else whole
     sides = [side * whole for side in (num, den)]
-    found = [[zero] * of.n_values, [zero] * of.n_values]
-    for k, e in enumerate(of.entries):
-        for at, side in enumerate(sides):
-            slope = slopes[2 * k + at] * whole
-            if e.divides:
-                below = pow(point[e.place], -1, modulus)
-                slope = (side - slope * below) * below
-            found[at][e.place] += slope
+    found = [[zero] * of.frame.n_values, [zero] * of.frame.n_values]
+    given = iter(slopes)
+    for e in of.frame.entries:
+        pair = [next(given) * whole for _ in sides]
+        if e.divides and e.place is not None:
+            below = pow(point[e.place], -1, modulus)
+            pair = [(side - d * below) * below for side, d in zip(sides, pair, strict=True)]
+        by_ratio = [] if e.ratio is None else [next(given) * whole for _ in sides]
+        for place, each in ((e.place, pair), (e.ratio, by_ratio)):
+            if place is not None:
+                for total, slope in zip(found, each, strict=True):
+                    total[place] += slope
     up = of.gained
     return Sides(
         sides[0].left_shift(up),

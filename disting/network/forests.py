@@ -1,41 +1,63 @@
 """Which powers of s occur in the transfer function of a network, and how many terms its
 coefficients have, exactly and without writing them out.
 
-Every coefficient is a sum of products of values, one for each tree (D) or each forest (N), and all
-have one sign where both ports are between the same two nodes or end at the ground. So they do not
-cancel, and what is not zero where all values are 1 is not zero. There the coefficients are whole
-numbers, read as the digits of D and N at s = 2^B, with 2^B above their sum.
+Every coefficient is a sum of products of values, one for each tree (D) or each forest (N), for
+flows too (all minors theorem, Chaiken 1982). No two are made of the same values, so they do not
+cancel.
+
+Signs. Force and sensor are differences, between a+ and a-, c+ and c-. With f(A | B) the sum over
+forests of two trees, one through A, one through B,
+
+    c^T adj P b = f(a+ c+ | a- c-) - f(a+ c- | a- c+)
+
+Where the ports share a node, one of both is empty: all terms have one sign, and what is not zero
+where all values are 1 is not zero. Where they do not, forests are counted (`.trees`).
+Gears: where x_i = h_i y_i with products h of ratios turns each e_i - g e_j into a multiple of
+e_i - e_j, D and N are those of a network without gears at values times products of ratios, and N is
+multiplied by one: as many terms, of the same signs. Where ratios meet in a loop that does not allow
+it, nothing is said.
+
+The coefficients where all values are 1 are whole numbers, read as the digits of D and N at s = 2^B,
+with 2^B above their sum.
 
 LEMMA. Every value enters N and D to the first power. If G at a point, in lowest terms, has the
 degrees of N and D less the power of s that they share everywhere, and depends there on every value
-that is seen, then that power is all that N and D have in common. Proof: any other common factor
-that holds s would keep its degree at the point, as the leading coefficients do not vanish, and
-would be cancelled there. One without s holds some value p; N and D being linear in p, what is left
-of both is free of p, and so is G.
+that is seen, then that power is all that N and D have in common, but for ratios of gears. Proof:
+any other common factor that holds s would keep its degree at the point, as the leading coefficients
+do not vanish, and would be cancelled there. One without s that holds some value p: N and D being
+linear in p, what is left of both is free of p, and so is G. One of ratios alone divides every
+coefficient, which is a product of ratios, so it is such a product: a ratio that some term of N or
+of D lacks is not in it.
 """
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 from flint import fmpz_mat
 
 from disting.algebra.sampling import about, prime, residues
-from disting.network.at_points import Assembly, assembly, quotient_at
+from disting.network.at_points import Assembly, Entry, Vector, assembly, quotient_at
 from disting.network.network import Network
+from disting.network.trees import Edge, forests
 
 REMEMBERED = 1024
+APART = 20  # bits: a network has fewer elements than 2^19
+Sides = tuple[tuple[int, ...], tuple[int, ...]]
 
 
 @dataclass(frozen=True, slots=True)
 class Counts:
     """How many terms the coefficients of s^0, s^1, .. of both sides have, where none cancel, and
-    the largest degree of a term in the values.
+    the largest degree of a term in the values; `free`: the power of s whose coefficient in N, and
+    in D, is a number (None where none is).
     """
 
     num: tuple[int, ...]
     den: tuple[int, ...]
     degree: int
+    free: tuple[int | None, int | None] = (None, None)
 
     @property
     def lost(self) -> int:
@@ -50,44 +72,92 @@ class Counts:
 
 @lru_cache(maxsize=REMEMBERED)
 def counts_of(network: Network, halves: bool) -> Counts | None:
-    """Those of a network whose coefficients are sums of terms of one sign and in lowest terms, as
-    one point shows; None of others.
+    """Those of a network whose terms can be counted and are in lowest terms, as one point shows;
+    None of others.
     """
     of = assembly(network, halves)
-    if of is None or not of.sign:
-        return None
-    known = counts(of)
-    if not any(known.num) or not any(known.den):
+    known = None if of is None else counts(of)
+    if of is None or known is None or not any(known.num) or not any(known.den):
         return None
     label = about("lowest terms", network.elements, network.ports, network.order, halves)
     modulus = prime(label)
-    q = quotient_at(of, residues(f"point:{label}", of.n_values, modulus), modulus)
-    slopes = [(q.num_derivatives[e.place], q.den_derivatives[e.place]) for e in of.entries]
+    q = quotient_at(of, residues(f"point:{label}", of.frame.n_values, modulus), modulus)
+    places = (e.place for e in of.frame.entries)
+    slopes = [(q.num_derivatives[i], q.den_derivatives[i]) for i in places if i is not None]
     kept = (q.num.degree(), q.den.degree()) == known.degrees
     return known if kept and all(a or b for a, b in slopes) else None
 
 
 @lru_cache(maxsize=REMEMBERED)
-def counts(of: Assembly) -> Counts:
-    """Those of an assembly whose `sign` is not 0."""
-    num, den = _digits(of, [e.power for e in of.entries])
-    divide = sum(e.divides for e in of.entries)
-    others = _digits(of, [int(not e.divides) for e in of.entries])
+def counts(of: Assembly) -> Counts | None:
+    """Those of an assembly; None of one whose terms are not counted, or where both sides share the
+    ratio of a gear.
+    """
+    if not _ratios_agree(of):
+        return None
+    sides = _digits(of, [e.power for e in of.frame.entries])
+    # twice the values that do not divide, once the s of compartments and the ratios
+    weights = [1 if e.place is None else 2 * (not e.divides) for e in of.frame.entries]
+    ratios = sorted({e.ratio for e in of.frame.entries if e.ratio is not None})
+    sized = _digits(of, weights, ratios)
+    if sides is None or sized is None:
+        return None
+    for ratio in ratios:
+        alone = _digits(of, [0] * len(weights), [ratio])
+        if alone is None or not any(side and side[0] for side in alone):
+            return None
+    divide, n = sum(e.divides for e in of.frame.entries), of.frame.size
     # of n factors k do not divide: these are left, and the values that divide but for n - k
     degrees = [
-        2 * (len(side) - 1) + divide - n
-        for side, n in zip(others, (of.size - 1, of.size), strict=True)
+        len(side) - 1 + divide - factors
+        for side, factors in zip(sized, (n - 1, n), strict=True)
         if side
     ]
-    return Counts((0,) * of.gained + num if num else (), den, max(degrees))
+    num, den = sides
+    directed = any(e.place is None for e in of.frame.entries)
+    free = (n - 1 + of.gained, n) if directed else (None, None)
+    return Counts((0,) * of.gained + num if num else (), den, max(degrees), free)
 
 
-def _digits(of: Assembly, powers: Sequence[int]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Coefficients of c^T adj P b and det P, but for a sign, with the number s^power for each
-    entry.
+def _ratios_agree(of: Assembly) -> bool:
+    """Whether gears allow to count: the h_i exist, and are the same at both ends of a port."""
+    geared = sorted({e.ratio for e in of.frame.entries if e.ratio is not None})
+    if not geared:
+        return True
+    heights: dict[int, int] = {}  # h_i as a sum of the steps of its ratios
+    steps = {None: 0} | {ratio: 1 << APART * k for k, ratio in enumerate(geared)}
+    links = [
+        (i, j, steps[e.ratio]) for e in of.frame.entries if len(e.feels) > 1 for i, j in [_rows(e)]
+    ]
+    for start in range(of.frame.size):
+        todo = [] if start in heights else [start]
+        heights.setdefault(start, 0)
+        while todo:
+            i = todo.pop()
+            for a, b, step in [*links, *((b, a, -step) for a, b, step in links)]:
+                if a == i and b not in heights:
+                    todo.append(b)
+                if a == i and heights.setdefault(b, heights[i] - step) != heights[i] - step:
+                    return False
+    level = all(len({heights[i] for i, _ in port}) < 2 for port in (of.force, of.sensor))
+    return level and _sign(of) != 0
+
+
+def _rows(e: Entry) -> tuple[int, int]:
+    (i, _), (j, _) = e.feels
+    return i, j
+
+
+def _digits(of: Assembly, powers: Sequence[int], ratios: Collection[int] = ()) -> Sides | None:
+    """Coefficients of c^T adj P b and det P, all signs left out, with the number s^power for each
+    entry and s for some ratios; None where forests cannot be counted.
     """
-    bits = max(_at_ones(of, [1] * len(powers))).bit_length()
-    sides = _at_ones(of, [1 << bits * power for power in powers])
+    sides = _at_ones(of, [1] * len(powers), [1] * of.frame.n_values)
+    bits = max(sides).bit_length() if sides else 0
+    point = [1 << bits if i in ratios else 1 for i in range(of.frame.n_values)]
+    sides = sides and _at_ones(of, [1 << bits * power for power in powers], point)
+    if sides is None:
+        return None
     mask = (1 << bits) - 1
     num, den = (
         tuple(side >> at & mask for at in range(0, side.bit_length(), bits)) for side in sides
@@ -95,13 +165,44 @@ def _digits(of: Assembly, powers: Sequence[int]) -> tuple[tuple[int, ...], tuple
     return num, den
 
 
-def _at_ones(of: Assembly, terms: Sequence[int]) -> tuple[int, int]:
-    """c^T adj P b times its sign, and det P, over the integers."""
-    rows = of.rows(terms)
-    edges = [[0] * of.size for _ in range(2)]
+def _at_ones(of: Assembly, terms: Sequence[int], point: Sequence[int]) -> tuple[int, int] | None:
+    """c^T adj P b, all signs left out, and det P, over the integers."""
+    rows, sign = of.frame.rows(terms, point), _sign(of)
+    den = int(fmpz_mat(rows).det())
+    if not sign:
+        num = _crossing(of, terms)
+        return None if num is None else (num, den)
+    edges = [[0] * of.frame.size for _ in range(2)]
     for edge, port in zip(edges, (of.force, of.sensor), strict=True):
         for i, x in port:
             edge[i] = x
     above = [[*row, x] for row, x in zip(rows, edges[0], strict=True)]
     bordered = fmpz_mat([*above, [*(-x for x in edges[1]), 0]])
-    return of.sign * int(bordered.det()), int(fmpz_mat(rows).det())
+    return sign * int(bordered.det()), den
+
+
+def _sign(of: Assembly) -> int:
+    """That of all terms of N, where the ports share a node; else 0."""
+    (above, below), (plus, minus) = _ends(of.force), _ends(of.sensor)
+    if above == plus or below == minus:
+        return 1
+    return -1 if above == minus or below == plus else 0
+
+
+def _ends(port: Vector) -> tuple[int, int]:
+    """Its nodes, counted from 1, + and -; 0 is the ground."""
+    nodes = {x: i + 1 for i, x in port}
+    return nodes.get(1, 0), nodes.get(-1, 0)
+
+
+def _crossing(of: Assembly, terms: Sequence[int]) -> int | None:
+    """f(a+ c+ | a- c-) + f(a+ c- | a- c+) of ports that share no node."""
+    weights = Counter[Edge]()
+    for e, term in zip(of.frame.entries, terms, strict=True):
+        weights[frozenset([0, *(i + 1 for i, _ in e.feels)][-2:])] += term
+    (above, below), (plus, minus) = _ends(of.force), _ends(of.sensor)
+    found = forests(weights, (above, below, plus, minus))
+    if found is None:
+        return None
+    ways = (((above, plus), (below, minus)), ((above, minus), (below, plus)))
+    return sum(found.get(frozenset(map(frozenset, way)), 0) for way in ways)

@@ -152,21 +152,46 @@ class Network(Drawn):
         numbers = {0: 0} | {i: at for at, i in enumerate(kept, 1)}
         places = {i: numbers[roots[i]] for i in nodes}
         moved = [Port(places[p.plus], places[p.minus]) for p in self.ports]
-        made = object.__new__(Network)  # what is left can be a port without any element
-        for name, value in (
-            ("elements", tuple(renumbered(places, e) for e in seen)),
-            ("inputs", tuple(moved[: len(self.inputs)])),
-            ("outputs", tuple(moved[len(self.inputs) :])),
-            ("order", self.order),
-            ("name", self.name),
-        ):
-            object.__setattr__(made, name, value)
-        return made
+        return _unchecked(
+            tuple(renumbered(places, e) for e in seen),
+            tuple(moved[: len(self.inputs)]),
+            tuple(moved[len(self.inputs) :]),
+            self,
+        )
+
+    @property
+    def cells(self) -> tuple[tuple["Network", ...], ...]:
+        """The network between each output and each input, a row for each output; where nothing is
+        seen there is no way between both.
+        """
+        return tuple(
+            tuple(_unchecked(self.elements, (enter,), (show,), self) for enter in self.inputs)
+            for show in self.outputs
+        )
 
     @property
     def ports(self) -> tuple[Port, ...]:
         """Inputs, then outputs."""
         return (*self.inputs, *self.outputs)
+
+
+def _unchecked(
+    elements: tuple[Element, ...],
+    inputs: tuple[Port, ...],
+    outputs: tuple[Port, ...],
+    like: Network,
+) -> Network:
+    """What is left of a network, which can be a port without any element or without a way."""
+    made = object.__new__(Network)
+    for name, value in (
+        ("elements", elements),
+        ("inputs", inputs),
+        ("outputs", outputs),
+        ("order", like.order),
+        ("name", like.name),
+    ):
+        object.__setattr__(made, name, value)
+    return made
 
 
 def _problems(network: Network) -> Iterator[str]:
