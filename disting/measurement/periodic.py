@@ -20,6 +20,7 @@ from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import Distortion, distortion
 from disting.measurement.outliers import left_out
+from disting.measurement.window import Window
 from disting.model.presentation import plural
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
@@ -46,6 +47,7 @@ class Estimated:
     distortion: Distortion | None = None
     freedom: float | None = None
     doubts: tuple[str, ...] = ()
+    window: Window | None = None
 
 
 def estimate(
