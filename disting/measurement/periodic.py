@@ -48,6 +48,7 @@ class Estimated:
     freedom: float | None = None
     doubts: tuple[str, ...] = ()
     window: Window | None = None
+    drive: Real | None = None
 
 
 def estimate(
@@ -182,7 +183,7 @@ def _estimated(
         )
     if periods == 1:
         alone = outputs[0] / inputs[0]
-        return Estimated(omega=omega, G=alone, deviation=None, coherence=None, notes=notes)
+        return Estimated(omega, alone, None, None, notes, drive=np.abs(inputs[0]))
     with np.errstate(divide="ignore", invalid="ignore"):
         each = outputs / inputs
     names = [f"period {i}" for i in range(1, periods + 1)]
@@ -201,6 +202,7 @@ def _estimated(
         coherence=coherence,
         notes=(*notes, *said),
         freedom=2.0 * (int(count.min(initial=periods)) - 1),
+        drive=np.abs(inputs.mean(axis=0)),
         doubts=doubts,
     )
 

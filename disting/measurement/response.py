@@ -66,7 +66,8 @@ class FrequencyResponse(Shown):
     without excitation of a periodic record show, or None; `doubts` = what looked wrong while
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
-    are; `window` = that of Welch's method, or None. Frequencies out of order are sorted, with a note. Raises InputError for what is no
+    are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line, in
+    any unit, shape (n_f,), or None. Frequencies out of order are sorted, with a note. Raises InputError for what is no
     frequency response (module `checks`).
 
     >>> import numpy as np
@@ -89,6 +90,7 @@ class FrequencyResponse(Shown):
     reading: str = ""
     freedom: float | None = None
     window: Window | None = None
+    drive: Real | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -97,6 +99,7 @@ class FrequencyResponse(Shown):
             "G": response,
             "deviation": optional(self.deviation, "deviation"),
             "coherence": optional(self.coherence, "coherence"),
+            "drive": optional(self.drive, "drive"),
         }
         checks.lengths(**columns)
         checks.enough(omega)
@@ -111,6 +114,7 @@ class FrequencyResponse(Shown):
         checks.nonzero(self.G)
         checks.deviations(self.deviation)
         checks.coherences(self.coherence)
+        checks.drives(self.drive)
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "input", Signal(*self.input))
         object.__setattr__(self, "output", Signal(*self.output))
@@ -179,8 +183,9 @@ class FrequencyResponse(Shown):
         if chosen.dtype != bool and not np.issubdtype(chosen.dtype, np.integer):
             raise InputError("lines are chosen by truth values or by whole numbers")
         try:
-            deviation, coherence = (
-                applied(lambda a: a[chosen], a) for a in (self.deviation, self.coherence)
+            deviation, coherence, drive = (
+                applied(lambda a: a[chosen], a)
+                for a in (self.deviation, self.coherence, self.drive)
             )
             return replace(
                 self,
@@ -189,6 +194,7 @@ class FrequencyResponse(Shown):
                 deviation=deviation,
                 coherence=coherence,
                 window=None if self.window is None else self.window.of(chosen),
+                drive=drive,
             )
         except IndexError as error:
             raise InputError(f"no such lines: {error}") from None

@@ -148,6 +148,7 @@ class TimeSeries:
             freedom=found.freedom,
             doubts=found.doubts,
             window=found.window,
+            drive=found.drive,
         )
         return response if sensor is None else response.to_quantity(sensor)
 
