@@ -66,9 +66,9 @@ class FrequencyResponse(Shown):
     without excitation of a periodic record show, or None; `doubts` = what looked wrong while
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
-    are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line, in
-    any unit, shape (n_f,), or None. Frequencies out of order are sorted, with a note. Raises InputError for what is no
-    frequency response (module `checks`).
+    are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
+    in any unit, shape (n_f,), or None. Frequencies out of order are sorted, with a note. Raises
+    InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -249,11 +249,11 @@ class FrequencyResponse(Shown):
         )
 
     def windowed(self) -> "FrequencyResponse":
-        """The H1 estimate of Welch's method, which shows the response under its window, with its own
-        deviation; itself where nothing else was made of it.
+        """The H1 estimate of Welch's method, which shows the response under its window, with its
+        own deviation; itself where nothing else was made of it.
         """
         window = self.window
-        if window is None or window.ratio is None:
+        if window is None or window.ratio is None or window.share is None:
             return self
         share = window.share
         return replace(

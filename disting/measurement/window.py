@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from disting.measurement.arrays import Complex, Real
@@ -43,16 +44,16 @@ class Window:
     ratio: Complex | None = None
     share: Real | None = None
 
-    def of(self, lines: object) -> "Window":
+    def of(self, lines: NDArray[np.bool_] | NDArray[np.integer]) -> "Window":
         """That of some of the lines."""
         if self.ratio is None or self.share is None:
             return self
-        return Window(self.duration, self.order, self.ratio[lines], self.share[lines])  # type: ignore[index]
+        return Window(self.duration, self.order, self.ratio[lines], self.share[lines])
 
 
 def seen(window: Window, omega: Real, order: int) -> tuple[Complex, csr_array]:
-    """Complex angular frequencies omega_i - j sigma, shape (n,), and the weights, shape (n_f, n), by
-    which responses of a sensor of `order` there make what lines at `omega` show.
+    """Complex angular frequencies omega_i - j sigma, shape (n,), and the weights, shape (n_f, n),
+    by which responses of a sensor of `order` there make what lines at `omega` show.
     """
     return _seen(window.duration, omega.tobytes(), order - window.order)
 

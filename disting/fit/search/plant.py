@@ -59,7 +59,7 @@ class Plant:
     """
 
     structure: Structure
-    omega: Real
+    omega: Real | Complex
     sign: int = 1
     still: tuple[int, ...] = ()
     added: tuple[tuple[int, int, float], ...] = ()
