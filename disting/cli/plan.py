@@ -32,15 +32,19 @@ from disting.schemas import Format
 
 AnyNamed = Named | NamedNetworks
 LINES = 120
+MOST_REPEATS = 1000  # beyond, a scatter is known
 
 
 @dataclass(frozen=True, eq=False)
 class Effort:
-    """Lines [rad/s] and their scatter, shape (n_f,) each, and where it is known from."""
+    """Lines [rad/s] and their scatter, shape (n_f,) each, where it is known from, and of how many
+    repeats a fit will find it.
+    """
 
     omega: Real
     rho: Real
     source: str
+    repeats: int = 1
 
 
 def run(options: argparse.Namespace) -> int:
@@ -60,6 +64,7 @@ def run(options: argparse.Namespace) -> int:
             rival,
             effort.omega,
             effort.rho,
+            repeats=effort.repeats,
             engine=engine,
             executor=pool,
             progress=progress,
@@ -104,7 +109,16 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
 
         def planned(one: AnyStructure, values: dict[str, float], other: AnyStructure) -> Plan:
             """One plan with this effort."""
-            return plan(one, values, other, effort.omega, effort.rho, engine=engine, executor=pool)
+            return plan(
+                one,
+                values,
+                other,
+                effort.omega,
+                effort.rho,
+                repeats=effort.repeats,
+                engine=engine,
+                executor=pool,
+            )
 
         for rival, values in named.rivals.items():
             progress("rival", len(found), len(named.rivals))
@@ -151,7 +165,8 @@ def _effort(
     size = number if number is not None else named.scatter if named else 0.0
     count = options.lines or (named.lines if named else 0) or LINES
     source = "given" if number is not None else "of the fitted data"
-    return Effort(2 * np.pi * np.geomspace(low, high, count), np.full(count, size), source)
+    omega, rho = 2 * np.pi * np.geomspace(low, high, count), np.full(count, size)
+    return Effort(omega, rho, source, options.repeats or 1)
 
 
 def _number(text: str | None) -> float | None:
@@ -172,7 +187,9 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: dict[str
         complain(f"{found.origin or 'data'}: {note}")
     found = found.masked(*options.band) if options.band else found
     seen = scatter(found, [response_of(model, values, found.omega)])
-    return Effort(found.omega, seen.rho, f"of {options.noise}, known from {seen.source}")
+    own = 1 + round((found.freedom or 0.0) / 2)
+    source = f"of {options.noise}, known from {seen.source}"
+    return Effort(found.omega, seen.rho, source, options.repeats or min(own, MOST_REPEATS))
 
 
 def _warn(effort: Effort) -> None:

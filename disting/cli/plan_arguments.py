@@ -9,6 +9,7 @@ from disting.cli.arguments import (
     add_work,
     frequency_range,
     refuse,
+    whole,
 )
 from disting.cli.output import written_folder
 
@@ -41,6 +42,11 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         metavar="K",
         help="number of lines, evenly spaced on a logarithmic scale (default: 120)",
     )
+    text = (
+        "of how many repeats or periods a fit will find the scatter (default: 1, or those of"
+        " FRF.csv): the fewer, the less it excludes"
+    )
+    p.add_argument("--repeats", type=whole(1, 1000), metavar="R", help=text)
     text = "write figure, spectrum to run, lines and JSON there"
     p.add_argument("--out", type=written_folder, metavar="DIR", help=text)
     add_json(p, "the plan")

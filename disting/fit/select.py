@@ -187,10 +187,11 @@ def _fits(
         progress=progress,
     )
     searched = [each[c] for c in candidates]
-    known = witnessed(searched, search, test)
     if not likely:
-        return Fits(search, searched, search, searched, test, known)
-    task = replace(search, cost=search.cost.likely(known[0]))
+        return Fits(search, searched, search, searched, test, witnessed(searched, search, test))
+    shown, test = replace(search, cost=search.cost.windowed()), test and test.windowed()
+    known = witnessed(searched, shown, test)
+    task = replace(shown, cost=shown.cost.likely(known[0]))
     found = polished(searched, task, store, executor, progress)
     return Fits(search, searched, task, found, test and test.likely(known[1]), known)
 

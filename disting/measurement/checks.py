@@ -91,6 +91,15 @@ def coherences(coherence: Real | None) -> None:
         )
 
 
+def drives(drive: Real | None) -> None:
+    """Amplitudes of the input are above zero."""
+    if drive is not None and not drive.min() > 0:
+        raise InputError(
+            f"the amplitude of the input is positive at every line, not {drive.min():g}; leave out"
+            " what is not excited"
+        )
+
+
 def reversed_sensor(omega: Real, response: Complex, missing: int) -> str | None:
     """Sentence if the response looks like that of a free mass seen with the wrong sign.
 

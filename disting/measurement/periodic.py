@@ -20,6 +20,7 @@ from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import Distortion, distortion
 from disting.measurement.outliers import left_out
+from disting.measurement.window import Window
 from disting.model.presentation import plural
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
@@ -46,6 +47,8 @@ class Estimated:
     distortion: Distortion | None = None
     freedom: float | None = None
     doubts: tuple[str, ...] = ()
+    window: Window | None = None
+    drive: Real | None = None
 
 
 def estimate(
@@ -180,7 +183,7 @@ def _estimated(
         )
     if periods == 1:
         alone = outputs[0] / inputs[0]
-        return Estimated(omega=omega, G=alone, deviation=None, coherence=None, notes=notes)
+        return Estimated(omega, alone, None, None, notes, drive=np.abs(inputs[0]))
     with np.errstate(divide="ignore", invalid="ignore"):
         each = outputs / inputs
     names = [f"period {i}" for i in range(1, periods + 1)]
@@ -199,6 +202,7 @@ def _estimated(
         coherence=coherence,
         notes=(*notes, *said),
         freedom=2.0 * (int(count.min(initial=periods)) - 1),
+        drive=np.abs(inputs.mean(axis=0)),
         doubts=doubts,
     )
 

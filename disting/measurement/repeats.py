@@ -46,6 +46,7 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         G=values.mean(axis=0, where=kept),
         deviation=deviation,
         coherence=None,
+        window=None,
         freedom=2.0 * (int(count.min()) - 1),
     )
     relative = float(np.median(deviation * np.sqrt(count) / np.abs(mean.G)))

@@ -23,6 +23,7 @@ from disting.measurement.arrays import (
 )
 from disting.measurement.distortion import Distortion
 from disting.measurement.units import agree, differentiated
+from disting.measurement.window import Window
 from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import Shown, plural, summary
 
@@ -65,8 +66,9 @@ class FrequencyResponse(Shown):
     without excitation of a periodic record show, or None; `doubts` = what looked wrong while
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
-    are. Frequencies out of order are sorted, with a note. Raises InputError for what is no
-    frequency response (module `checks`).
+    are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
+    in any unit, shape (n_f,), or None. Frequencies out of order are sorted, with a note. Raises
+    InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -87,6 +89,8 @@ class FrequencyResponse(Shown):
     doubts: tuple[str, ...] = ()
     reading: str = ""
     freedom: float | None = None
+    window: Window | None = None
+    drive: Real | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -95,6 +99,7 @@ class FrequencyResponse(Shown):
             "G": response,
             "deviation": optional(self.deviation, "deviation"),
             "coherence": optional(self.coherence, "coherence"),
+            "drive": optional(self.drive, "drive"),
         }
         checks.lengths(**columns)
         checks.enough(omega)
@@ -109,6 +114,7 @@ class FrequencyResponse(Shown):
         checks.nonzero(self.G)
         checks.deviations(self.deviation)
         checks.coherences(self.coherence)
+        checks.drives(self.drive)
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "input", Signal(*self.input))
         object.__setattr__(self, "output", Signal(*self.output))
@@ -177,8 +183,9 @@ class FrequencyResponse(Shown):
         if chosen.dtype != bool and not np.issubdtype(chosen.dtype, np.integer):
             raise InputError("lines are chosen by truth values or by whole numbers")
         try:
-            deviation, coherence = (
-                applied(lambda a: a[chosen], a) for a in (self.deviation, self.coherence)
+            deviation, coherence, drive = (
+                applied(lambda a: a[chosen], a)
+                for a in (self.deviation, self.coherence, self.drive)
             )
             return replace(
                 self,
@@ -186,6 +193,8 @@ class FrequencyResponse(Shown):
                 G=self.G[chosen],
                 deviation=deviation,
                 coherence=coherence,
+                window=None if self.window is None else self.window.of(chosen),
+                drive=drive,
             )
         except IndexError as error:
             raise InputError(f"no such lines: {error}") from None
@@ -237,6 +246,21 @@ class FrequencyResponse(Shown):
                 else self.distortion.times(self.distortion.omega**steps)
             ),
             output=self.output._replace(unit=differentiated(self.output.unit, self.sensor, wanted)),
+        )
+
+    def windowed(self) -> "FrequencyResponse":
+        """The H1 estimate of Welch's method, which shows the response under its window, with its
+        own deviation; itself where nothing else was made of it.
+        """
+        window = self.window
+        if window is None or window.ratio is None or window.share is None:
+            return self
+        share = window.share
+        return replace(
+            self,
+            G=self.G * window.ratio,
+            deviation=applied(lambda d: d * share, self.deviation),
+            window=Window(window.duration, window.order),
         )
 
     def sign_reversed(self) -> "FrequencyResponse":

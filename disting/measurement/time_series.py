@@ -125,7 +125,9 @@ class TimeSeries:
                     *given, period, transient, lines, band, excitation, outliers
                 )
             else:
-                found = welch.estimate(*given, segment, band, self.reference, least_coherence)
+                found = welch.estimate(
+                    *given, segment, band, self.reference, least_coherence, self.sensor.order
+                )
         _refuse_few(found, band)
         in_doubt = segment is not None and self.reference is None
         doubt = follows_output(self.u, self.y) if in_doubt else None
@@ -145,6 +147,8 @@ class TimeSeries:
             + (self.left_out and f"; {self.left_out}"),
             freedom=found.freedom,
             doubts=found.doubts,
+            window=found.window,
+            drive=found.drive,
         )
         return response if sensor is None else response.to_quantity(sensor)
 

@@ -43,6 +43,7 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.periodic import Estimated
+from disting.measurement.window import Window
 from disting.model.presentation import plural
 
 FEWEST_SEGMENTS = 4
@@ -62,11 +63,13 @@ def estimate(
     band: tuple[float, float] | None,
     reference: Real | None = None,
     least_coherence: float | None = None,
+    order: int = 2,
 ) -> Estimated:
     """Estimate at the even multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half
     the sampling rate.
 
-    Lines of a coherence below `least_coherence` are left out (default: that of chance).
+    Lines of a coherence below `least_coherence` are left out (default: that of chance). `order` of
+    the sensor (2: acceleration).
     """
     count = _segments(len(u), segment)
     low, high = band or (0.0, np.inf)
@@ -98,15 +101,17 @@ def estimate(
     coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
     good &= even
     bias, whole, beyond = _bias(response, deviation)
-    size = np.abs(response)[good]
+    size, made = np.abs(response)[good], (response - bias)[good]
+    ratio, share = response[good] / made, (deviation / np.maximum(whole, TINY))[good]
     return Estimated(
         omega=2 * np.pi * grid[kept][good],
-        G=(response - bias)[good],
+        G=made,
         deviation=whole[good],
         coherence=coherence[good],
         notes=tuple(notes),
         freedom=2.0 * (effective - 1),
         doubts=_smoothed(grid[kept][good], beyond[good] / size, deviation[good] / size, segment),
+        window=Window(segment / rate, order, ratio, share) if reference is None else None,
     )
 
 

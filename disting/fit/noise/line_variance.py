@@ -98,12 +98,15 @@ def freedom(omega: Real) -> float:
     return float(2 * n**2 / (matrix @ matrix.T).power(2).sum())
 
 
-def sources(omega: Real, size: Real, order: int) -> Real:
+def sources(omega: Real, size: Real, order: int, drive: Real | None = None) -> Real:
     """Shapes of the variances over the lines, shape (n_f, 4), of |G| = `size` of a sensor of this
-    order (2: acceleration), each with mean 1.
+    order (2: acceleration), each with mean 1; `drive` = amplitude of the input, where it is known:
+    what is measured beside a weak line counts for more.
     """
     x = omega / np.exp(np.mean(np.log(omega)))
     shapes = np.stack([size**2, *(x ** (2.0 * (order - n)) for n in range(3))], axis=1)
+    if drive is not None:
+        shapes = shapes / drive[:, None] ** 2
     return np.asarray(shapes / shapes.mean(axis=0))
 
 

@@ -113,9 +113,14 @@ def scatter(measured: FrequencyResponse, fitted: Sequence[Complex] = ()) -> Scat
 
     def shapes(size: Real) -> Real:
         """The sources of a bench."""
-        return sources(measured.omega, size, measured.sensor.order)
+        return _sources(measured, size)
 
     return _from_neighbours(measured, fitted, shapes, "neighbouring lines")
+
+
+def _sources(measured: FrequencyResponse, size: Real) -> Real:
+    """The sources of a bench over the lines of a response of amplitudes `size`."""
+    return sources(measured.omega, size, measured.sensor.order, measured.drive)
 
 
 def _from_neighbours(
@@ -154,7 +159,7 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
     floor = float(np.median(deviation[deviation > 0])) ** 2
     power = np.maximum(deviation**2, 1e-6 * floor)
     nu = measured.freedom or _freedom_by_jumps(measured.omega, power)
-    variance, prior = _shrunk(power, nu, sources(measured.omega, seen.size, measured.sensor.order))
+    variance, prior = _shrunk(power, nu, _sources(measured, seen.size))
     own = Scatter(
         np.maximum(np.sqrt(variance / 2) / seen.size, LEAST),
         seen.size,
@@ -197,7 +202,7 @@ def _widened(variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Re
     """
     tau = _balanced(lambda tau: _excess(seen, variance + 2 * (tau * seen.size) ** 2))
     distorted = variance + 2 * (tau * seen.size) ** 2
-    columns = sources(measured.omega, seen.size, measured.sensor.order)
+    columns = _sources(measured, seen.size)
     columns = np.column_stack([variance, columns])
     noisy = np.maximum(columns @ coefficients(seen.expected(columns), seen.power), variance)
     gain = _deviance(seen, distorted) - _deviance(seen, noisy)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.fit.plan.power import Answer, Plan, plan_to_dict, power
+from disting.fit.plan.power import Answer, Plan, plan_to_dict
 from disting.fit.plan.spectrum import Adversary, Band, Spectrum, best_band, optimal, runnable
 from disting.measurement.arrays import Real
 from disting.model.presentation import plural, summary
@@ -105,6 +105,6 @@ def designed_to_dict(found: Plan, best: Designed | None) -> dict[str, Any]:
 def _sized(found: Plan, noncentrality: float) -> dict[str, float]:
     return {
         "noncentrality": noncentrality,
-        "power": power(noncentrality, found.surplus, found.level),
+        "power": found.power_at(noncentrality),
         "factor": found.needed / noncentrality,
     }

@@ -6,7 +6,8 @@ freedom; with the model true it does so with the probability (the power)
 
     P(chi2_s(lambda) > c),    chi2_s(lambda): noncentral chi2,
 
-95 % for lambda = 17.8 and s = 1. lambda is proportional to 1/rho^2: twice the periods, or amplitude
+95 % for lambda = 17.8 and s = 1, where the scatter is known; a fit that has to find it does less
+well (`sample`). lambda is proportional to 1/rho^2: twice the periods, or amplitude
 times sqrt 2, or twice the lines within the same range, double it.
 
 s is the rank of the smallest structure that contains both, less that of the rival: what a damper,
@@ -22,14 +23,13 @@ from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 from math import inf, sqrt
 from typing import Any
 
-from scipy.optimize import brentq
-from scipy.stats import ncx2
-
-from disting.fit.judge.exclusion import LEVEL, joined, limit, surplus, trials
+from disting.fit.judge.exclusion import LEVEL, joined, surplus, trials
 from disting.fit.plan.rival import Rival, Trust, fitted_rival
+from disting.fit.plan.sample import POWER, Sample, ideal, simulated
 from disting.fit.plan.search import AnyStructure, name_of, sensor_of, shown_as
 from disting.general.any_model import of_network
 from disting.measurement.arrays import Real
@@ -42,9 +42,6 @@ from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Relation, Verdict
 
-POWER = 0.95  # wanted probability of excluding one that is not
-LARGEST = 1e6  # noncentrality that is looked for, at most
-
 
 class Answer(StrEnum):
     """Whether measuring more helps."""
@@ -56,28 +53,28 @@ class Answer(StrEnum):
 
 
 def power(noncentrality: float, surplus: int = 1, level: float = LEVEL) -> float:
-    """Probability of excluding the rival if the model is true.
+    """Probability of excluding the rival if the model is true and the scatter known.
 
     >>> round(power(17.8), 3), round(power(0.0), 3)
     (0.95, 0.01)
     """
-    most = limit(surplus, inf, level=level)
-    return float(ncx2.sf(most, surplus, noncentrality)) if noncentrality > 0 else level
+    return ideal(surplus, level).power(noncentrality) if noncentrality > 0 else level
 
 
 def needed(surplus: int = 1, level: float = LEVEL, wanted: float = POWER) -> float:
-    """Noncentrality for a power.
+    """Noncentrality for a power, if the scatter is known.
 
     >>> round(needed(), 1), round(needed(2), 1)
     (17.8, 20.6)
     """
-    return float(brentq(lambda size: power(size, surplus, level) - wanted, 0.0, LARGEST))
+    return ideal(surplus, level).needed(wanted)
 
 
 @dataclass(frozen=True, eq=False)
 class Plan(Shown):
     """What is planned for one rival; `rival` is None where the verdict makes a fit idle, `verdict`
-    where none was asked for.
+    where none was asked for. `repeats`: of the measurement, from which a fit finds the scatter;
+    None where it is known.
     """
 
     model: AnyStructure
@@ -86,6 +83,7 @@ class Plan(Shown):
     verdict: Verdict | None
     surplus: int
     rival: Rival | None
+    repeats: int | None = None
 
     def __repr__(self) -> str:
         size = f", lambda {self.noncentrality:.3g}" * (self.noncentrality > 0)
@@ -129,7 +127,19 @@ class Plan(Shown):
     @property
     def power(self) -> float:
         """With the effort at hand."""
-        return power(self.noncentrality, self.surplus, self.level)
+        return self.power_at(self.noncentrality)
+
+    def power_at(self, noncentrality: float) -> float:
+        """With an effort of which this is lambda."""
+        return self.test.power(noncentrality) if noncentrality > 0 else self.level
+
+    @cached_property
+    def test(self) -> Sample:
+        """As a fit runs it."""
+        if self.repeats is None or not self.noncentrality > 0:
+            return ideal(self.surplus, self.level)
+        assert self.rival is not None
+        return simulated(self.rival, self.surplus, self.level, self.repeats)
 
     @property
     def level(self) -> float:
@@ -143,7 +153,7 @@ class Plan(Shown):
     @property
     def needed(self) -> float:
         """Noncentrality for a power of 95 %."""
-        return needed(self.surplus, self.level)
+        return self.test.needed()
 
     @property
     def factor(self) -> float:
@@ -161,12 +171,14 @@ def plan(
     omega: Real,
     rho: Real,
     *,
+    repeats: int | None = None,
     engine: Engine | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Plan:
     """Power of data of `model` with these parameters against `rival`, at angular frequencies
-    [rad/s] whose lines scatter by `rho`, shape (n_f,) each. Raises InputError for missing,
+    [rad/s] whose lines scatter by `rho`, shape (n_f,) each, which a fit finds from so many
+    `repeats` (module `sample`), or knows (None). Raises InputError for missing,
     unknown or negative values (not asked for where both behave the same), and for a chain beside a
     network.
     """
@@ -185,7 +197,7 @@ def plan(
         executor=executor,
         progress=progress,
     )
-    return Plan(model, values, rival, verdict, _surplus(model, rival, engine), fit)
+    return Plan(model, values, rival, verdict, _surplus(model, rival, engine), fit, repeats)
 
 
 def _surplus(model: AnyStructure, rival: AnyStructure, engine: Engine) -> int:
@@ -218,6 +230,7 @@ def plan_to_dict(found: Plan) -> dict[str, Any]:
     more = found.noncentrality > 0
     return plain | {
         "surplus_parameters": found.surplus,
+        "repeats": found.repeats,
         "needed_noncentrality": found.needed,
         "factor": found.factor if more else None,
         "noise": typical(rival.rho),

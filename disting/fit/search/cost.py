@@ -20,6 +20,7 @@ from math import log, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from disting.errors import InputError
 from disting.fit.noise.scatter import Scatter
@@ -27,6 +28,7 @@ from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real, evenly
+from disting.measurement.window import seen
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.structure import Structure
@@ -148,6 +150,20 @@ class Cost(SquaredCost):
         """
         return replace(self, case=Case.COMPLEX, weights=None, lines=sqrt(2) / known.sigma)
 
+    def windowed(self) -> "Cost":
+        """Of what Welch's method shows, which is the response under a window."""
+        return replace(self, measured=self.measured.windowed())
+
+    @property
+    def seen(self) -> tuple[Real | Complex, csr_array | None]:
+        """Angular frequencies at which a response is needed, and the window that makes lines of
+        it.
+        """
+        measured = self.measured
+        if measured.window is None or measured.window.ratio is not None:
+            return measured.omega, None
+        return seen(measured.window, measured.omega, measured.sensor.order)
+
     @property
     def parts(self) -> tuple["Cost", ...]:
         """The costs of the single responses: this one."""
@@ -169,7 +185,8 @@ class Cost(SquaredCost):
 
     def plant(self, structure: Structure, sign: int) -> Plant:
         """The structure at the lines of the data."""
-        return Plant(structure, self.measured.omega, sign)
+        omega, window = self.seen
+        return Plant(structure, omega, sign, window=window)
 
     def on(self, chain: Chain) -> "Cost":
         """Of the responses that a chain has: every chain has this one."""

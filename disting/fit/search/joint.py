@@ -78,7 +78,7 @@ class JointPlant:
         responses, gradients = list[Complex](), list[Complex]()
         for part, own, at, motion in self._with_motion(p):
             response, gradient = part.logarithmic_gradient(own, motion)
-            whole = np.zeros((*p.shape, len(part.omega)), dtype=np.complex128)
+            whole = np.zeros((*p.shape, gradient.shape[-1]), dtype=np.complex128)
             whole[..., at, :] = gradient
             responses.append(response)
             gradients.append(whole)
@@ -165,6 +165,10 @@ class JointCost(SquaredCost):
         each = zip(self.parts, self._of_each(known), strict=True)
         return replace(self, parts=tuple(part.likely(own) for part, own in each))
 
+    def windowed(self) -> "JointCost":
+        """Of what Welch's method shows."""
+        return replace(self, parts=tuple(part.windowed() for part in self.parts))
+
     def _of_each(self, known: Scatter) -> Iterator[Scatter]:
         """The scatter of each response."""
         ends = np.cumsum([0, *(len(part.measured) for part in self.parts)])
@@ -176,10 +180,11 @@ class JointCost(SquaredCost):
         plants = [
             Plant(
                 setup.seen(structure, part.measured.sensor),
-                part.measured.omega,
+                part.seen[0],
                 sign * setup.sign,
                 setup.still(n),
                 setup.added(n),
+                part.seen[1],
             )
             for part, setup in zip(self.parts, setups, strict=True)
         ]

@@ -23,6 +23,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from disting.errors import InputError
 from disting.measurement.arrays import Complex, Real
@@ -47,7 +48,9 @@ class Plant:
     """A chain's structure at angular frequencies `omega` [rad/s], shape (n_f,); `sign` = -1 for
     a reversed sensor.
 
-    `still`: masses that are locked; `added`: (mass, power of s, size) of what is known.
+    `still`: masses that are locked; `added`: (mass, power of s, size) of what is known. `window`:
+    weights, shape (n_f, n), by which responses at complex frequencies `omega`, shape (n,), make
+    what a line shows (`measurement.window`).
 
     >>> from disting import Chain
     >>> plant = Plant(Chain(1, damped=False).structure, np.array([1.0, 2.0]))
@@ -56,10 +59,11 @@ class Plant:
     """
 
     structure: Structure
-    omega: Real
+    omega: Real | Complex
     sign: int = 1
     still: tuple[int, ...] = ()
     added: tuple[tuple[int, int, float], ...] = ()
+    window: csr_array | None = None
 
     def __post_init__(self) -> None:
         if self.sign not in (1, -1):
@@ -72,7 +76,7 @@ class Plant:
 
     def at(self, omega: Real, which: int = 0) -> "Plant":
         """The same plant at other angular frequencies; there is one response."""
-        return replace(self, omega=omega)
+        return replace(self, omega=omega, window=None)
 
     def motion(self, p: Real) -> "Motion":
         """What the force moves; any sensor on the same machine at the same lines shows a part of
@@ -86,7 +90,7 @@ class Plant:
         system of units; `motion` where it is known.
         """
         ports, x = self.structure.ports, (motion or self.motion(p)).x
-        return self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus)
+        return self._shown(self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus))
 
     def logarithmic_gradient(
         self, p: Real, motion: "Motion | None" = None
@@ -113,7 +117,22 @@ class Plant:
             gradient[..., self._lag_at, :] = -s / (1 + s * p[..., self._lag_at, None])
         if self.structure.dead_time:
             gradient[..., -1, :] = -s
-        return self._factor(p) * receptance, gradient
+        return self._shown_with(self._factor(p) * receptance, gradient)
+
+    def _shown(self, response: Complex) -> Complex:
+        """What lines show, shape (..., n_f), of responses, shape (..., n)."""
+        if self.window is None:
+            return response
+        rows = response.reshape(-1, response.shape[-1])
+        return np.asarray((self.window @ rows.T).T.reshape(*response.shape[:-1], -1))
+
+    def _shown_with(self, response: Complex, gradient: Complex) -> tuple[Complex, Complex]:
+        """The same with d ln G / d p, shape (..., n_p, n)."""
+        if self.window is None:
+            return response, gradient
+        whole = self._shown(response)
+        slope = self._shown(response[..., None, :] * gradient)
+        return whole, np.asarray(slope / whole[..., None, :])
 
     def _factor(self, p: Real) -> Complex:
         """c of the module's formula, shape (..., n_f)."""

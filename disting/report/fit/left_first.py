@@ -10,7 +10,7 @@ from disting.fit.judge.admissible import KNOWN, UNDETERMINED
 from disting.fit.judge.exclusion import joined
 from disting.fit.plan.fit_file import Named
 from disting.fit.plan.further import Foretold
-from disting.fit.plan.power import POWER
+from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import reference
 from disting.report.fit.left_words import Onward, cheapest_first
 from disting.report.fit.plan_words import chance

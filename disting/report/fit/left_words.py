@@ -9,8 +9,8 @@ from disting.experiments.menu import Costs, Item
 from disting.fit.judge.exclusion import LEVEL, joined
 from disting.fit.plan.fit_file import Left, Named
 from disting.fit.plan.further import Foretold, Step
-from disting.fit.plan.power import POWER
 from disting.fit.plan.relations import Standing, Stood
+from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import as_listed, reference
 from disting.model.chain import Chain
 from disting.model.drawing import LEGEND, text_drawing

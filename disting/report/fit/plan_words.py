@@ -10,8 +10,9 @@ from disting.fit.judge.exclusion import LEVEL
 from disting.fit.plan.design import Designed
 from disting.fit.plan.fit_file import Named
 from disting.fit.plan.network_file import NamedNetworks
-from disting.fit.plan.power import POWER, Answer, Plan, is_trusted, power, typical
+from disting.fit.plan.power import Answer, Plan, is_trusted, typical
 from disting.fit.plan.rival import Limit, Rival
+from disting.fit.plan.sample import POWER
 from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.search.candidates import as_listed, reference
 from disting.model.chain import Chain
@@ -262,7 +263,8 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f" squares over the lines {readable(float(np.sum(rival.apart**2)))}"
     )
     yield (
-        f"test            {found.surplus} degree{plural} of freedom{larger}, level {percent(LEVEL)}"
+        f"test            {found.surplus} degree{plural} of freedom{larger}, level"
+        f" {percent(LEVEL)}{_estimated(found)}"
     )
     yield (
         f"noncentrality   {readable(found.noncentrality)} squared units of noise between both"
@@ -275,6 +277,14 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
     yield f"  {readable(found.factor)} times the periods"
     yield f"  {readable(sqrt(found.factor))} times the amplitude"
     yield f"  {lines} lines in the same range"
+
+
+def _estimated(found: Plan) -> str:
+    """From what a fit finds the scatter."""
+    if found.repeats is None:
+        return ""
+    own = "one measurement" if found.repeats == 1 else f"{found.repeats} repeats"
+    return f", with the scatter that a fit finds in {own}"
 
 
 def _spectra(found: Plan, best: Designed) -> Iterator[str]:
@@ -291,7 +301,7 @@ def _spectra(found: Plan, best: Designed) -> Iterator[str]:
     yield f"{'excitation of the same power':{width}}  {'lambda':>8}  {'power':>8}  {'periods':>8}"
     for name, size in rows:
         periods = f"{readable(found.needed / size)}x"
-        reached = chance(power(size, found.surplus, found.level))
+        reached = chance(found.power_at(size))
         yield f"{name:{width}}  {readable(size):>8}  {reached:>8}  {periods:>8}"
     gap = best.optimum.bound / best.optimum.noncentrality - 1
     above = f"{percent(gap)} above the optimal one"
