@@ -1,5 +1,7 @@
 """The fast response and its derivatives against a dense solve and differences."""
 
+import warnings
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -77,3 +79,12 @@ def test_a_wrong_unit_of_frequency_makes_other_values_of_the_same_chain(chain):
     other = {name: value * c ** powers[name[0]] for name, value in values.items()}
     right, wrong = response(chain, values), response(chain, other, OMEGA / c)
     np.testing.assert_allclose(wrong.G, right.G, rtol=1e-9)
+
+
+def test_values_without_end_overflow_without_a_warning():
+    """As an interval meets them that has no upper end."""
+    plant = Plant(Chain(3).structure, OMEGA)
+    p = np.full(len(plant.parameters), 1e200)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert plant.response(p).shape == plant.logarithmic_gradient(p)[0].shape == OMEGA.shape

@@ -78,6 +78,7 @@ class Plant:
         """The same plant at other angular frequencies; there is one response."""
         return replace(self, omega=omega, window=None)
 
+    @np.errstate(all="ignore")  # where an interval has no end, values may overflow
     def motion(self, p: Real) -> "Motion":
         """What the force moves; any sensor on the same machine at the same lines shows a part of
         it.
@@ -92,6 +93,7 @@ class Plant:
         ports, x = self.structure.ports, (motion or self.motion(p)).x
         return self._shown(self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus))
 
+    @np.errstate(all="ignore")
     def logarithmic_gradient(
         self, p: Real, motion: "Motion | None" = None
     ) -> tuple[Complex, Complex]:
