@@ -4,7 +4,12 @@ In a case with one equation h = 0 some unknowns are chosen as fractions of the p
 one, x, two points a, b of [0, oo] are sought between which h changes its sign for all p: the
 numerators of h(a) and h(b) have opposite signs, and all inequalities hold on the whole way x = (a
 + b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t they have
-positive coefficients. So h has a root on the way. What is solved for is N/c, and inequalities lose
+positive coefficients. So h has a root on the way. Or only this:
+THEOREM. Let each inequality g > 0 hold on the whole way, or let g(a) > 0 and h have the sign of
+h(b) wherever g = 0 on it. Then all hold at the root of h that is nearest to a.
+Proof. From a up to this root h has the sign of h(a). Had g a zero there, h would have that of h(b).
+What h is where g = 0 shows its remainder after division by g, multiplied by powers of the leading
+coefficient of g, which is to have one sign. What is solved for is N/c, and inequalities lose
 even powers, so it is also asked that the `nonzero` polynomials of the case, among them these c, N
 and lead(q), have no common factor with h that contains x: then for generic p none of them is zero
 at any root of h (their resultant with h, a polynomial in the p, is not zero), and all other
@@ -14,7 +19,7 @@ few of them, and the roots of linear inequalities.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import combinations, combinations_with_replacement, islice
+from itertools import combinations, combinations_with_replacement, islice, permutations
 from math import prod
 
 from flint import fmpz_mpoly
@@ -23,7 +28,7 @@ from disting.algebra.rational_function import RationalFunction
 from disting.algebra.sampling import residues
 from disting.algebra.symbols import factored
 from disting.general.cases import Case, numbered, placed
-from disting.general.counts import number_of_roots
+from disting.general.counts import number_of_roots, remainder
 from disting.general.orthant import Orthant
 
 CHOICES = 12  # fractions that are tried for the unknown that is chosen
@@ -46,6 +51,17 @@ class Path:
     high: End
     values: tuple[RationalFunction, ...]
     where: tuple[fmpz_mpoly, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """An end, the sign of the equation there, and whether no inequality fails there: in rounded
+    numbers, at some points.
+    """
+
+    end: End
+    sign: int
+    inside: bool
 
 
 def path(ring: Orthant, case: Case) -> Path | None:
@@ -95,13 +111,46 @@ def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case
 
 
 def _root(ring: Orthant, case: Case, at: int) -> Path | None:
-    for low, high in _promising(ring, case, at):
-        signs = [_seen(ring, ring.put(case.equations[0], at, *end)[0]) for end in (low, high)]
-        if signs[0] * signs[1] < 0 and all(
-            _holds_between(ring, g, at, low, high) for g in case.positive
+    ends, equation = _marked(ring, case, at), case.equations[0]
+    for low, high in combinations([e for e in ends if e.inside], 2):
+        if _changed(ring, equation, at, low, high) and all(
+            _holds_between(ring, g, at, low.end, high.end) for g in case.positive
         ):
-            return _known(ring, case, at, low, high)
+            return _known(ring, case, at, low.end, high.end)
+    for start, goal in permutations(ends, 2):
+        sign = _changed(ring, equation, at, start, goal) if start.inside else 0
+        if sign and all(
+            _holds_to_root(ring, g, sign * equation, at, (start.end, goal.end))
+            for g in case.positive
+        ):
+            return _known(ring, case, at, start.end, goal.end)
     return None
+
+
+def _changed(ring: Orthant, equation: fmpz_mpoly, at: int, low: Mark, high: Mark) -> int:
+    """The sign at the one end if it is seen to be opposite to that at the other one, else 0."""
+    if low.sign == high.sign:
+        return 0
+    signs = [_seen(ring, ring.put(equation, at, *mark.end)[0]) for mark in (low, high)]
+    return signs[1] if signs[0] * signs[1] < 0 else 0
+
+
+def _holds_to_root(
+    ring: Orthant, polynomial: fmpz_mpoly, equation: fmpz_mpoly, at: int, way: tuple[End, End]
+) -> bool:
+    """Whether it is positive from the start to the first root: on the whole way, or as the theorem
+    says. The equation is positive at the goal.
+    """
+    if _holds_between(ring, polynomial, at, *way):
+        return True
+    lead = ring.coefficients(polynomial, at)[-1]
+    sign = ring.sign(lead)
+    if not (sign and polynomial.degrees()[at]):
+        return False
+    if _seen(ring, ring.put(polynomial, at, *way[0])[0]) <= 0:
+        return False
+    rest = remainder(ring, equation, sign * polynomial, sign * lead, at)
+    return _holds_between(ring, rest, at, *way)
 
 
 def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | None:
@@ -131,23 +180,15 @@ def _seen(ring: Orthant, polynomial: fmpz_mpoly) -> int:
     return 0 if factors else sign
 
 
-def _promising(ring: Orthant, case: Case, at: int) -> Iterator[tuple[End, End]]:
-    """Pairs of ends between which the signs are right at some points, in rounded numbers: what
-    is left out is not proven.
-    """
-    ends = list(_ends(ring, case, at))
-    at_ends = [
-        _numbers(ring, [ring.put(g, at, *end)[0] for g in (*case.equations, *case.positive)])
-        for end in ends
-    ]
-    kept = [
-        i
-        for i, rows in enumerate(at_ends)
-        if abs(sum(rows[0])) == TRIALS and all(min(r, default=0) >= 0 for r in rows[1:])
-    ]
-    for i, j in combinations(kept, 2):
-        if at_ends[i][0] != at_ends[j][0]:
-            yield ends[i], ends[j]
+def _marked(ring: Orthant, case: Case, at: int) -> list[Mark]:
+    """Ends at which the equation seems to have one sign: where to look."""
+    found = []
+    for end in _ends(ring, case, at):
+        rows = _numbers(ring, [ring.put(g, at, *end)[0] for g in (*case.equations, *case.positive)])
+        if abs(sum(rows[0])) == TRIALS:
+            inside = all(min(r, default=0) >= 0 for r in rows[1:])
+            found.append(Mark(end, rows[0][0], inside))
+    return found
 
 
 def _numbers(ring: Orthant, polynomials: list[fmpz_mpoly]) -> list[list[int]]:

@@ -66,14 +66,14 @@ def at_roots(ring: Orthant, case: Case) -> Case | str:
     if not sign or not equation.degrees()[at]:
         return case
     try:
-        rests = [_remainder(ring, g, sign * equation, sign * lead, at) for g in case.positive]
+        rests = [remainder(ring, g, sign * equation, sign * lead, at) for g in case.positive]
         positive, failing = inequalities(ring, rests)
     except TooMuch:
         return case
     return f"{failing} > 0" if failing is not None else replace(case, positive=positive)
 
 
-def _remainder(
+def remainder(
     ring: Orthant, polynomial: fmpz_mpoly, equation: fmpz_mpoly, lead: fmpz_mpoly, at: int
 ) -> fmpz_mpoly:
     """What has the sign of a polynomial where an equation with a positive leading coefficient is

@@ -10,8 +10,9 @@ interval.
 
 LACKING. No `generic` polynomial vanishes at p, so none does near p; every section has a polynomial
 that is negative at p, so it is near p; and in all other cases no point of the closed box [0, oo]^n
-of the unknowns solves the equations with all inequalities >= 0, shown by boxes on each of which
-one polynomial has a sign, as it then has for all parameters near p. A p with an equivalent has a
+of the unknowns (or of the sum of two of them and their quotient) solves the equations with all
+inequalities >= 0, shown by boxes on each of which one polynomial has a sign, as it then has for all
+parameters near p. A p with an equivalent has a
 section with all polynomials >= 0 or a solution in one of these boxes (see `cases`, `sections`), so
 no p near the point has one. Over real numbers the boxes of all signs of the unknowns are looked
 at.
@@ -30,7 +31,7 @@ from disting.algebra.rational_function import RationalFunction
 from disting.general.cases import Case, Search
 from disting.general.orthant import value_at
 from disting.general.sections import Section
-from disting.general.signs_on_boxes import Box, Grid, is_empty, root
+from disting.general.signs_on_boxes import Box, Grid, is_empty, over_sum, root
 from disting.model.question import Domain
 
 UNKNOWNS = 2  # of a case at a point, at most
@@ -171,15 +172,30 @@ def _is_void(parted: Parted, case: Case, point: Point) -> bool:
     if not free or len(free) > UNKNOWNS:
         return False
     ways = product((1,) if ring.domain is Domain.POSITIVE else (1, -1), repeat=len(free))
-    return all(is_empty(_box(case, point, tuple(free), signs), len(free)) for signs in ways)
+    boxes = (_box(case, point, tuple(free), signs) for signs in ways)
+    return all(is_empty(box, len(free)) for box in boxes)
 
 
 def _box(case: Case, point: Point, free: tuple[int, ...], signs: tuple[int, ...]) -> Box:
+    """In the axes of both unknowns, or of their sum and quotient where no equation tells anything
+    of both being infinite.
+    """
     equations, positive = (
         tuple(_grid(g, point, free, signs) for g in side)
         for side in (case.equations, case.positive)
     )
+    if len(free) < UNKNOWNS or not equations or any(grid[-1][-1] for grid in equations):
+        return Box(equations, positive)
+    equations, positive = (
+        tuple(over_sum(grid, _degree(g, free)) for grid, g in zip(*side, strict=True))
+        for side in ((equations, case.equations), (positive, case.positive))
+    )
     return Box(equations, positive)
+
+
+def _degree(polynomial: fmpz_mpoly, free: tuple[int, ...]) -> int:
+    """The total degree in these unknowns, whatever the given parameters are."""
+    return max(sum(int(exponents[i]) for i in free) for exponents in polynomial.monoms())
 
 
 def _grid(

@@ -13,6 +13,7 @@ box is compact.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import comb
 
 Grid = list[list[int]]
 """Coefficients of x^i y^j: as many rows and columns for a given polynomial in all boxes."""
@@ -62,6 +63,24 @@ def is_empty(start: Box, axes: int) -> bool:
             return False
         todo += halves(box, axes)
     return True
+
+
+def over_sum(grid: Grid, degree: int) -> Grid:
+    """(1 + w)^degree times a polynomial of x, y > 0 of at most this total degree, in the axes r = x
+    + y and w = x/y: x = r w/(1 + w), y = r/(1 + w).
+
+    Where x and y are both infinite all terms of that degree count then; in x and y only that of the
+    largest powers of both, which may be missing.
+
+    >>> over_sum([[1, -3, 1], [-3, 2, 0], [1, 0, 0]], 2)  # 1 - 3 r + r^2
+    [[1, 2, 1], [-3, -6, -3], [1, 2, 1]]
+    """
+    table = [[0] * (degree + 1) for _ in range(degree + 1)]
+    for i, row in enumerate(grid):
+        for j, c in enumerate(row[: max(degree - i + 1, 0)]):
+            for k in range(degree - i - j + 1):
+                table[i + j][i + k] += c * comb(degree - i - j, k)
+    return table
 
 
 def root(start: Box) -> tuple[Fraction, Fraction] | None:

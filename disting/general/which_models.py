@@ -6,7 +6,7 @@ as many roots for all p as for one (`counts`). NEVER: no case is left (`cases`),
 root. Points with and without equivalents in open sets around them are looked for with `robust`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -44,11 +44,7 @@ class Way:
         """
         ring = self.parted.search.ring
         tried = odd_path if ring.domain is Domain.REAL else path
-        try:
-            return next((p for case in self.parted.others if (p := tried(ring, case))), None)
-        except TooMuch:
-            pass
-        return next((p for case in self.parted.others if (p := by_count(ring, case))), None)
+        return _first(ring, self.parted.others, tried) or _first(ring, self.parted.others, by_count)
 
     @property
     def looked_at(self) -> int:
@@ -78,6 +74,15 @@ class Way:
 
     def _point(self, values: dict[str, Fraction]) -> Point:
         return {i: values[name] for i, name in enumerate(self.given.parameters)}
+
+
+def _first(
+    ring: Orthant, cases: Sequence[Case], tried: Callable[[Orthant, Case], Path | None]
+) -> Path | None:
+    try:
+        return next((p for case in cases if (p := tried(ring, case))), None)
+    except TooMuch:
+        return None
 
 
 def way(given: AnyModel, other: AnyModel, domain: Domain) -> Way | None:

@@ -28,22 +28,6 @@ Tree = Power | tuple[str, tuple["Tree", ...]]
 """The power of s of an element, or "S" or "P" and what is in series or parallel."""
 
 
-def same_parts(left: Network, right: Network) -> bool:
-    """Whether two networks give the same transfer functions for all positive values, special ones
-    aside, as one is the other but for parts that can replace each other. False says nothing.
-
-    >>> from disting.network.notation import network_of
-    >>> same_parts(network_of("R0-p(R1,C1)-p(R2,C2)"), network_of("p(R1,R2-C1,R3-C2)"))
-    True
-    >>> same_parts(network_of("1~2~3~4; F1; S1"), network_of("1~2, 1~3, 3~4; F1; S1"))
-    True
-    """
-    if (left.sort, left.order, left.shape) != (right.sort, right.order, right.shape):
-        return False
-    one, other = simplest(left), simplest(right)
-    return one is not None and one == other
-
-
 @lru_cache(maxsize=REMEMBERED)
 def simplest(network: Network, whole: Part | None = None) -> Network | None:
     """The simplest network that gives the same transfer functions for all positive values, special

@@ -2,6 +2,7 @@
 calculation.
 """
 
+from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, islice, permutations
@@ -284,6 +285,15 @@ def test_a_common_root_is_no_path():
     assert path(ring, replace(case, nonzero=(x - p,)))
 
 
+@pytest.mark.parametrize(("bound", "found"), [(9, True), (1, False)])
+def test_the_root_nearest_to_an_end_is_in_bounds_where_the_equation_says_so(bound, found):
+    """x^2 = 4 p^2 and x^2 < 9 p^2, where x^2 - 4 p^2 is 5 p^2 at the bound; but x^2 < p^2 fails."""
+    ring = Orthant(1, 1, Domain.POSITIVE)
+    p, x = ring.generators[:2]
+    case = Case((x**2 - 4 * p**2,), (bound * p**2 - x**2,))
+    assert bool(path(ring, case)) is found
+
+
 def test_a_factor_without_the_root_is_no_part_of_its_equation():
     """One factor of the numerator is found first; what is left is a3**2 x**2 - a1 a3**2."""
     left, right = (
@@ -353,6 +363,60 @@ def test_elimination_keeps_off_denominators():
         assert found and not left
         for section in found:
             assert not held(ring, zero, section).is_zero() and not section.values[1].den.is_zero()
+
+
+# three compartments without outflow, or with as many rates that cannot be told apart from those
+CYCLE, BACK, LEAK = (
+    [(1, 2), (2, 3), (3, 1)],
+    [(1, 2), (2, 3), (3, 1), (3, 2)],
+    [(1, 2), (2, 3), (3, 2), (1, 0)],
+)
+
+
+def test_what_a_cycle_of_compartments_gives_is_known_by_hand():
+    """Out of the third, G = n/(s (s^2 + e s + f + n)). A cycle needs real roots of t^2 - e t + f,
+    the larger one at least 2 sqrt(n); so does one with a way back. With an outflow from the first
+    t^2 - e t + f + n is to have real roots, which is more.
+    """
+    cycle, back, leak = (compartments(edges, 3) for edges in (CYCLE, BACK, LEAK))
+    verdict = positive(cycle, back)
+    assert verdict.relation is Relation.INDISTINGUISHABLE
+    assert is_explicit(verdict.evidence, cycle, back)
+    for whole in (cycle, back):
+        verdict = positive(whole, leak)
+        assert verdict.relation is Relation.SOMETIMES and confirms(verdict.evidence, whole, leak)
+        assert verdict.evidence.without_left_given
+        k = {name: Fraction(x) for name, x in verdict.evidence.point_without}
+        back_rate = k.get("k32", 0)
+        e = k["k12"] + k["k23"] + k["k31"] + back_rate
+        both = k["k12"] * (k["k23"] + k["k31"] + back_rate) + k["k23"] * k["k31"]
+        assert e**2 < 4 * both
+
+
+def test_a_chain_of_three_without_outflow_is_a_star():
+    """1/G = s (1 + sum of r/(s + l)): both give any of it, a chain by a continued fraction."""
+    star, chain = (
+        compartments([(1, 2), (2, 1), *more], 1) for more in ([(1, 3), (3, 1)], [(2, 3), (3, 2)])
+    )
+    verdict = positive(star, chain)
+    assert verdict.relation is Relation.INDISTINGUISHABLE
+    assert is_explicit(verdict.evidence, star, chain)
+
+
+@pytest.mark.slow
+def test_all_pairs_of_three_compartments_are_decided():
+    """543 of equal functions over complex values: in 2 no positive values agree, and the numbers of
+    the others are those of the first full count.
+    """
+    exact = Query(View.EXACT)
+    pairs = [
+        (a, b)
+        for a, b in combinations(structures(), 2)
+        if a.degrees == b.degrees
+        and compare(a, b, query=exact).relation is Relation.INDISTINGUISHABLE
+    ]
+    found = Counter(positive(*pair).relation.value for pair in pairs)
+    assert found == {"indistinguishable": 342, "sometimes": 199, "distinguishable": 2}
 
 
 def test_a_path_too_large_to_be_looked_at_is_found_by_counting():

@@ -89,8 +89,8 @@ def obstacle(given: Chain, other: Chain) -> Obstacle | None:
         return Obstacle.DECAY
     if given.damped:
         return None
-    if _is_collocated(other):
-        return None if _is_collocated(given) else Obstacle.RESIDUES
+    if is_collocated(other):
+        return None if is_collocated(given) else Obstacle.RESIDUES
     if other.gap:
         return Obstacle.OWN_POLES if (given.gap, here) != (other.gap, there) else None
     more = given.gap and max(here) > _most_sign_changes(*rows(other))
@@ -159,5 +159,6 @@ def _residues(t: Target, low: int) -> list[Ball]:
     return [data.numerator(z) / slope(z) for z in roots(shifted(data.denominator, -low), degree)]
 
 
-def _is_collocated(chain: Chain) -> bool:
+def is_collocated(chain: Chain) -> bool:
+    """Whether force and sensor are at one place in each row."""
     return all(row.distance == 0 for row in rows(chain))

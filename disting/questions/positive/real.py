@@ -54,7 +54,7 @@ from disting.fibres.synthesis.construction import is_plain
 from disting.fibres.synthesis.target import Target, target
 from disting.model.chain import Chain
 from disting.model.row import Row
-from disting.questions.positive.obstacles import Point, distances, receptances, rows
+from disting.questions.positive.obstacles import Point, distances, is_collocated, receptances, rows
 from disting.questions.positive.points import random_point, read, spelled
 
 TRIES = 1000  # points of mixed signs, a millisecond each; seldom are more than a few needed
@@ -73,7 +73,7 @@ def always_real(given: Chain, other: Chain) -> bool:
     """
     if not (is_plain(given) and is_plain(other)) or given.n_masses != other.n_masses:
         return False
-    if _together(given) and _together(other):
+    if is_collocated(given) and is_collocated(other):
         return _by_any_poles(given, other)
     if given.gap != other.gap or distances(given) != distances(other):
         return False
@@ -124,7 +124,7 @@ def _candidates(given: Chain, point: Point, other: Chain) -> Iterator[list[Facto
         yield []  # nothing is said
     elif len(searched) == 1:
         yield [_numerator(whole, *searched)]
-    elif _together(other):
+    elif is_collocated(other):
         yield from _shared(whole, *searched)
     elif alike:
         pairs = zip(searched, receptances(given, point), strict=True)
@@ -199,11 +199,6 @@ def _splits(degree: int, factor: int, known: int) -> bool:
     `known`.
     """
     return degree % 2 == 1 or factor % 2 == 0 or known % 2 == 1
-
-
-def _together(chain: Chain) -> bool:
-    """Whether force and sensor are at one place in each row."""
-    return all(row.distance == 0 for row in rows(chain))
 
 
 def _signed(point: Point, label: str) -> Point:
