@@ -83,7 +83,8 @@ def _told(formula: Formula, small: Labels) -> str:
     _, where, values, root = formula
     said = ", ".join(f"{name} = {value}" for name, value in values if name not in small)
     said = f"values near {said}, {listed(small)} being small" if small else said
-    said += f" with {root[0]} the root of {root[1]} between {root[2]} and {root[3]}" if root else ""
+    which = "a" if where else "the first"  # of several, where the inequalities name one
+    said += f" with {root[0]} {which} root of {root[1]} from {root[2]} to {root[3]}" if root else ""
     return said + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")
 
 
