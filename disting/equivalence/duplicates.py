@@ -69,7 +69,7 @@ class Duplicate(Shown):
         }
 
 
-ROOT = ("name", "of", "above", "below")
+ROOT = ("name", "of", "from", "to")
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from disting.model.question import Domain, Relation
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
 """Left given; polynomials in its parameters that are positive; values of the other model's
 parameters; and, if a value contains a root, (its name, the equation's polynomial, two numbers or
-fractions between which it is).
+fractions): the first root from the one to the other, or one where those polynomials are positive.
 """
 Point = tuple[tuple[str, str], ...]  # parameter name, number
 SHOWN, LONGEST = 3, 160  # contradictions that are told, characters of each
