@@ -7,8 +7,8 @@ limit of its receptances.
   is one less than in FULL, its closure is this quadric. A rank seen modulo a prime is a lower
   bound of the rank, so nothing of this is left to chance.
 * COEFFICIENT: one that vanishes identically in the row and not in what is wanted.
-* RESULTANT: see `row_resultants`. EQUATION: see `row_equations`, found with an error
-  bound.
+* RESULTANT: see `row_resultants`, `row_neighbours`. EQUATION: see `row_equations`, found with an
+  error bound.
 * DIMENSION: what is wanted has the largest rank that the row could have. Then its closure lies in
   that of the row, both irreducible, only if they are the same. That they are not is shown at random
   points, with an error bound: where what is wanted is a row with as many zeros, poles and unknowns,
@@ -32,6 +32,7 @@ from disting.fibres.ideals.system import terms
 from disting.model.question import Membership
 from disting.model.row import Row
 from disting.questions.inclusion.row_equations import equation_safety, label_of, row_equation
+from disting.questions.inclusion.row_neighbours import are_no_limits
 from disting.questions.inclusion.row_resultants import end_resultant, inner_resultant
 
 # masses of a row whose equations are looked for: those of larger ones have too many monomials
@@ -43,6 +44,7 @@ SAFETY = LEAST_SAFETY + 2  # of DIMENSION: three of them, one a split, reach LEA
 AGAIN = 1  # bits of what is found again, at a point and prime of its own
 # of the ideal of one row; work ends long before: runs repeat
 DIMENSION_LIMITS = Limits(seconds=3600.0, entries=900_000)
+DRAWS = 60  # points among which a numerator without factors is looked for
 TRIALS = 3  # primes and points at which an equation must not vanish
 Support = tuple[frozenset[int], frozenset[int]]
 
@@ -156,10 +158,12 @@ def _differ_by_ideals(wanted: CoefficientMap, there: CoefficientMap, seed: str, 
 def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     modulus = prime(label)
     coefficients = _at(wanted.receptance, label, modulus)
+    labels = (f"{label}:{k}" for k in range(DRAWS))
+    drawn = ((*_at(wanted.receptance, at, p), p) for at in labels for p in [prime(at)])
     resultants = (
         made(wanted.row, *coefficients, modulus) for made in (end_resultant, inner_resultant)
     )
-    return (Why.RESULTANT, "") if any(resultants) else None
+    return (Why.RESULTANT, "") if any(resultants) or are_no_limits(wanted.row, drawn) else None
 
 
 def _equation(wanted: Wanted, label: str) -> tuple[Why, str] | None:

@@ -110,12 +110,12 @@ def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int
     if row.grounded:
         n0, n1, d0, d1 = (int(p[i]) for p in (n, d) for i in (0, 1))
         held = polynomial([d0 * n0 % modulus, (d1 * n0 - d0 * n1) % modulus], modulus)
-        return _free(n0 * n0 * n, (n0 * n0 * d - held * n).right_shift(2), e)
-    return 0 if int(d[0]) or int(d[1]) else _free(n, d.right_shift(2), e)
+        return end_equation(n0 * n0 * n, (n0 * n0 * d - held * n).right_shift(2), e)
+    return 0 if int(d[0]) or int(d[1]) else end_equation(n, d.right_shift(2), e)
 
 
-def _free(n: Modular, energy: Modular, e: int) -> int:
-    """Res(U, V) of the module's text for N and E."""
+def end_equation(n: Modular, energy: Modular, e: int) -> int:
+    """Res(U, V) of the module's text for N and E of a free row with its port at an end."""
     s = polynomial([0, 1], energy.modulus())
     a, b = int(energy[e]), int(n[e])
     u = b * energy - a * n
