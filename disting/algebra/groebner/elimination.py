@@ -172,22 +172,40 @@ def _reducer(work: _Work, code: int) -> int | None:
 
 def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus: int) -> list[Row]:
     """Rows with new leading monomials: the other rows, freed of the known leading monomials, in
-    echelon form.
+    echelon form; 1 alone, if it is among those of a part of them.
     """
     at = {m: j for j, m in enumerate(columns)}
     placed = {at[m]: ([at[c] for c in codes], numbers) for m, (codes, numbers) in pivots.items()}
     free = [j for j in range(len(columns)) if j not in placed]
     steps = [(j, *placed[j]) for j in sorted(placed)]
-    reduced = [
-        _freed([at[c] for c in codes], numbers, steps, free, modulus) for codes, numbers in others
-    ]
-    kept = [row for row in reduced if any(row)]
-    if not kept:
+    monomials, kept = [columns[j] for j in free], list[list[int]]()
+    found = list[Row]()
+    for part in _parts(others, len(free)):
+        reduced = (
+            _freed([at[c] for c in codes], numbers, steps, free, modulus) for codes, numbers in part
+        )
+        kept += [row for row in reduced if any(row)]
+        found = _independent(kept, monomials, modulus)
+        if found and found[-1].codes[0] == 0:
+            return found[-1:]
+    return found
+
+
+def _parts(rows: list[Multiple], width: int) -> list[list[Multiple]]:
+    """All rows; where many depend on others, the larger half first, in which 1 is if anywhere."""
+    first = 5 * len(rows) // 8 if 2 * len(rows) > width else 0
+    return [part for part in (rows[:first], rows[first:]) if part]
+
+
+def _independent(rows: list[list[int]], monomials: list[int], modulus: int) -> list[Row]:
+    """Their echelon form."""
+    if not rows:
         return []
+    width = len(monomials)
     matrix, rank = modular_matrix(
-        len(kept), len(free), [x for row in kept for x in row], modulus
+        len(rows), width, [x for row in rows for x in row], modulus
     ).rref()
-    entries, monomials, width = matrix.entries(), [columns[j] for j in free], len(free)
+    entries = matrix.entries()
     return [_new_row(entries[r * width : (r + 1) * width], monomials) for r in range(rank)]
 
 

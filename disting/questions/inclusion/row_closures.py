@@ -7,17 +7,13 @@ limit of its receptances.
   is one less than in FULL, its closure is this quadric. A rank seen modulo a prime is a lower
   bound of the rank, so nothing of this is left to chance.
 * COEFFICIENT: one that vanishes identically in the row and not in what is wanted.
-* RESULTANT: see `end_rows` and `inner_rows`. EQUATION: see `row_equations`, found with an error
-  bound.
+* RESULTANT: see `row_resultants`, `row_neighbours`. EQUATION: see `row_equations`, found with an
+  error bound.
 * DIMENSION: what is wanted has the largest rank that the row could have. Then its closure lies in
   that of the row, both irreducible, only if they are the same. That they are not is shown at random
   points, with an error bound: where what is wanted is a row with as many zeros, poles and unknowns,
   by all ways to share out its zeros (`fibres.ideals.shares`), else by the ideal of the fibre with
-  its tangent equations. Where force and sensor of the row are on one mass, more is wanted of it: a
-  mass added there maps its pairs (N : D) to pairs (N : D + m s^2 N) of the row, and limits to
-  limits, for the map is linear. So all that becomes of what is wanted is wanted as well, and its
-  rank may be the one that is as large as it can be. With b the coefficient of s^(deg D - 2) in a
-  monic N/D and m = u/(1 - u b) it is ((1 - u b) N : (1 - u b) D + u s^2 N), monic again.
+  its tangent equations.
 """
 
 from dataclasses import dataclass, replace
@@ -26,7 +22,6 @@ from typing import NamedTuple
 
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.algebra.sampling import prime, residues
-from disting.algebra.symbols import renamed, symbols
 from disting.behaviour.chain_model import powers
 from disting.evidence.limits import RowLimits, Why
 from disting.fibres.ideals import CoefficientMap, Limits, decide
@@ -37,6 +32,7 @@ from disting.fibres.ideals.system import terms
 from disting.model.question import Membership
 from disting.model.row import Row
 from disting.questions.inclusion.row_equations import equation_safety, label_of, row_equation
+from disting.questions.inclusion.row_neighbours import are_no_limits
 from disting.questions.inclusion.row_resultants import end_resultant, inner_resultant
 
 # masses of a row whose equations are looked for: those of larger ones have too many monomials
@@ -48,7 +44,7 @@ SAFETY = LEAST_SAFETY + 2  # of DIMENSION: three of them, one a split, reach LEA
 AGAIN = 1  # bits of what is found again, at a point and prime of its own
 # of the ideal of one row; work ends long before: runs repeat
 DIMENSION_LIMITS = Limits(seconds=3600.0, entries=900_000)
-ADDED = "m"  # stands for the mass added; no unknown of `normalised` has this name
+DRAWS = 60  # points among which a numerator without factors is looked for
 TRIALS = 3  # primes and points at which an equation must not vanish
 Support = tuple[frozenset[int], frozenset[int]]
 
@@ -92,16 +88,12 @@ def by_dimension(wanted: Wanted, seed: str) -> Shown | None:
     return step and Shown(RowLimits(wanted.split, wanted.name, *step), SAFETY)
 
 
-def as_large(wanted: Wanted) -> tuple[CoefficientMap, str] | None:
-    """What is wanted, or becomes of it with a mass added, where that has the largest rank that the
-    row could have, and the row has it.
-    """
+def as_large(wanted: Wanted) -> bool:
+    """Whether what is wanted has the largest rank that the row could have, and the row has it."""
     most = _most_rank(wanted.there)
-    if most != generic_rank(wanted.there, RANKS):
-        return None
-    maps = ((wanted.receptance, ""), (with_mass(wanted), ", a mass added"))
-    large = ((m, told) for m, told in maps if m is not None and _rank_of_function(m) == most)
-    return next(large, None)
+    return most == generic_rank(wanted.there, RANKS) and most == _rank_of_function(
+        wanted.receptance
+    )
 
 
 def holds(step: RowLimits, wanted: Wanted) -> bool:
@@ -116,26 +108,6 @@ def holds(step: RowLimits, wanted: Wanted) -> bool:
     if step.why is Why.DIMENSION:
         return _dimension(wanted, "verify", AGAIN) == (step.why, step.detail)
     return _OF[step.why](wanted, "verify") == (step.why, step.detail)
-
-
-def with_mass(wanted: Wanted) -> CoefficientMap | None:
-    """What is wanted with a mass added at the port; None if the row has two ports or that is not
-    monic.
-    """
-    model, power = wanted.receptance, wanted.receptance.degrees[1] - 2
-    if wanted.row.a != wanted.row.b or not model.is_monic or model.degrees[0] > power:
-        return None
-    ring = symbols([*model.parameters, ADDED])
-    num, den = ([renamed(c, ring, {}) for c in p] for p in (model.numerator, model.denominator))
-    zero = ring[ADDED] - ring[ADDED]
-    num = [*num, *[zero] * power][: power + 1]
-    rest = 1 - ring[ADDED] * num[power]
-    shifted = [zero, zero, *(ring[ADDED] * c for c in num)]
-    return CoefficientMap(
-        (*model.parameters, ADDED),
-        tuple(rest * c for c in num),
-        tuple(rest * a + b for a, b in zip(den, shifted, strict=True)),
-    )
 
 
 def _inside(wanted: Wanted, label: str) -> tuple[Why, str] | None:
@@ -158,17 +130,14 @@ def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
 
 
 def _dimension(wanted: Wanted, seed: str, bits: int = SAFETY) -> tuple[Why, str] | None:
-    large = as_large(wanted)
-    if large is None:
+    if not as_large(wanted):
         return None
-    more, told = large
-    given = None if told else wanted.given
+    given, most = wanted.given, _most_rank(wanted.there)
     if given is not None and given.damped and may_share(factored(given), factored(wanted.row)):
         differ = _differ_by_shares(given, wanted.row, seed, bits)
     else:
-        differ = _differ_by_ideals(more, wanted.there, seed, bits)
-    most = _most_rank(wanted.there)
-    return (Why.DIMENSION, f"{most} = {most}{told}") if differ else None
+        differ = _differ_by_ideals(wanted.receptance, wanted.there, seed, bits)
+    return (Why.DIMENSION, f"{most} = {most}") if differ else None
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -189,10 +158,12 @@ def _differ_by_ideals(wanted: CoefficientMap, there: CoefficientMap, seed: str, 
 def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     modulus = prime(label)
     coefficients = _at(wanted.receptance, label, modulus)
+    labels = (f"{label}:{k}" for k in range(DRAWS))
+    drawn = ((*_at(wanted.receptance, at, p), p) for at in labels for p in [prime(at)])
     resultants = (
         made(wanted.row, *coefficients, modulus) for made in (end_resultant, inner_resultant)
     )
-    return (Why.RESULTANT, "") if any(resultants) else None
+    return (Why.RESULTANT, "") if any(resultants) or are_no_limits(wanted.row, drawn) else None
 
 
 def _equation(wanted: Wanted, label: str) -> tuple[Why, str] | None:

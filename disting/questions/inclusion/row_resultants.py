@@ -42,33 +42,45 @@ u E_(e-1) - a (e-2) U_(e-2) + (e-2) a U_(e-2) - E_(e-1) u = 0. So the resultant 
 polynomials of the formal degrees e - 1 and e - 2, vanishes for all models with b != 0, so for all
 of the row, and for all their limits.
 
-**At a mass that has a single mass beyond it** (`inner_resultant`): a resultant of resultants. Let G
-= N/D, e = deg N = 2n - 2. Cut at the port's mass, the row falls into two sides, so D/N = m s^2 +
-W_L + W_R and N is, up to a factor, the product of the denominators of W_L and W_R. Let the right
-side have a free end and be one mass m' behind a spring and damper k: W = k m' s^2/(m' s^2 + k), so
-W/s^2 = m' (1 + m' s^2/k)^-1 = m' + O(s^2). With rho_z = D(z)/N'(z), the residues of D/N,
+**At any other mass** (`inner_resultant`): a resultant of a resultant. Let G = N/D, e = deg N = 2n -
+2. Cut at the port's mass, the row falls into two sides, so D/N = m s^2 + W_L + W_R and N is, up to
+a factor, the product of the denominators of W_L and W_R. Let the right side have a free end and k
+masses: its denominator has 2k zeros z, distinct and not 0 for generic models. With rho_z =
+D(z)/N'(z), the residues of D/N,
 
-    W/s^2 = sum rho_z/(z^2 (s - z))  over the two zeros z of m' s^2 + k,
+    W/s^2 = sum rho_z/(z^2 (s - z))  over the 2k zeros z,
 
-as W = O(s^2) is a linear polynomial plus sum rho_z/(s - z). The derivative at 0 of the sum is 0:
--sum rho_z/z^4 = 0. So with
+as W is a linear polynomial plus sum rho_z/(s - z), for at high frequencies the first spring and
+damper carry the force, and W = O(s^2). Moreover W/s^2 = m'' + O(s^2): the force is s^2 times the
+sum of m_i x_i, and masses that are held by nothing else move like the port but for O(s^2). So the
+derivative of the sum at 0 is 0: -sum rho_z/z^4 = 0. With
 
     x_z = D(z)/(z^4 N'(z)),    R(x) = Res_s(N, x s^4 N' - D),
 
-R has two roots x_z that add up to 0, in general not zero themselves. Let R(x) = P(x^2) + x Q(x^2):
-P and Q have a common root, so their resultant vanishes for generic models of the row, thus for
-all, and for all their limits.
+2k of the e roots x_z of R add up to 0. So the product of the sums of all 2k of the roots vanishes
+for generic models of the row. It is symmetric in the roots, and of degree c = C(e-1, 2k-1) in each:
+times the c-th power of the leading coefficient R_e it is a polynomial in the coefficients of R, and
+vanishes for all models and all their limits.
 
 So that this says something where N has a smaller degree, s^4 N' is replaced by T = s^4 N' - e s^3
 N, which is the same at the zeros of N and has no larger degree, e + 2, than D; R is the resultant
 for the formal degrees e and e + 2. In a free row D = s^2 E: there R(x) = Res(N, x (s^2 N' - e s N)
-- E), formal degrees e and e. W_L/s^2 = m'' + O(s^2) holds for its other side as well (a row
-without a wall keeps its momentum), so all x_z add up to 0: R_(e-1) = 0, and the formal degree of Q
-is e/2 - 2, else e/2 - 1.
+- E), formal degrees e and e. Its other side has a free end too, so all x_z add up to 0: R_(e-1) =
+0. On that hyperplane c = C(e-2, 2k-1) is enough: where R_e tends to 0 and nothing else, two roots
+grow, each as (-R_(e-2)/R_e)^(1/2) but for the sign, and as many sums of 2k as hold one of them grow
+with it, 2 C(e-2, 2k-1). What has no pole at generic points of R_e = 0 is a polynomial in the
+others. Where R_e = 0, its value is that on the line R + t x^e at t = 0.
 """
 
+from itertools import combinations
+from math import comb
+
 from disting.algebra.fractionfree import Modular, interpolated, polynomial, resultant
+from disting.algebra.groebner.modular import matrix
 from disting.model.row import Row
+
+LEAST = 4  # zeros of a free row with masses on both sides of its port
+MOST_SUMS = 250  # a determinant of so many rows
 
 
 def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
@@ -98,12 +110,12 @@ def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int
     if row.grounded:
         n0, n1, d0, d1 = (int(p[i]) for p in (n, d) for i in (0, 1))
         held = polynomial([d0 * n0 % modulus, (d1 * n0 - d0 * n1) % modulus], modulus)
-        return _free(n0 * n0 * n, (n0 * n0 * d - held * n).right_shift(2), e)
-    return 0 if int(d[0]) or int(d[1]) else _free(n, d.right_shift(2), e)
+        return end_equation(n0 * n0 * n, (n0 * n0 * d - held * n).right_shift(2), e)
+    return 0 if int(d[0]) or int(d[1]) else end_equation(n, d.right_shift(2), e)
 
 
-def _free(n: Modular, energy: Modular, e: int) -> int:
-    """Res(U, V) of the module's text for N and E."""
+def end_equation(n: Modular, energy: Modular, e: int) -> int:
+    """Res(U, V) of the module's text for N and E of a free row with its port at an end."""
     s = polynomial([0, 1], energy.modulus())
     a, b = int(energy[e]), int(n[e])
     u = b * energy - a * n
@@ -113,16 +125,18 @@ def _free(n: Modular, energy: Modular, e: int) -> int:
 
 
 def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
-    """The resultant for a receptance modulo a prime, coefficients of the constant first; 0 where
-    it says nothing.
+    """The product of sums for a receptance modulo a prime, coefficients of the constant first; 0
+    where it says nothing.
 
     What is not 0 is no receptance of the row, and no limit of its receptances.
     """
-    e, n = 2 * row.n_masses - 2, row.n_masses
-    alone = row.a == row.b and (row.a == n - 1 or (not row.grounded and row.a == 2))
-    if not row.damped or row.ground_dampers or not alone or e < (2 if row.grounded else 4):
+    e, beyond = 2 * row.n_masses - 2, row.n_masses - row.a
+    beyond = beyond if row.grounded else min(beyond, row.a - 1)
+    if row.a != row.b or not row.damped or row.ground_dampers or not beyond:
         return 0
     if len(num) > e + 1 or len(den) != e + 3 or not (row.grounded or den[0] == den[1] == 0):
+        return 0
+    if (not row.grounded and e < LEAST) or comb(e, 2 * beyond) > MOST_SUMS:
         return 0
     numerator, denominator = (
         polynomial(num, modulus),
@@ -130,14 +144,38 @@ def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> i
     )
     r = _in_x(numerator, denominator, e, 4 if row.grounded else 2, modulus)
     if row.grounded:
-        return resultant(
-            polynomial(r[::2], modulus), polynomial(r[1::2], modulus), e // 2, e // 2 - 1
-        )
-    if r[e - 1]:
-        return r[e - 1]
-    return resultant(
-        polynomial(r[::2], modulus), polynomial(r[1 : e - 1 : 2], modulus), e // 2, e // 2 - 2
-    )
+        return _sums(r, 2 * beyond, comb(e - 1, 2 * beyond - 1), modulus)
+    return r[e - 1] or _sums(r, 2 * beyond, comb(e - 2, 2 * beyond - 1), modulus)
+
+
+def _sums(r: list[int], size: int, power: int, modulus: int) -> int:
+    """The product of all sums of so many roots of r, times a power of its leading coefficient;
+    where that is 0, by the values for leading coefficients 1, 2, ..
+    """
+    if r[-1]:
+        return _product_of_sums(r, size, modulus) * pow(r[-1], power, modulus) % modulus
+    values = [_sums([*r[:-1], t], size, power, modulus) for t in range(1, power + 2)]
+    return int(polynomial(interpolated(values, modulus), modulus)(-1))
+
+
+def _product_of_sums(r: list[int], size: int, modulus: int) -> int:
+    """Determinant of what the companion matrix of r does to exterior products of so many vectors,
+    one factor after the other: its eigenvalues are the sums of eigenvalues.
+    """
+    e, scale = len(r) - 1, -pow(r[-1], -1, modulus)
+    last = [(i, scale * x % modulus) for i, x in enumerate(r[:-1]) if x]
+    products = list(combinations(range(e), size))
+    place = {chosen: i for i, chosen in enumerate(products)}
+    whole = [[0] * len(products) for _ in products]
+    for column, chosen in enumerate(products):
+        for at, i in enumerate(chosen):
+            rest = chosen[:at] + chosen[at + 1 :]
+            for to, c in [(i + 1, 1)] if i + 1 < e else last:
+                if to not in rest:
+                    there = sum(x < to for x in rest)
+                    line = place[(*rest[:there], to, *rest[there:])]
+                    whole[line][column] += (-1) ** (at + there) * c
+    return int(matrix(len(whole), len(whole), [x for y in whole for x in y], modulus).det())
 
 
 def _in_x(n: Modular, d: Modular, e: int, power: int, modulus: int) -> list[int]:

@@ -1,19 +1,22 @@
 """The resultants of rows: SymPy's own elimination, models and what is no model, formal degrees."""
 
+from itertools import combinations
+from math import comb, prod
+
 import pytest
 import sympy as sp
 
 from disting.algebra.fractionfree import polynomial, resultant
 from disting.algebra.sampling import prime, residues
 from disting.model.row import Row
-from disting.questions.inclusion.row_resultants import end_resultant, inner_resultant
+from disting.questions.inclusion.row_resultants import _sums, end_resultant, inner_resultant
 
 S = sp.Symbol("s")
 P = prime("row resultants")
 COLLOCATED = sorted(
     {
         Row(n, grounded, at, at, True).canonical
-        for n in (2, 3, 4)
+        for n in (2, 3, 4, 5)
         for grounded in (False, True)
         for at in range(1, n + 1)
     },
@@ -50,12 +53,27 @@ def test_models_fulfil_the_equations_and_others_do_not(row):
     num, den = (residues(f"{row}:{name}", count, P) for name, count in (("b", e + 1), ("a", e + 3)))
     if not row.grounded:
         den[0], den[1], den[3] = 0, 0, den[2] * num[1] * pow(num[0], -1, P) % P  # momentum is kept
-    at_end, alone = (
-        row.a in (1, row.n_masses),
-        row.a == row.n_masses - 1 or (row.a == 2 and not row.grounded),
-    )
+    at_end = row.a in (1, row.n_masses)
+    inner = row.a < row.n_masses if row.grounded else not at_end
     assert bool(end_resultant(row, num, den, P)) == (at_end and (row.grounded or e > 2))
-    assert bool(inner_resultant(row, num, den, P)) == (alone and (row.grounded or e > 2))
+    assert bool(inner_resultant(row, num, den, P)) == inner
+    # of a numerator that has lost a coefficient too
+    assert bool(inner_resultant(row, num[:-1], den, P)) == inner
+
+
+@pytest.mark.parametrize("size", [1, 2, 3])
+def test_products_of_sums_are_those_of_the_roots(size):
+    """Six roots; five, the sixth having gone to infinity as -r5/r6, in 5 over size - 1 sums."""
+    roots, lead = residues("roots", 6, P), residues("lead", 1, P)[0]
+    for known in (roots, roots[:5]):
+        r = polynomial([lead], P)
+        for x in known:
+            r *= polynomial([-x, 1], P)
+        power = comb(5, size - 1)
+        scale = lead if len(known) == len(roots) else -lead
+        sums = prod(sum(chosen) for chosen in combinations(known, size))
+        coefficients = [int(r[i]) for i in range(7)]
+        assert _sums(coefficients, size, power, P) == pow(scale, power, P) * sums % P
 
 
 def test_two_masses_at_a_wall_by_hand():

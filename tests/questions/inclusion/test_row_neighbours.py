@@ -1,0 +1,83 @@
+"""Force on an end mass, sensor on the next one: models of the row, what is none, and what is known
+to be a limit.
+"""
+
+import pytest
+
+from disting import Family, catalog
+from disting.algebra.sampling import prime, residues
+from disting.fibres.ideals import normalised
+from disting.fibres.ideals.fibre_ideal import evaluated
+from disting.fibres.ideals.system import terms
+from disting.model.row import Row
+from disting.questions.inclusion.closures import of_closure
+from disting.questions.inclusion.row_neighbours import are_no_limits
+
+DRAWS = 60
+
+
+def points(structure, name):
+    """Receptances of a row at random points modulo primes."""
+    model = normalised(structure)
+    for k in range(DRAWS):
+        modulus = prime(f"{name}:{k}")
+        point = residues(f"{name}:{k}:p", len(model.parameters), modulus)
+        num, den = (
+            [evaluated(terms(c), point, modulus) for c in side]
+            for side in (model.numerator, model.denominator)
+        )
+        yield num, den, modulus
+
+
+@pytest.mark.parametrize("n", [4, 5])
+def test_other_functions_of_the_same_degrees_are_no_limits(n):
+    """Also of a numerator that is 0 at 0, or without its highest coefficient, nothing is said."""
+    row = Row(n, False, 1, 2, True)
+    drawn = []
+    for k in range(DRAWS):
+        modulus = prime(f"free:{k}")
+        num = residues(f"free:{k}:b", 2 * n - 2, modulus)
+        den = [0, 0, *residues(f"free:{k}:a", 2 * n - 1, modulus)]
+        den[3] = den[2] * num[1] * pow(num[0], -1, modulus) % modulus  # momentum is kept
+        drawn.append((num, den, modulus))
+    assert are_no_limits(row, drawn)
+    assert are_no_limits(Row(n, False, n - 1, n, True), drawn)
+    assert not are_no_limits(Row(n, False, 2, 3, True), drawn)
+    assert not are_no_limits(Row(n, True, 1, 2, True), drawn)
+    assert not are_no_limits(row, [([*num[:-1], 0], den, p) for num, den, p in drawn])
+    assert not are_no_limits(row, [([0, *num[1:]], den, p) for num, den, p in drawn])
+
+
+@pytest.mark.parametrize("n", [4, 5])
+def test_its_own_functions_are_not_refuted(n):
+    """At the root of the joint both forms have a common root; N is a product, so no root stands for
+    all, and at no point is more said.
+    """
+    row = Row(n, False, 1, 2, True)
+    assert not are_no_limits(row, points(row.structure, f"own {n}"))
+
+
+@pytest.mark.parametrize("n", [4, 5])
+def test_what_is_known_to_be_a_limit_is_refuted_by_no_equation(n):
+    stored = catalog(n, damped=True)
+    told = [
+        (left, right) if v.closure.value == "left-in-right" else (right, left)
+        for left, right, v in stored.pairs()
+        if v.closure.value in ("left-in-right", "right-in-left")
+    ]
+    family = Family(n, damped=True)
+    refuted = [
+        (small, large)
+        for small, large in told
+        for found in [of_closure(family[small], family[large], "limits")]
+        if found is not None and type(found[0]).__name__ == "Outside"
+    ]
+    assert len(told) > 10 and not refuted
+
+
+@pytest.mark.parametrize(("n", "large", "small"), [(4, 2, [16, 18]), (5, 2, [25, 32, 47])])
+def test_limits_of_chains_with_neighbours_at_the_end(n, large, small):
+    family = Family(n, damped=True)
+    for k in small:
+        evidence, bits = of_closure(family[k], family[large], "neighbours")
+        assert bits == 0 and [step.why.value for step in evidence.steps] == ["resultant"]
