@@ -11,7 +11,7 @@ from disting.fit.noise.scatter import scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import Setup
-from disting.measurement import mean_of
+from disting.measurement import TimeSeries, mean_of
 from disting.measurement.window import Window, seen
 from disting.model.chain import Chain
 from tests.fit.monte_carlo import drive, measured, response_at, truth
@@ -103,3 +103,19 @@ def test_a_weakly_excited_line_scatters_by_more():
     assert len(few.drive) == len(few)
     with pytest.raises(InputError, match="the amplitude of the input is positive"):
         replace(data, drive=0 * data.drive)
+
+
+def test_lines_that_stand_apart_are_not_smoothed():
+    """A multisine in segments of its period; a controller's loop with a reference."""
+    lines = np.arange(8, 200, 4)
+    phases = np.random.default_rng(2).uniform(0, 2 * np.pi, len(lines))
+    time = np.arange(20_000) / RATE
+    u = np.cos(2 * np.pi * np.outer(time, lines) + phases).sum(axis=1)
+    y = u + 1e-3 * np.random.default_rng(3).normal(size=len(u))
+    alone = TimeSeries(u, y, RATE).response(segment=int(RATE), band=(8, 199))
+    assert alone.window is None and alone.windowed() is alone
+    noise = np.random.default_rng(4).normal(size=len(u))
+    with_noise = TimeSeries(noise, noise + y, RATE)
+    assert with_noise.response(segment=1000).window is not None
+    looped = TimeSeries(noise, noise + y, RATE, reference=noise).response(segment=1000)
+    assert looped.window is None
