@@ -136,7 +136,7 @@ def select(
         better=chosen.better,
         silent=tuple(zero),
         task=fits.task,
-        test=test or train,
+        test=(fits.test or fits.task.cost).measured,
         judging=fits.test or fits.task.cost,
         quantities=other_quantities(fits.searched, search, engine.store, executor, progress),
     )

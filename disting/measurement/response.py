@@ -255,9 +255,10 @@ class FrequencyResponse(Shown):
         window = self.window
         if window is None or window.ratio is None or window.share is None:
             return self
-        share = window.share
+        share, shown = window.share, f"seen under a window of {window.duration:g} s, as models are"
         return replace(
             self,
+            reading="; ".join(filter(None, [self.reading, shown])),
             G=self.G * window.ratio,
             deviation=applied(lambda d: d * share, self.deviation),
             window=Window(window.duration, window.order),

@@ -33,7 +33,9 @@ of which chance makes 2.5/36 deviation^2. It has a sign, a resonance looks dampe
 so it is taken out, by the share w = 1 - `SURE` 2.5/36 deviation^2 / |bias|^2 of it, if positive;
 the squared deviation is 1 + 0.44 w^2 times as large then. What is left of it beyond chance, and the
 bias of what was taken out by the same formula, are added to the squared deviation. It is said where
-the bias is more than the deviation and than chance makes of any line (level `CHANCE`).
+the bias is more than the deviation and than chance makes of any line (level `CHANCE`). A fit does
+without this: it sees its models through the same window (`window`), in open loop and where the
+input does not repeat itself, so that its lines do not stand apart.
 """
 
 from typing import Any
@@ -42,7 +44,7 @@ import numpy as np
 
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.periodic import Estimated
+from disting.measurement.periodic import Estimated, detected_period
 from disting.measurement.window import Window
 from disting.model.presentation import plural
 
@@ -52,6 +54,8 @@ CHANCE = 1e-3  # p of the module's text
 GROWTH = 0.44
 TINY = np.finfo(float).tiny
 SURE = 2.0  # times what chance makes: below that no bias is taken out
+REPEATED = 20  # segments within which an input that repeats is no noise
+SEEN = " (a fit of chains sees its models through the same window instead)"
 CURVED = 2.5  # squared second difference of lines that chance makes, in squared deviations
 
 
@@ -101,6 +105,7 @@ def estimate(
     coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
     good &= even
     bias, whole, beyond = _bias(response, deviation)
+    smooth = reference is None and not _repeats(u, segment)
     size, made = np.abs(response)[good], (response - bias)[good]
     ratio, share = response[good] / made, (deviation / np.maximum(whole, TINY))[good]
     return Estimated(
@@ -110,8 +115,14 @@ def estimate(
         coherence=coherence[good],
         notes=tuple(notes),
         freedom=2.0 * (effective - 1),
-        doubts=_smoothed(grid[kept][good], beyond[good] / size, deviation[good] / size, segment),
-        window=Window(segment / rate, order, ratio, share) if reference is None else None,
+        doubts=_smoothed(
+            grid[kept][good],
+            beyond[good] / size,
+            deviation[good] / size,
+            segment,
+            SEEN * smooth,
+        ),
+        window=Window(segment / rate, order, ratio, share) if smooth else None,
     )
 
 
@@ -121,6 +132,16 @@ def _refuse_silent(*powers: np.ndarray[Any, Any]) -> None:
             "input or output has no power at a frequency of the band; give band=(low, high) [Hz] of"
             " the excitation"
         )
+
+
+def _repeats(u: Real, segment: int) -> bool:
+    """Whether an input repeats itself within a few segments: its lines stand apart then, and no
+    window smooths them as it does noise.
+    """
+    try:
+        return detected_period(u) <= REPEATED * segment
+    except InputError:
+        return False
 
 
 def _bias(response: Complex, deviation: Real) -> tuple[Complex, Real, Real]:
@@ -142,9 +163,9 @@ def _curved(values: Complex) -> Complex:
     return np.pad(np.diff(values, 2), 1, mode="edge")
 
 
-def _smoothed(grid: Real, bias: Real, deviation: Real, segment: int) -> tuple[str, ...]:
+def _smoothed(grid: Real, bias: Real, deviation: Real, segment: int, but: str) -> tuple[str, ...]:
     """Where segments are too short for the response, by relative bias and deviation of the lines,
-    shape (n_f,) each.
+    shape (n_f,) each; `but`: what a fit does.
     """
     wide = bias > np.sqrt(CURVED / 36 * np.log(max(len(bias), 1) / CHANCE) + 1) * deviation
     if not wide.any():
@@ -154,7 +175,7 @@ def _smoothed(grid: Real, bias: Real, deviation: Real, segment: int) -> tuple[st
     return (
         f"segments of {segment} samples smooth the response at {lines}, by"
         f" {100 * bias[worst]:.2g} % at {grid[worst]:.4g} Hz: what neighbouring lines tell of it is"
-        f" taken out, the rest counts as scatter; longer segments, such as --read"
+        f" taken out, the rest counts as scatter{but}; longer segments, such as --read"
         f" segment={2 * segment}, or a periodic excitation tell more",
     )
 

@@ -35,15 +35,16 @@ def test_answer_comes_first_with_what_is_needed(written):
     assert done.returncode == 0
     first, verdict, *rest = done.stdout.splitlines()
     assert first == (
-        "not enough: if the machine is 2:1+b1, the data exclude 2:1+b2 with a probability of 80 %"
-        " (level 1 %); for 95 % measure 1.53 times as many periods"
+        "not enough: if the machine is 2:1+b1, the data exclude 2:1+b2 with a probability of 72 %"
+        " (level 1 %); for 95 % measure 1.77 times as many periods"
     )
     assert verdict.startswith(
         "verdict: 2:1+b1 and 2:1+b2, damped, acceleration, are distinguishable over positive"
     )
     text = "\n".join(rest)
-    assert "  noise of a line at most 24 %\n  1.53 times the periods\n" in text
+    assert "  noise of a line at most 23 %\n  1.77 times the periods\n" in text
     assert "1 degree of freedom (2:1+b1+b2 contains both)" in text and ": agreed" in text
+    assert "with the scatter that a fit finds in one measurement" in text
 
 
 def test_the_guide_shows_what_is_printed(written):

@@ -318,3 +318,15 @@ def test_a_loop_is_asked_for_where_it_is_seen():
     said = [" ".join(suspicions(one)) for one in found]
     assert ["is the loop closed" in one for one in said] == [True, False, False]
     assert all("is the machine a chain" in one for one in said)
+
+
+def test_a_narrow_resonance_in_short_segments_is_no_further_mass():
+    """Segments of 1 s, a resonance that rings longer; a mass more fitted what they miss."""
+    machine = drive(2, 38, "random")
+    true = truth(machine)
+    data = measured(machine, 2)
+    found = select(data, [true, replace(true, n_masses=3)])
+    assert found.selected.chain == true and found.explanation.chi2 < 1.2
+    assert found.test is found.task.cost.measured and found.test.reading.endswith("as models are")
+    low, high = found.members[0].intervals["k12"]
+    assert low < machine.values["k12"] < high < 1.1 * low

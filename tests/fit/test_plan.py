@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 from scipy.stats import chi2, norm
 
 from disting.errors import InputError
+from disting.fit import select
 from disting.fit.plan.power import (
     LEVEL,
     POWER,
@@ -20,12 +21,14 @@ from disting.fit.plan.power import (
     typical,
 )
 from disting.fit.plan.rival import Trust, fitted_rival, gain
+from disting.fit.plan.sample import simulated
 from disting.fit.results.export import predicted
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report.fit.plan_words import plan_in_words
 from disting.verdict.result import Relation
+from tests.fit.monte_carlo import Drive, measured, true_scatter
 
 MODEL = Chain(2, damped=True, ground_dampers=(1,))
 RIVAL = Chain(2, damped=True, ground_dampers=(2,))
@@ -245,3 +248,42 @@ def test_bad_input_is_named(change, words):
 def test_data_at_other_lines_are_refused(planned):
     with pytest.raises(InputError, match="planned lines"):
         gain(planned.rival, FrequencyResponse(OMEGA * 1.1, predicted(MODEL, VALUES, OMEGA)))
+
+
+def test_a_scatter_that_has_to_be_found_excludes_less(planned):
+    """From one measurement the least, from fifty repeats what a known one does."""
+    plain = planned.rival, planned.surplus, planned.level
+    found = [simulated(*plain, repeats) for repeats in (1, 2, 50)]
+    reached = [one.power(planned.noncentrality) for one in found]
+    assert reached[0] < reached[1] < reached[2] == pytest.approx(planned.power, abs=0.01)
+    assert found[0].needed() > found[1].needed() > planned.needed
+    assert found[0].power(found[0].needed()) == pytest.approx(POWER)
+    alone = replace(planned, repeats=1)
+    assert alone.power == reached[0] and alone.factor > planned.factor
+    assert replace(planned, rival=None, repeats=1).power == planned.level
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("pair", "repeats"), [("damper", 1), ("damper", 2), ("lag", 1)])
+def test_a_fit_does_what_is_promised(pair, repeats):
+    """White noise on current and speed: full fits of 100 simulated measurements."""
+    values = {"m1": 5e-3, "m2": 4e-3, "k12": 500.0, "d12": 0.02}
+    one, other = (
+        (replace(MODEL, dead_time=True), replace(MODEL, lag=True))
+        if pair == "lag"
+        else (MODEL, RIVAL)
+    )
+    values |= {"b1": 0.1, "Td": 2e-4} if pair == "lag" else {"b1": 0.01}
+    level = (0.058 if pair == "lag" else 0.051) * float(np.sqrt(repeats))
+    machine = Drive(replace(one, sensor="velocity"), values, level, 0)
+    omega = measured(machine, 1).omega
+    rho = true_scatter(machine, omega, repeats)
+    promised = plan(one, values, other, omega, rho, repeats=repeats).power
+    found = [
+        select(measured(replace(machine, seed=seed), repeats), [one, other]) for seed in range(100)
+    ]
+    done = np.mean(
+        [any(c.chain == other and c.excluded is not None for c in s.candidates) for s in found]
+    )
+    print(pair, repeats, promised, done)
+    assert 0.3 < promised < 0.6 and done == pytest.approx(promised, abs=0.12)

@@ -20,7 +20,6 @@ from math import log, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from disting.errors import InputError
 from disting.fit.noise.scatter import Scatter
@@ -28,7 +27,7 @@ from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real, evenly
-from disting.measurement.window import seen
+from disting.measurement.window import Window
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.structure import Structure
@@ -155,14 +154,10 @@ class Cost(SquaredCost):
         return replace(self, measured=self.measured.windowed())
 
     @property
-    def seen(self) -> tuple[Real | Complex, csr_array | None]:
-        """Angular frequencies at which a response is needed, and the window that makes lines of
-        it.
-        """
-        measured = self.measured
-        if measured.window is None or measured.window.ratio is not None:
-            return measured.omega, None
-        return seen(measured.window, measured.omega, measured.sensor.order)
+    def window(self) -> Window | None:
+        """Under which the lines show a response; None where they show it as it is."""
+        own = self.measured.window
+        return own if own is not None and own.ratio is None else None
 
     @property
     def parts(self) -> tuple["Cost", ...]:
@@ -185,8 +180,7 @@ class Cost(SquaredCost):
 
     def plant(self, structure: Structure, sign: int) -> Plant:
         """The structure at the lines of the data."""
-        omega, window = self.seen
-        return Plant(structure, omega, sign, window=window)
+        return Plant(structure, self.measured.omega, sign, window=self.window)
 
     def on(self, chain: Chain) -> "Cost":
         """Of the responses that a chain has: every chain has this one."""

@@ -78,7 +78,7 @@ class JointPlant:
         responses, gradients = list[Complex](), list[Complex]()
         for part, own, at, motion in self._with_motion(p):
             response, gradient = part.logarithmic_gradient(own, motion)
-            whole = np.zeros((*p.shape, gradient.shape[-1]), dtype=np.complex128)
+            whole = np.zeros((*p.shape, len(part.omega)), dtype=np.complex128)
             whole[..., at, :] = gradient
             responses.append(response)
             gradients.append(whole)
@@ -92,7 +92,8 @@ class JointPlant:
         found = []
         for part, at in zip(self.parts, self._places, strict=True):
             force = part.structure.ports[:2]
-            state, own = (force, part.still, part.added, part.omega.tobytes()), p[..., at]
+            lines = part.omega.tobytes(), part.window and part.window.duration
+            state, own = (force, part.still, part.added, *lines), p[..., at]
             if state not in known:
                 known[state] = part.motion(own)
             found.append((part, own, at, known[state]))
@@ -180,11 +181,11 @@ class JointCost(SquaredCost):
         plants = [
             Plant(
                 setup.seen(structure, part.measured.sensor),
-                part.seen[0],
+                part.measured.omega,
                 sign * setup.sign,
                 setup.still(n),
                 setup.added(n),
-                part.seen[1],
+                part.window,
             )
             for part, setup in zip(self.parts, setups, strict=True)
         ]

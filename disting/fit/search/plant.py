@@ -27,6 +27,7 @@ from scipy.sparse import csr_array
 
 from disting.errors import InputError
 from disting.measurement.arrays import Complex, Real
+from disting.measurement.window import Window, seen
 from disting.model.structure import Ports, Structure
 
 Rows = slice | NDArray[np.intp]
@@ -49,8 +50,7 @@ class Plant:
     a reversed sensor.
 
     `still`: masses that are locked; `added`: (mass, power of s, size) of what is known. `window`:
-    weights, shape (n_f, n), by which responses at complex frequencies `omega`, shape (n,), make
-    what a line shows (`measurement.window`).
+    under which a line is seen, from n complex frequencies s (`measurement.window`).
 
     >>> from disting import Chain
     >>> plant = Plant(Chain(1, damped=False).structure, np.array([1.0, 2.0]))
@@ -59,11 +59,11 @@ class Plant:
     """
 
     structure: Structure
-    omega: Real | Complex
+    omega: Real
     sign: int = 1
     still: tuple[int, ...] = ()
     added: tuple[tuple[int, int, float], ...] = ()
-    window: csr_array | None = None
+    window: Window | None = None
 
     def __post_init__(self) -> None:
         if self.sign not in (1, -1):
@@ -76,7 +76,7 @@ class Plant:
 
     def at(self, omega: Real, which: int = 0) -> "Plant":
         """The same plant at other angular frequencies; there is one response."""
-        return replace(self, omega=omega, window=None)
+        return replace(self, omega=omega)
 
     @np.errstate(all="ignore")  # where an interval has no end, values may overflow
     def motion(self, p: Real) -> "Motion":
@@ -126,7 +126,7 @@ class Plant:
         if self.window is None:
             return response
         rows = response.reshape(-1, response.shape[-1])
-        return np.asarray((self.window @ rows.T).T.reshape(*response.shape[:-1], -1))
+        return np.asarray((self._seen[1] @ rows.T).T.reshape(*response.shape[:-1], -1))
 
     def _shown_with(self, response: Complex, gradient: Complex) -> tuple[Complex, Complex]:
         """The same with d ln G / d p, shape (..., n_p, n)."""
@@ -176,7 +176,13 @@ class Plant:
 
     @cached_property
     def _s(self) -> Complex:
-        return np.asarray(1j * self.omega, dtype=np.complex128)
+        omega = self.omega if self.window is None else self._seen[0]
+        return np.asarray(1j * omega, dtype=np.complex128)
+
+    @cached_property
+    def _seen(self) -> tuple[Complex, csr_array]:
+        assert self.window is not None
+        return seen(self.window, self.omega, self.structure.sensor_order)
 
     @cached_property
     def _s2(self) -> Complex:
