@@ -23,6 +23,7 @@ from disting.cli.arguments import (
     add_quantity,
 )
 from disting.cli.compare_words import both_ways, every_way, explained, in_letters
+from disting.cli.effort import told_if_long
 from disting.cli.model_names import MODEL, models_named
 from disting.cli.output import emitted
 from disting.cli.relations import query
@@ -41,6 +42,10 @@ from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import determinable, names_of
 
+LONGER = (
+    "this pair takes longer than most: up to a minute; less to do: --domain complex, which asks"
+    " for complex values only; Ctrl-C stops it"
+)
 Known = tuple[str, int, int]
 """The name of a model, how much of it is determined, how many parameters it has."""
 
@@ -90,6 +95,11 @@ class Judged:
 
 def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
     """The verdict on two models, proven where that is asked for."""
+    with told_if_long(LONGER):
+        return _judged(sides, asked, options)
+
+
+def _judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
     chains = _chains(sides)
     if chains:
         ordered, verdict = decided(chains, asked, options)

@@ -5,14 +5,17 @@ guide's page on speed. Sizes beyond the last that was measured take as many time
 more than the one before it. So it is an order of size, and is told as one.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
+from threading import Timer
 
 from disting.cli.plain import complain
 from disting.model.family import Family
 
 LONG = 60.0  # seconds that nobody needs to be told of
+PATIENCE = 5.0  # seconds that one pair may take without a word
 UNITS = (("day", 86400.0), ("hour", 3600.0), ("minute", 60.0))
 
 
@@ -81,6 +84,18 @@ def announced(work: Work, counts: Mapping[int, int], jobs: int = 1) -> None:
             f"{sum(counts.values())} {work.value.things}, which may take {in_words(seconds)};"
             f" less to do: {work.value.smaller}; Ctrl-C stops it"
         )
+
+
+@contextmanager
+def told_if_long(message: str, seconds: float = PATIENCE) -> Iterator[None]:
+    """Tell of work that is not done after so many seconds, while it goes on."""
+    timer = Timer(seconds, complain, [message])
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def pairs_work(damped: bool) -> Work:

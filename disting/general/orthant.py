@@ -155,16 +155,18 @@ class Orthant:
         """The sign of a polynomial of mixed terms that is quadratic in a variable, if its
         discriminant shows one.
         """
+        if len(polynomial) > self.terms:
+            return 0
+        terms = [(e, c > 0) for e, c in polynomial.to_dict().items()]
         for at, degree in enumerate(polynomial.degrees()):
-            if degree != QUADRATIC or len(polynomial) > self.terms:
+            if degree != QUADRATIC or len({up for e, up in terms if e[at] != 1}) > 1:
                 continue
             c, b, a = self.coefficients(polynomial, at)
-            sign = _of_terms(a)
-            if not sign or sign != _of_terms(c) or len(a) * len(c) + len(b) ** 2 > LARGEST:
+            if len(a) * len(c) + len(b) ** 2 > LARGEST or not c:
                 continue
             rest = 4 * a * c - b**2
             if _of_terms(rest) > 0 or (depth > 1 and self._by_squares(rest, depth - 1) > 0):
-                return sign
+                return _of_terms(a)
         return 0
 
     def parts(self, polynomial: fmpz_mpoly, odd: bool) -> Parts:

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from disting import Family
-from disting.cli.effort import LONG, Work, announced, pairs_by_size
+from disting.cli.compare import LONGER
+from disting.cli.effort import LONG, Work, announced, pairs_by_size, told_if_long
 from disting.measurement import write_csv
 from disting.simulation import demo
 from tests.cli.process import COMMAND, called
@@ -49,6 +50,36 @@ def test_long_work_is_told_before_it_begins_and_can_be_stopped(
     said, rest = process.communicate(timeout=60)
     assert first is not None and int(first[1]) == count
     assert (process.returncode, said) == (130, "") and rest.startswith("disting: interrupted")
+
+
+def test_a_pair_that_takes_long_is_told_while_it_goes_on(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    said = ""
+    with told_if_long("this takes long", 0.0):
+        while not said:
+            said = capsys.readouterr().err
+    with told_if_long("this takes long"):
+        pass
+    assert said == "disting: this takes long\n" and capsys.readouterr().err == ""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="a signal has another number there")
+def test_a_pair_of_many_unknowns_says_so_and_can_be_stopped() -> None:
+    pair = ["#=1, 1=2, 1=3; F2; S3", "#=1, 1=2, 2=3; F1; S3"]
+    process = subprocess.Popen(
+        [*COMMAND, "compare", *pair, "--no-cache"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert process.stderr is not None
+    first = process.stderr.readline()
+    process.send_signal(signal.SIGINT)
+    said, _ = process.communicate(timeout=60)
+    assert first == f"disting: {LONGER}\n" and (process.returncode, said) == (130, "")
 
 
 @pytest.mark.parametrize(
