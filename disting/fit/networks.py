@@ -23,9 +23,8 @@ from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
 from disting.fit.search.network_plant import (
     AnyNetworkPlant,
-    NetworkPlant,
-    NetworkPlants,
     measured_as,
+    network_plant,
     random_starts,
 )
 from disting.fit.search.setup import Setup
@@ -91,7 +90,7 @@ def fit_networks(
     chosen = [i for i, k in enumerate(first) if i == k]
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
-        plant = _plant(asked[i], data)
+        plant = network_plant(asked[i], [one.omega for one in data])
         starts = random_starts(plant, data[0], STARTS, np.random.default_rng((SEED, i)))
         found.append((plant, searched(plant, cost, starts).p))
     known = together(scatters(cost, [plant.response(p) for plant, p in found]))
@@ -136,12 +135,6 @@ def _cost(data: Sequence[FrequencyResponse]) -> AnyCost:
     if len(costs) == 1:
         return costs[0]
     return JointCost(costs, tuple(Setup(sensor=str(k)) for k in range(1, len(costs) + 1)))
-
-
-def _plant(network: Network, data: Sequence[FrequencyResponse]) -> AnyNetworkPlant:
-    if len(data) == 1:
-        return NetworkPlant(network, data[0].omega)
-    return NetworkPlants(network, tuple(one.omega for one in data))
 
 
 def _first_of_same(decided: Decisions, count: int) -> list[int]:

@@ -10,7 +10,7 @@ With P x = b, P^T y = c and G = s^q c^T x, for a term f(p) s^r u v^T of P, f = p
 Everything is vectorised over frequencies and over parameter vectors.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -223,6 +223,13 @@ class NetworkPlants:
 
 
 AnyNetworkPlant = NetworkPlant | NetworkPlants
+
+
+def network_plant(network: Network, omegas: Sequence[Real]) -> AnyNetworkPlant:
+    """A network at the angular frequencies [rad/s] of each of its responses."""
+    if len(omegas) == 1:
+        return NetworkPlant(network, omegas[0])
+    return NetworkPlants(network, tuple(omegas))
 
 
 def _sized(side: Entries) -> Sized:
