@@ -95,6 +95,10 @@ def simulate(
     >>> bool(abs(G - 100).max() < 1e-6)
     True
     """
+    if isinstance(model, Network) and model.shape != (1, 1):
+        raise InputError(
+            f"{model.name} has several inputs or outputs: simulate_all records them all"
+        )
     return _record(model, parameters, excitation or Excitation(), bench or Bench(), ())
 
 

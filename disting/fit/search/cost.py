@@ -149,6 +149,16 @@ class Cost(SquaredCost):
         return replace(self, case=Case.COMPLEX, weights=None, lines=sqrt(2) / known.sigma)
 
     @property
+    def leading(self) -> "Cost":
+        """The cost that leads a search: of logarithms, each line with its relative weight."""
+        if self.case is Case.LOGARITHM:
+            return self
+        lines = 1.0 if self.lines is None else self.lines
+        return replace(
+            self, case=Case.LOGARITHM, weights=None, lines=lines * np.abs(self.measured.G)
+        )
+
+    @property
     def parts(self) -> tuple["Cost", ...]:
         """The costs of the single responses: this one."""
         return (self,)

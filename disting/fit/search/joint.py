@@ -165,6 +165,11 @@ class JointCost(SquaredCost):
         each = zip(self.parts, self._of_each(known), strict=True)
         return replace(self, parts=tuple(part.likely(own) for part, own in each))
 
+    @property
+    def leading(self) -> "JointCost":
+        """The cost that leads a search: of logarithms."""
+        return replace(self, parts=tuple(part.leading for part in self.parts))
+
     def _of_each(self, known: Scatter) -> Iterator[Scatter]:
         """The scatter of each response."""
         ends = np.cumsum([0, *(len(part.measured) for part in self.parts)])
