@@ -19,7 +19,7 @@ from disting.fit.plan.design import Designed, designed, designed_to_dict
 from disting.fit.plan.fit_file import Named, named_by
 from disting.fit.plan.network_file import NamedNetworks, is_of_networks, networks_named_by
 from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
-from disting.fit.plan.search import AnyStructure, response_of, sensor_of
+from disting.fit.plan.search import AnyStructure, responses_of, sensor_of
 from disting.measurement import read
 from disting.measurement.arrays import Real
 from disting.measurement.impedance import as_impedance
@@ -186,7 +186,13 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: dict[str
     for note in (*found.notes, *found.suspicions):
         complain(f"{found.origin or 'data'}: {note}")
     found = found.masked(*options.band) if options.band else found
-    seen = scatter(found, [response_of(model, values, found.omega)])
+    responses = responses_of(model, values, found.omega)
+    if len(responses) > 1:
+        raise InputError(
+            f"{options.noise} is one response, {len(responses)} are planned: say how much a line"
+            " scatters, such as --noise 0.02 --band 5..300"
+        )
+    seen = scatter(found, list(responses))
     own = 1 + round((found.freedom or 0.0) / 2)
     source = f"of {options.noise}, known from {seen.source}"
     return Effort(found.omega, seen.rho, source, options.repeats or min(own, MOST_REPEATS))

@@ -1,7 +1,9 @@
 """disting simulate: what a bench would measure on a model with known parameters."""
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from disting.cli.arguments import add_damped, add_notation, add_quantity, refuse
 from disting.cli.output import emitted, written_file
@@ -9,6 +11,10 @@ from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor
 from disting.network.element import Sort
 from disting.network.network import Network
+
+if TYPE_CHECKING:
+    from disting.measurement import TimeSeries
+    from disting.simulation import Bench, Excitation
 
 KINDS = ("schroeder", "random-phase", "chirp")
 QUANTITIES = [s.value for s in Sensor]
@@ -39,7 +45,8 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         type=written_file,
         metavar="FILE",
         default="-",
-        help="where the response goes (default: standard output)",
+        help="where the response goes (default: standard output); of several responses that of the"
+        " first sensor and the second input goes to FILE-1-2",
     )
     add_damped(p)
 
@@ -89,7 +96,7 @@ def _bench(p: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate, estimate the response, write it."""
     from disting.measurement import csv_text
-    from disting.simulation import Bench, Excitation, Friction, simulate
+    from disting.simulation import Bench, Excitation, Friction
     from disting.simulation.excitation import read_spectrum
 
     model, values = _model(options)
@@ -108,18 +115,42 @@ def run(options: argparse.Namespace) -> int:
         friction={mass: Friction(coulomb=force) for mass, force in options.friction},
         seed=options.seed,
     )
-    series = simulate(model, values, excitation, bench)
     lines = excitation.lines(options.samples, options.rate) * options.rate / options.samples
-    response = series.response(quantity, period=options.samples, lines=lines if spectrum else None)
-    text = csv_text(response)
-    emitted(options.csv, text)
-    if options.csv == "-":
-        return 0
-    print(
-        f"{len(response)} lines from {response.frequency[0]:g} to {response.frequency[-1]:g} Hz in"
-        f" {options.csv}"
-    )
+    for name, series in _records(model, values, excitation, bench, options.csv):
+        response = series.response(
+            quantity, period=options.samples, lines=lines if spectrum else None
+        )
+        emitted(name, csv_text(response))
+        if name != "-":
+            low, high = response.frequency[0], response.frequency[-1]
+            print(f"{len(response)} lines from {low:g} to {high:g} Hz in {name}")
     return 0
+
+
+def _records(
+    model: Chain | Network,
+    values: dict[str, float],
+    excitation: "Excitation",
+    bench: "Bench",
+    name: str,
+) -> Iterator[tuple[str, "TimeSeries"]]:
+    """Yield the records with the files of their responses: of several FILE-1-2.csv that of the
+    first sensor and the second input.
+    """
+    from disting.simulation import simulate, simulate_all
+
+    if isinstance(model, Chain) or model.shape == (1, 1):
+        yield name, simulate(model, values, excitation, bench)
+        return
+    if name == "-":
+        raise InputError(
+            f"{model.name} has {' x '.join(map(str, model.shape))} outputs and inputs: say where"
+            " the responses go, such as --csv frf.csv for frf-1-1.csv, .."
+        )
+    path = Path(name)
+    for i, row in enumerate(simulate_all(model, values, excitation, bench), 1):
+        for j, series in enumerate(row, 1):
+            yield str(path.with_stem(f"{path.stem}-{i}-{j}")), series
 
 
 def _model(options: argparse.Namespace) -> tuple[Chain | Network, dict[str, float]]:

@@ -23,9 +23,9 @@ from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
 from disting.fit.search.network_plant import (
     AnyNetworkPlant,
-    NetworkPlant,
-    NetworkPlants,
+    is_lossless,
     measured_as,
+    network_plant,
     random_starts,
 )
 from disting.fit.search.setup import Setup
@@ -41,14 +41,15 @@ from disting.verdict.result import Relation
 
 STARTS, KEPT = 60, 6  # random starts of a network, and how many are searched on
 ITERATIONS = 40
+BREADTHS = (0.1, 0.03)  # of resonances, one after the other, before they are as sharp as they are
 SEED = 20_240_601  # of the starts
 LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BestFit:
-    """The parameters found, shape (n_p,), their cost, and the costs of all starts after the rough
-    search, in rising order.
+    """The parameters found, shape (n_p,), their cost, and the costs to which all starts led, in
+    rising order: few are searched to the end.
     """
 
     p: Real
@@ -91,7 +92,7 @@ def fit_networks(
     chosen = [i for i, k in enumerate(first) if i == k]
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
-        plant = _plant(asked[i], data)
+        plant = network_plant(asked[i], [one.omega for one in data])
         starts = random_starts(plant, data[0], STARTS, np.random.default_rng((SEED, i)))
         found.append((plant, searched(plant, cost, starts).p))
     known = together(scatters(cost, [plant.response(p) for plant, p in found]))
@@ -138,12 +139,6 @@ def _cost(data: Sequence[FrequencyResponse]) -> AnyCost:
     return JointCost(costs, tuple(Setup(sensor=str(k)) for k in range(1, len(costs) + 1)))
 
 
-def _plant(network: Network, data: Sequence[FrequencyResponse]) -> AnyNetworkPlant:
-    if len(data) == 1:
-        return NetworkPlant(network, data[0].omega)
-    return NetworkPlants(network, tuple(one.omega for one in data))
-
-
 def _first_of_same(decided: Decisions, count: int) -> list[int]:
     """For each network the first one that gives the same responses for all positive values."""
     first = list(range(count))
@@ -156,13 +151,25 @@ def _first_of_same(decided: Decisions, count: int) -> list[int]:
 
 
 def searched(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
-    """The best values found from starts, shape (n_s, n_p)."""
-    box = Box(np.zeros(len(plant.parameters)), plant.highest)
+    """The best values found from starts, shape (n_s, n_p).
+
+    Logarithms lead, whatever the cost: from far away distances in the complex plane see the peaks
+    alone. A network without losses is searched with broad resonances first.
+    """
+    box, leading = Box(np.zeros(len(plant.parameters)), plant.highest), cost.leading
+    breadths = BREADTHS if is_lossless(plant.network) else ()
+    first, *others = *(replace(plant, breadth=h) for h in breadths), plant
     with np.errstate(all="ignore"):  # far from the data responses may overflow
-        points, costs = rough(plant, cost, box, starts, ITERATIONS)
-        kept = np.argsort(costs)[:KEPT]
-        p, j = min((fine(plant, cost, box, points[k]) for k in kept), key=lambda end: end[1])
-    return BestFit(p, j, tuple(sorted(map(float, costs))))
+        points, sizes = rough(first, leading, box, starts, ITERATIONS)
+        costs, ends = cost.total(plant.response(points)), list[tuple[Real, float]]()
+        for k in np.argsort(sizes)[:KEPT]:
+            p = points[k]
+            for other in others:
+                p, _ = fine(other, leading, box, p)
+            ends.append(fine(plant, cost, box, p))
+            costs[k] = ends[-1][1]
+        p, j = min(ends, key=lambda end: end[1])
+    return BestFit(p, j, tuple(sorted(map(float, np.nan_to_num(costs, nan=np.inf)))))
 
 
 def _judged(

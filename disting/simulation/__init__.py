@@ -9,6 +9,7 @@ from disting.simulation.bench import DEMO_PARAMETERS as DEMO_PARAMETERS
 from disting.simulation.bench import Bench as Bench
 from disting.simulation.bench import demo as demo
 from disting.simulation.bench import simulate as simulate
+from disting.simulation.bench import simulate_all as simulate_all
 from disting.simulation.excitation import Excitation as Excitation
 from disting.simulation.excitation import Kind as Kind
 from disting.simulation.mechanics import Matrices as Matrices

@@ -95,12 +95,56 @@ def simulate(
     >>> bool(abs(G - 100).max() < 1e-6)
     True
     """
+    if isinstance(model, Network) and model.shape != (1, 1):
+        raise InputError(
+            f"{model.name} has several inputs or outputs: simulate_all records them all"
+        )
+    return _record(model, parameters, excitation or Excitation(), bench or Bench(), ())
+
+
+def simulate_all(
+    network: Network,
+    parameters: Mapping[str, float],
+    excitation: Excitation | None = None,
+    bench: Bench | None = None,
+) -> tuple[tuple[TimeSeries, ...], ...]:
+    """Records of all sensors, a row each, of a network with several inputs or outputs, each of
+    which is excited in turn (a column each): all sensors of a column record one experiment, with
+    one recorded input. Raises InputError as `simulate`.
+
+    >>> from disting.network import network_of
+    >>> two = network_of("1=2; F1; S1; S2")
+    >>> rows = simulate_all(two, {"m1": 1e-2, "m2": 1e-2, "k12": 500.0, "d12": 0.1})
+    >>> len(rows), len(rows[0])
+    (2, 1)
+    """
     bench, excitation = bench or Bench(), excitation or Excitation()
+    checked(network, parameters)
+    return tuple(
+        tuple(
+            _record(cell, parameters, excitation, replace(bench, seed=bench.seed + at), (row,))
+            for at, cell in enumerate(cells)
+        )
+        for row, cells in enumerate(network.cells)
+    )
+
+
+def _record(
+    model: AnyModel,
+    parameters: Mapping[str, float],
+    excitation: Excitation,
+    bench: Bench,
+    sensor: tuple[int, ...],
+) -> TimeSeries:
+    """One record; `sensor` tells the noise of several outputs of one experiment apart."""
     values = checked(model, parameters)
     period = excitation.period(bench.samples, bench.sampling_rate, bench.seed)
     output = _output(model, values, period, bench)
     source = np.random.default_rng([bench.seed, 1])
     noise = source.standard_normal((2, bench.samples * bench.periods))
+    if any(sensor):
+        source = np.random.default_rng([bench.seed, 1, *sensor])
+        noise[1] = source.standard_normal(noise.shape[1])
     coloured = _coloured(noise[1], bench, source) if bench.noise_slope else noise[1]
     recorded = output + bench.output_noise * coloured
     is_circuit = isinstance(model, Network) and model.sort is Sort.CIRCUIT

@@ -93,9 +93,10 @@ def form_of(model: AnyModel) -> Form:
     if isinstance(model, Network):
         if model.shape != (1, 1):
             raise InputError(
-                f"{model.name} has several inputs or outputs: simulate one of each at a time"
+                f"{model.name} has several inputs or outputs: ask for one of its cells, which are"
+                " networks too"
             )
-        plain = model.grounded if model.sort is Sort.CIRCUIT else model
+        plain = _plain(model)
         force, sensor = plain.ports
         parameters = (*model.parameters, *model.exponents)
         return Form(parameters, plain.elements, plain.nodes, force, sensor, model.order)
@@ -105,25 +106,33 @@ def form_of(model: AnyModel) -> Form:
     return Form(structure.parameters, elements, nodes, *ports, structure.sensor_order)
 
 
+def _plain(network: Network) -> Network:
+    """The network whose potentials are computed."""
+    return network.grounded if network.sort is Sort.CIRCUIT else network
+
+
 def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
     """The values of all parameters; raises InputError for missing, unknown or negative ones, for
     masses, ratios, exponents and what divides that are zero, and for exponents above 1.
     """
-    form = form_of(model)
-    if set(form.parameters) != set(values):
+    if isinstance(model, Network):
+        names, elements = (*model.parameters, *model.exponents), _plain(model).elements
+    else:
+        names, elements = (form := form_of(model)).parameters, form.elements
+    if set(names) != set(values):
         raise InputError(
-            f"parameters {listed(form.parameters)} are needed, given are {listed(values) or 'none'}"
+            f"parameters {listed(names)} are needed, given are {listed(values) or 'none'}"
         )
-    positive = {e.value for e in form.elements if e.letter == "m" or e.kind.divides}
-    positive |= {name for e in form.elements for name in (e.ratio, e.exponent)}
-    above = [e.exponent for e in form.elements if e.exponent and values[e.exponent] > 1]
+    positive = {e.value for e in elements if e.letter == "m" or e.kind.divides}
+    positive |= {name for e in elements for name in (e.ratio, e.exponent)}
+    above = [e.exponent for e in elements if e.exponent and values[e.exponent] > 1]
     if above:
         raise InputError(f"{above[0]} = {values[above[0]]} is no exponent: it is at most 1")
     for name, value in values.items():
         if not 0 <= value < np.inf or (name in positive and value == 0):
             kind = "positive" if name in positive else "non-negative"
             raise InputError(f"{name} = {shown(value)} is no {kind} number")
-    return {name: float(values[name]) for name in form.parameters}
+    return {name: float(values[name]) for name in names}
 
 
 def matrices(model: AnyModel, values: Mapping[str, float]) -> Matrices:

@@ -10,6 +10,7 @@ from scipy.stats import chi2
 from disting.errors import InputError
 from disting.fit.plan.power import LEVEL, Answer, plan
 from disting.fit.plan.rival import Trust, gain
+from disting.fit.plan.spectrum import Adversary
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.network import network_of
@@ -95,10 +96,63 @@ def test_a_network_in_which_the_model_is_contained_is_never_excluded():
     assert found.answer is Answer.SAME and found.is_contained
 
 
-def test_several_inputs_are_planned_one_by_one():
-    models = [replace(model, inputs=model.inputs * 2) for model in (MODEL, RIVAL)]
-    with pytest.raises(InputError, match="several inputs or outputs: plan one of each"):
-        plan(models[0], VALUES, models[1], OMEGA, alike(0.1))
+DRIVE = {"m1": 0.01, "m2": 0.02, "m3": 0.01, "k12": 500.0, "k23": 300.0}
+LINES = 2 * np.pi * np.geomspace(5.0, 200.0, 40)
+
+
+def test_what_several_sensors_tell_is_summed():
+    """Two sensors that show the same tell twice as much; another one tells more than one alone."""
+    values = DRIVE | {"d12": 0.1, "d23": 0.1}
+    size = {
+        ports: plan(
+            *(network_of(f"{t}; F1; {ports}") for t in ("1=2=3", "1=2")[:1]), values,
+            network_of(f"1=2; F1; {ports.replace('3', '2')}"), LINES, np.full(40, 0.1),
+        )
+        for ports in ("S1", "S1 S1", "S1 S3")
+    }  # fmt: skip
+    one, twice, both = (found.noncentrality for found in size.values())
+    assert twice == pytest.approx(2 * one, rel=1e-4) and both > 1.01 * one
+    assert size["S1 S3"].rival.recovered and len(size["S1 S3"].rival.apart) == 40
+    shares = np.full(40, 1 / 40)
+    for found in size.values():
+        adversary = Adversary(found.rival)
+        assert adversary.bound(shares) == pytest.approx(found.noncentrality)
+        assert adversary.noncentrality(shares) == pytest.approx(found.noncentrality, rel=1e-4)
+
+
+def test_planned_power_of_two_sensors_is_had():
+    model, rival = (network_of(t) for t in ("R1-p(R2,C2)-p(R3,C3)", "R1-p(R2,C2)"))
+    model, rival = (replace(n, inputs=n.inputs * 2, outputs=n.outputs) for n in (model, rival))
+    values = {"R1": 1.0, "R2": 2.0, "C2": 0.01, "R3": 0.3, "C3": 0.3}
+    found = plan(model, values, rival, OMEGA, alike(0.1))
+    found = plan(model, values, rival, OMEGA, alike(0.1 / np.sqrt(found.factor)))
+    assert found.power == pytest.approx(0.95, abs=1e-6)
+    draw, limit, excluded = np.random.default_rng(5), chi2.isf(LEVEL, found.surplus), 0
+    parts = [part.measured for part in found.rival.cost.parts]
+    for _ in range(100):
+        noise = draw.normal(size=(2, len(OMEGA), 2)) @ [1, 1j]
+        seen = [
+            replace(m, G=m.G * (1 + found.rival.rho * e)) for m, e in zip(parts, noise, strict=True)
+        ]
+        excluded += gain(found.rival, *seen) > limit
+    assert excluded >= 87  # of 95 expected, 3.7 standard deviations
+    with pytest.raises(InputError, match="at the planned lines"):
+        gain(found.rival, parts[0])
+
+
+def test_an_undamped_machine_is_found_back():
+    """From random starts its sharp resonances are seen from nowhere."""
+    tree, row = network_of("1~2, 1~3; F1; S2 S3"), network_of("1~2~3; F1; S2 S3")
+    values = {"m1": 0.01, "m2": 0.012, "m3": 0.006, "k12": 500.0, "k13": 900.0}
+    found = plan(tree, values, row, LINES, np.full(40, 0.1))
+    assert found.rival.recovered and found.answer is Answer.ENOUGH
+
+
+def test_a_sensor_that_shows_nothing_is_named():
+    models = [network_of(f"1=#, 2=#{more}; F1 F2; S1 S2") for more in ("", ", 1=2")]
+    values = dict.fromkeys(models[0].parameters, 1.0)
+    with pytest.raises(InputError, match="shows nothing of an input"):
+        plan(models[0], values, models[1], LINES, np.full(40, 0.1))
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,15 @@ from disting.general.any_model import of_network
 from disting.model.chain import Chain, Sensor
 from disting.network import Element, Network, Port, network_of
 from disting.network.chains import of_chain
-from disting.simulation import Bench, Excitation, Friction, frequency_response, matrices, simulate
+from disting.simulation import (
+    Bench,
+    Excitation,
+    Friction,
+    frequency_response,
+    matrices,
+    simulate,
+    simulate_all,
+)
 from tests.network.drawn import built, descriptions
 
 BENCH = Bench(sampling_rate=1000.0, samples=1000, periods=3)
@@ -49,6 +57,24 @@ def expanded(network, values, omega):
         for side in (model.numerator_terms, model.denominator_terms)
     )
     return top / bottom
+
+
+def test_all_sensors_of_an_experiment():
+    """Each response is that of the network between both; one recorded input for all sensors."""
+    network = network_of("1=2=3, 2=4; F1 F3; S4 S3:2", quantity="position")
+    values = truth(network)
+    clean = simulate_all(network, values, BAND, BENCH)
+    for cells, records in zip(network.cells, clean, strict=True):
+        for cell, record in zip(cells, records, strict=True):
+            found = record.response()
+            np.testing.assert_allclose(found.G, expanded(cell, values, found.omega), rtol=1e-7)
+    loud = replace(BENCH, input_noise=0.1, output_noise=0.1)
+    (a, b), (c, d) = simulate_all(network, values, BAND, loud)
+    assert np.array_equal(a.u, c.u) and not np.array_equal(a.u, b.u)
+    noise = [
+        loud.y - clean.y for loud, clean in ((a, clean[0][0]), (c, clean[1][0]), (d, clean[1][1]))
+    ]
+    assert np.abs(np.corrcoef(noise) - np.eye(3)).max() < 0.1
 
 
 @pytest.mark.parametrize("text", TEXTS)
@@ -127,7 +153,7 @@ def test_time_steps_of_a_geared_loop_agree_with_the_exact_lines():
 @pytest.mark.parametrize(
     ("text", "values", "friction", "words"),
     [
-        ("1~2; F1; S1, S2", {}, {}, "several inputs or outputs"),
+        ("1~2; F1; S1, S2", {}, {}, "several inputs or outputs: simulate_all records"),
         ("R1-C1", {"R1": 1}, {}, "parameters C1, R1 are needed"),
         ("R1-C1", {"R1": 0, "C1": 1}, {}, "R1 = 0 is no positive"),
         ("R1-P1", {"R1": 1, "P1": 1}, {}, "parameters P1, R1, n1 are needed"),

@@ -20,7 +20,7 @@ many degrees of freedom as the model has parameters beyond the rival, if the mod
 chi2 with lambda.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -37,16 +37,19 @@ from disting.fit.plan.search import (
     Search,
     box_of,
     name_of,
-    response_of,
+    responses_of,
     search,
     sensor_of,
     shown_as,
 )
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.descent import fine
+from disting.fit.search.joint import AnyCost, JointCost
+from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.presentation import summary
+from disting.network.network import Network
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
@@ -87,7 +90,7 @@ class Rival:
     structure: AnyStructure
     best: BestFit
     recovered: bool
-    cost: Cost = field(repr=False)
+    cost: AnyCost = field(repr=False)
     search: Search = field(repr=False)
 
     def __repr__(self) -> str:
@@ -117,7 +120,9 @@ class Rival:
 
     @property
     def apart(self) -> Real:
-        """|G_B/G_A - 1| of every line, shape (n_f,)."""
+        """|G_B/G_A - 1| of every line, shape (n_f,); of several responses the root of the sum of
+        squares.
+        """
         return apart(self, self.best.p)
 
     @property
@@ -154,8 +159,12 @@ def _limit(share: float) -> Limit:
 
 
 def apart(rival: Rival, p: Real) -> Real:
-    """|G_B/G_A - 1| of every line, shape (n_f,), for parameters `p`, shape (n_p,), of the rival."""
-    return np.asarray(np.abs(rival.plant.response(p) / rival.cost.measured.G - 1))
+    """|G_B/G_A - 1| of every line, shape (n_f,), for parameters `p`, shape (n_p,), of the rival; of
+    several responses the root of the sum of squares.
+    """
+    whole = np.concatenate([part.measured.G for part in rival.cost.parts])
+    each = np.abs(rival.plant.response(p) / whole - 1)
+    return np.asarray(np.linalg.norm(each.reshape(-1, len(rival.rho)), axis=0))
 
 
 def fitted_rival(
@@ -178,13 +187,36 @@ def fitted_rival(
     if rival == model:
         raise InputError("a structure is no rival of itself: name another one")
     _check(omega, rho)
-    measured = FrequencyResponse(omega, response_of(model, values, omega), sensor=sensor)
-    cost = Cost(measured, Case.COMPLEX, lines=1.0 / (rho * np.abs(measured.G)))
+    _check_ports(model, rival)
+    responses = responses_of(model, values, omega)
+    cost = _cost([FrequencyResponse(omega, g, sensor=sensor) for g in responses], 1.0 / rho)
     found = search(
         model, values, rival, cost, seed=seed, store=store, executor=executor, progress=progress
     )
     own = found.own * float(np.mean(rho**2)) / len(omega)
     return Rival(model, values, rho, rival, found.best, own < ROUNDING**2, cost, found)
+
+
+def _check_ports(model: AnyStructure, rival: AnyStructure) -> None:
+    """Raises InputError for networks with other numbers of inputs and outputs."""
+    shapes = [n.shape for n in (model, rival) if isinstance(n, Network)]
+    if len(set(shapes)) > 1:
+        (a, b), (c, d) = shapes
+        raise InputError(
+            f"{name_of(model)} has {a} x {b} outputs and inputs, {name_of(rival)} {c} x {d}: name"
+            " two with as many"
+        )
+
+
+def _cost(responses: Sequence[FrequencyResponse], weights: Real) -> AnyCost:
+    """That of relative distances with weights of the lines, shape (n_f,)."""
+    parts = tuple(Cost(one, Case.COMPLEX, lines=weights / np.abs(one.G)) for one in responses)
+    return parts[0] if len(parts) == 1 else JointCost(parts, (Setup(),) * len(parts))
+
+
+def weighted(rival: Rival, weights: Real) -> AnyCost:
+    """The rival's cost with further weights of its lines, shape (n_f,)."""
+    return _cost([part.measured for part in rival.cost.parts], weights / rival.rho)
 
 
 def _check(omega: Real, rho: Real) -> None:
@@ -196,13 +228,18 @@ def _check(omega: Real, rho: Real) -> None:
         raise InputError(f"the highest frequency is at most {WIDEST:g} times the lowest one")
 
 
-def gain(rival: Rival, measured: FrequencyResponse) -> float:
-    """T of the module for a measured response at the rival's lines: both structures are fitted
-    from where they lie closest without noise. Raises InputError for other lines.
+def gain(rival: Rival, *measured: FrequencyResponse) -> float:
+    """T of the module for measured responses at the rival's lines, one for each response of the
+    model: both structures are fitted from where they lie closest without noise. Raises InputError
+    for other lines.
     """
-    if not np.array_equal(measured.omega, rival.cost.measured.omega):
+    parts = rival.cost.parts
+    planned = [part.measured.omega for part in parts]
+    same = map(np.array_equal, (one.omega for one in measured), planned)
+    if len(measured) != len(parts) or not all(same):
         raise InputError("the test needs a response at the planned lines")
-    cost = replace(rival.cost, measured=measured)
+    seen = tuple(replace(part, measured=m) for part, m in zip(parts, measured, strict=True))
+    cost = seen[0] if isinstance(rival.cost, Cost) else replace(rival.cost, parts=seen)
     one, other = rival.search.plants
     own = np.array([rival.values[name] for name in one.parameters])
     return statistic(_left(other, cost, rival.best.p), _left(one, cost, own))
@@ -217,7 +254,7 @@ class _Left:
     noise: Noise
 
 
-def _left(plant: AnyPlant, cost: Cost, start: Real) -> _Left:
+def _left(plant: AnyPlant, cost: AnyCost, start: Real) -> _Left:
     p, _ = fine(plant, cost, box_of(plant), start)
     residual, columns = cost.of(plant, p)
     return _Left(residual, basis_of(columns), Noise(np.ones(len(residual))))

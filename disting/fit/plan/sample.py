@@ -21,6 +21,7 @@ from scipy.stats import ncx2
 from disting.fit.judge.exclusion import LEVEL, basis_of, limit
 from disting.fit.noise.scatter import Scatter, scatter
 from disting.fit.plan.rival import Rival
+from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 
 POWER = 0.95  # wanted probability of excluding one that is not
@@ -66,23 +67,28 @@ def simulated(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
     residual, columns = rival.cost.of(rival.plant, rival.best.p)
     limits, shares, widths = np.empty((3, DRAWS))
     for i in range(DRAWS):
-        known = _found(rival, source, repeats)
-        weights = np.tile(rival.rho * np.abs(rival.cost.measured.G) / known.rho / known.size, 2)
+        exact = [part.measured for part in rival.cost.parts]
+        each = [_found(one, rival.rho, source, repeats) for one in exact]
+        ratios = (
+            np.abs(g.G) / k.size * rival.rho / k.rho for g, k in zip(exact, each, strict=True)
+        )
+        weights = np.concatenate([np.tile(ratio, 2) for ratio in ratios])
         basis, missed = basis_of(columns * weights[:, None]), residual * weights
         d = missed - basis @ (basis.T @ missed)
         shares[i] = d @ d
         widths[i] = (d * weights**2) @ d / shares[i]
-        limits[i] = limit(surplus, known.freedom, level=level)
+        limits[i] = limit(surplus, min(known.freedom for known in each), level=level)
     return Sample(limits, shares / rival.noncentrality, widths, surplus)
 
 
-def _found(rival: Rival, source: np.random.Generator, repeats: int) -> Scatter:
+def _found(
+    exact: FrequencyResponse, rho: Real, source: np.random.Generator, repeats: int
+) -> Scatter:
     """The scatter that a simulated measurement tells."""
-    exact = rival.cost.measured
     shape = (2, repeats, len(exact))
     real, imaginary = source.normal(size=shape)
     error: Complex = real + 1j * imaginary
-    each = exact.G * (1 + np.sqrt(repeats) * rival.rho * error)
+    each = exact.G * (1 + np.sqrt(repeats) * rho * error)
     mean = replace(exact, G=each.mean(axis=0))
     if repeats > 1:
         spread = np.std(each, axis=0, ddof=1) / np.sqrt(repeats)

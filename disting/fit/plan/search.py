@@ -11,12 +11,16 @@ import numpy as np
 from disting.errors import InputError
 from disting.fit.networks import SEED, STARTS, BestFit, searched
 from disting.fit.search.candidates import reference
-from disting.fit.search.cost import Cost
 from disting.fit.search.descent import Box, fine
 from disting.fit.search.estimate import Estimate, Task, estimate
 from disting.fit.search.exchange import estimates
+from disting.fit.search.joint import AnyCost
 from disting.fit.search.neighbours import carried
-from disting.fit.search.network_plant import NetworkPlant, random_starts
+from disting.fit.search.network_plant import (
+    AnyNetworkPlant,
+    network_plant,
+    random_starts,
+)
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import Scale, natural, scale, stacked
 from disting.measurement.arrays import Complex, Real
@@ -27,7 +31,7 @@ from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
 AnyStructure = Chain | Network
-AnyPlant = Plant | NetworkPlant
+AnyPlant = Plant | AnyNetworkPlant
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,7 +43,7 @@ class Search:
 
     plants: tuple[AnyPlant, AnyPlant]
     best: BestFit
-    again: Callable[[Cost], BestFit]
+    again: Callable[[AnyCost], BestFit]
     own: float
     usual: Mapping[str, float]
 
@@ -62,30 +66,36 @@ def shown_as(structure: AnyStructure, sensor: Sensor) -> AnyStructure:
 
 
 def plant_of(structure: AnyStructure, omega: Real) -> AnyPlant:
-    """A structure at angular frequencies [rad/s]; raises InputError for a network with several
-    inputs or outputs.
+    """A structure at angular frequencies [rad/s]: of a network with several inputs or outputs all
+    its responses, one behind the other, row by row.
     """
     if isinstance(structure, Chain):
         return Plant(structure.structure, omega)
-    if structure.shape != (1, 1):
-        raise InputError(f"{structure.name} has several inputs or outputs: plan one of each")
-    return NetworkPlant(structure, omega)
+    outputs, inputs = structure.shape
+    return network_plant(structure, (omega,) * (outputs * inputs))
 
 
-def response_of(structure: AnyStructure, values: Mapping[str, float], omega: Real) -> Complex:
-    """G(j omega), shape (n_f,), of a structure at its values; raises InputError for missing,
-    unknown or negative ones.
+def responses_of(
+    structure: AnyStructure, values: Mapping[str, float], omega: Real
+) -> tuple[Complex, ...]:
+    """G(j omega), shape (n_f,) each, between each output and each input of a structure at its
+    values; raises InputError for missing, unknown or negative ones, and where one is zero.
     """
     plant = plant_of(structure, omega)
     given = checked(structure, values)
-    return plant.response(np.array([given[name] for name in plant.parameters]))
+    whole = plant.response(np.array([given[name] for name in plant.parameters]))
+    if not np.all(whole):
+        raise InputError(
+            f"{name_of(structure)}: a sensor shows nothing of an input: leave one of both away"
+        )
+    return tuple(whole.reshape(-1, len(omega)))
 
 
 def search(
     model: AnyStructure,
     values: Mapping[str, float],
     rival: AnyStructure,
-    cost: Cost,
+    cost: AnyCost,
     *,
     seed: str = "disting",
     store: Store | None = None,
@@ -108,11 +118,11 @@ def _of_chains(
     model: Chain,
     values: Mapping[str, float],
     rival: Chain,
-    cost: Cost,
+    cost: AnyCost,
     task: Task,
     known: Mapping[Chain, Estimate],
 ) -> Search:
-    def again(other: Cost) -> BestFit:
+    def again(other: AnyCost) -> BestFit:
         return _best(estimate(rival, replace(task, cost=other), known))
 
     omega, size = cost.measured.omega, scale(cost.measured)
@@ -138,22 +148,25 @@ def _from_values(rival: Chain, values: Mapping[str, float], size: Scale) -> Real
     return stacked(list(carried(rival, dict(values), size)), names)
 
 
-def _of_networks(model: Network, values: Mapping[str, float], rival: Network, cost: Cost) -> Search:
-    def again(other: Cost) -> BestFit:
-        return _better(searched(plants[1], other, starts), plants[1], other, own)
+def _of_networks(
+    model: Network, values: Mapping[str, float], rival: Network, cost: AnyCost
+) -> Search:
+    def again(other: AnyCost) -> BestFit:
+        return _better(searched(there, other, starts), there, other, own)
 
     measured = cost.measured
-    plants = NetworkPlant(model, measured.omega), NetworkPlant(rival, measured.omega)
+    n = len(cost.parts)
+    here, there = (network_plant(network, (measured.omega,) * n) for network in (model, rival))
     starts, others = (
         random_starts(plant, measured, STARTS, np.random.default_rng((SEED, i)))
-        for i, plant in ((1, plants[1]), (0, plants[0]))
+        for i, plant in ((1, there), (0, here))
     )
-    usual = dict(zip(plants[1].parameters, np.exp(np.log(starts).mean(axis=0)), strict=True))
+    usual = dict(zip(there.parameters, np.exp(np.log(starts).mean(axis=0)), strict=True))
     own = np.array([[values.get(name, size) for name, size in usual.items()]])
-    return Search(plants, again(cost), again, searched(plants[0], cost, others).j, usual)
+    return Search((here, there), again(cost), again, searched(here, cost, others).j, usual)
 
 
-def _better(found: BestFit, plant: AnyPlant, cost: Cost, starts: Real) -> BestFit:
+def _better(found: BestFit, plant: AnyPlant, cost: AnyCost, starts: Real) -> BestFit:
     """The best fit, or a better one to which further starts lead."""
     box = box_of(plant)
     with np.errstate(all="ignore"):  # far from the data responses may overflow

@@ -18,17 +18,17 @@ spectrum found look better than it is, so the rival is searched anew, from all s
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
 from scipy.optimize import linprog
 
-from disting.fit.plan.rival import Rival, apart
+from disting.fit.plan.rival import Rival, apart, weighted
 from disting.fit.plan.search import box_of
-from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import different
+from disting.fit.search.joint import AnyCost
 from disting.measurement.arrays import Real
 
 CLOSE = 1e-3  # relative distance of the bound at which a spectrum is optimal
@@ -105,11 +105,8 @@ class Adversary:
         self.add(self.rival.search.again(self._cost(shares)).p)
         return self.bound(shares)
 
-    def _cost(self, shares: Real) -> Cost:
-        cost = self.rival.cost
-        size = np.abs(cost.measured.G) * self.rival.rho
-        weights = np.sqrt(len(shares) * np.maximum(shares, 0.0)) / size
-        return replace(cost, lines=weights)
+    def _cost(self, shares: Real) -> AnyCost:
+        return weighted(self.rival, np.sqrt(len(shares) * np.maximum(shares, 0.0)))
 
 
 def optimal(adversary: Adversary) -> Spectrum:

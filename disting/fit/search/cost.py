@@ -160,6 +160,16 @@ class Cost(SquaredCost):
         return own if own is not None and own.ratio is None else None
 
     @property
+    def leading(self) -> "Cost":
+        """The cost that leads a search: of logarithms, each line with its relative weight."""
+        if self.case is Case.LOGARITHM:
+            return self
+        lines = 1.0 if self.lines is None else self.lines
+        return replace(
+            self, case=Case.LOGARITHM, weights=None, lines=lines * np.abs(self.measured.G)
+        )
+
+    @property
     def parts(self) -> tuple["Cost", ...]:
         """The costs of the single responses: this one."""
         return (self,)

@@ -170,6 +170,11 @@ class JointCost(SquaredCost):
         """Of what Welch's method shows."""
         return replace(self, parts=tuple(part.windowed() for part in self.parts))
 
+    @property
+    def leading(self) -> "JointCost":
+        """The cost that leads a search: of logarithms."""
+        return replace(self, parts=tuple(part.leading for part in self.parts))
+
     def _of_each(self, known: Scatter) -> Iterator[Scatter]:
         """The scatter of each response."""
         ends = np.cumsum([0, *(len(part.measured) for part in self.parts)])

@@ -10,11 +10,10 @@ With P x = b, P^T y = c and G = s^q c^T x, for a term f(p) s^r u v^T of P, f = p
 Everything is vectorised over frequencies and over parameter vectors.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,10 +35,15 @@ SMALL = 1e-13  # of the largest entry of P: what keeps an undamped one from bein
 
 @dataclass(frozen=True, eq=False)
 class NetworkPlant:
-    """A network with one input and one output at angular frequencies `omega` [rad/s], (n_f,)."""
+    """A network with one input and one output at angular frequencies `omega` [rad/s], (n_f,).
+
+    `breadth` h: at s = j omega (1 - j h) instead, where resonances are as broad as if they had a
+    damping ratio of about h: what a search can begin with, as an undamped one is seen from nowhere.
+    """
 
     network: Network
     omega: Real
+    breadth: float = 0.0
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
@@ -135,7 +139,7 @@ class NetworkPlant:
         feel more than differences: there it is the ground.
         """
         (sensor,) = self._plain.outputs
-        more = self._plain.is_directed or any(e.ratio for e in self._plain.elements)
+        more = self.network.is_directed or any(e.ratio for e in self._plain.elements)
         return sensor.minus if sensor.plus and not more else 0
 
     def _placed(self, side: Entries) -> Entries:
@@ -154,7 +158,7 @@ class NetworkPlant:
 
     @cached_property
     def _s(self) -> Complex:
-        return np.asarray(1j * self.omega, dtype=np.complex128)
+        return np.asarray((1j + self.breadth) * self.omega, dtype=np.complex128)
 
     @cached_property
     def _front(self) -> Complex:
@@ -178,11 +182,12 @@ class NetworkPlant:
 @dataclass(frozen=True, eq=False)
 class NetworkPlants:
     """A network with several inputs and outputs: all its responses, one behind the other, row by
-    row, each at its own angular frequencies [rad/s].
+    row, each at its own angular frequencies [rad/s]; `breadth` as of a `NetworkPlant`.
     """
 
     network: Network
     omegas: tuple[Real, ...]
+    breadth: float = 0.0
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
@@ -213,16 +218,32 @@ class NetworkPlants:
     def _parts(self) -> list[tuple[NetworkPlant, NDArray[np.intp]]]:
         """The plant of each response, and where its parameters stand."""
         found = []
-        for (sensor, force), omega in zip(
-            product(self.network.outputs, self.network.inputs), self.omegas, strict=True
-        ):
-            part = NetworkPlant(replace(self.network, inputs=(force,), outputs=(sensor,)), omega)
+        cells = (cell for row in self.network.cells for cell in row)
+        for cell, omega in zip(cells, self.omegas, strict=True):
+            part = NetworkPlant(cell, omega, self.breadth)
             at = [self.parameters.index(name) for name in part.parameters]
             found.append((part, np.array(at, dtype=np.intp)))
         return found
 
 
 AnyNetworkPlant = NetworkPlant | NetworkPlants
+
+
+def is_lossless(network: Network) -> bool:
+    """Whether all powers of s differ by even numbers: its resonances are not damped.
+
+    >>> from disting.network import network_of
+    >>> [is_lossless(network_of(t)) for t in ("1~2; F1; S2", "1=2; F1; S2", "p(L1,C1)")]
+    [True, False, True]
+    """
+    return len({e.kind.halves % 4 for e in network.elements}) == 1 and not network.exponents
+
+
+def network_plant(network: Network, omegas: Sequence[Real]) -> AnyNetworkPlant:
+    """A network at the angular frequencies [rad/s] of each of its responses."""
+    if len(omegas) == 1:
+        return NetworkPlant(network, omegas[0])
+    return NetworkPlants(network, tuple(omegas))
 
 
 def _sized(side: Entries) -> Sized:
