@@ -25,7 +25,7 @@ from disting.algebra.sampling import residues
 Words = NDArray[np.uint64]
 Marks = NDArray[np.bool_]
 Flat = tuple[int, int]
-WIDE = 1 << 13  # sets at which a further level is no longer kept, but searched part by part
+WIDE = 1 << 15  # sets at which a further level is no longer kept, but searched part by part
 CHUNK = 1 << 16  # products at once: few enough to stay in the processor's cache
 
 

@@ -21,7 +21,7 @@ from functools import lru_cache
 from flint import nmod_mat
 
 from disting.algebra.sampling import about, prime, residues
-from disting.fibres.ideals.system import PolynomialMap, Terms
+from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
 REMEMBERED = 512  # ranks: a row is asked for in many pairs
@@ -101,6 +101,15 @@ def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> int:
                 number = number * (x if e == 1 else pow(x, e, modulus)) % modulus
         total += number
     return total % modulus
+
+
+def sides_at(
+    model: CoefficientMap, point: Sequence[int], modulus: int
+) -> tuple[list[int], list[int]]:
+    """Coefficients of numerator and denominator at a point modulo a prime."""
+    values = [evaluated(c, point, modulus) for c in model.coordinates]
+    count = len(model.numerator)
+    return values[:count], [*values[count:], *[1] * model.is_monic]
 
 
 def agree(

@@ -10,15 +10,14 @@ that are not all equal at a point are not all equal. So what is found holds with
 nothing is found, nothing is claimed.
 """
 
-from collections.abc import Sequence
 from functools import cache
 
-from flint import fmpz_mpoly, nmod_mat, nmod_poly
+from flint import nmod_mat, nmod_poly
 
 from disting.algebra.sampling import about, prime, residues
-from disting.fibres.ideals.fibre_ideal import evaluated
+from disting.fibres.ideals.fibre_ideal import sides_at
 from disting.fibres.ideals.splits import power, receptances
-from disting.fibres.ideals.system import CoefficientMap, terms
+from disting.fibres.ideals.system import CoefficientMap
 from disting.model.structure import Structure
 
 DRAWS = 400  # a degree m needs about 2 m of them
@@ -48,7 +47,7 @@ def _is_inseparable(row: CoefficientMap, step: int, label: str) -> bool:
     wanted, unequal = set[tuple[int, ...]](), False
     for draw in range(DRAWS):
         point = residues(f"{label}:{draw}", len(row.parameters), modulus)
-        num, den = (_at(c[::step], point, modulus) for c in (row.numerator, row.denominator))
+        num, den = (nmod_poly(c[::step], modulus) for c in sides_at(row, point, modulus))
         zeros = next(i for i in range(den.degree() + 1) if den[i])
         rest = nmod_poly([den[i] for i in range(zeros, den.degree() + 1)], modulus)
         m = rest.degree()
@@ -88,7 +87,3 @@ def _residues_differ(num: nmod_poly, rest: nmod_poly, zeros: int) -> bool:
         nmod_mat(2, m, [int(r[i]) for r in remainders for i in range(m)], rest.modulus()).rank()
         == 2
     )
-
-
-def _at(polynomials: Sequence[fmpz_mpoly], point: Sequence[int], modulus: int) -> nmod_poly:
-    return nmod_poly([evaluated(terms(p), point, modulus) for p in polynomials], modulus)

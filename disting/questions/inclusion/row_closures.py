@@ -26,9 +26,8 @@ from disting.behaviour.chain_model import powers
 from disting.evidence.limits import RowLimits, Why
 from disting.fibres.ideals import CoefficientMap, Limits, decide
 from disting.fibres.ideals.factored import factored
-from disting.fibres.ideals.fibre_ideal import evaluated, generic_rank
+from disting.fibres.ideals.fibre_ideal import generic_rank, sides_at
 from disting.fibres.ideals.shares import may_share, told_apart
-from disting.fibres.ideals.system import terms
 from disting.model.question import Membership
 from disting.model.row import Row
 from disting.questions.inclusion.row_equations import equation_safety, label_of, row_equation
@@ -221,12 +220,7 @@ def _rank_of_function(model: CoefficientMap) -> int:
 
 def _at(model: CoefficientMap, label: str, modulus: int) -> tuple[list[int], list[int]]:
     """Coefficients of numerator and denominator at the point of a label, modulo a prime."""
-    point = residues(label, len(model.parameters), modulus)
-    num, den = (
-        [evaluated(terms(c), point, modulus) for c in p]
-        for p in (model.numerator, model.denominator)
-    )
-    return num, den
+    return sides_at(model, residues(label, len(model.parameters), modulus), modulus)
 
 
 def _does_not_vanish(wanted: Wanted, label: str) -> bool:

@@ -15,8 +15,9 @@ of N_R. Compared at high frequencies, r m_b = q; the residue at t is r t^2 Q(t) 
     y_t - t^2 q + r t^2 sum y_z/g(z) = 0,  over the roots z of N_R,                             (1)
 
 and r Q is q + r sum y_z (z - t)/(g(z) (s - z)), so E_R is q N_R + r P up to a factor, for the
-polynomial P = E/g modulo N_R, as that has the values of the sum at all z. Rows with force and
-sensor at the end fulfil an equation in N_R and E_R, homogeneous in each (`row_resultants`):
+polynomial P = E/g modulo N_R, N being monic, as that has the values of the sum at all z. Rows with
+force and sensor at the end fulfil an equation in N_R and E_R, homogeneous in each
+(`row_resultants`):
 
     Res(U, V) = 0  of N_R and q N_R + r P.                                                      (2)
 

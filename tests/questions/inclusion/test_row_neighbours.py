@@ -2,16 +2,19 @@
 to be a limit.
 """
 
+from itertools import islice
+
 import pytest
 
 from disting import Family, catalog
+from disting.algebra.fractionfree import polynomial
 from disting.algebra.sampling import prime, residues
 from disting.fibres.ideals import normalised
 from disting.fibres.ideals.fibre_ideal import evaluated
 from disting.fibres.ideals.system import terms
 from disting.model.row import Row
 from disting.questions.inclusion.closures import of_closure
-from disting.questions.inclusion.row_neighbours import are_no_limits
+from disting.questions.inclusion.row_neighbours import _has_no_common_root, are_no_limits
 
 DRAWS = 60
 
@@ -48,13 +51,16 @@ def test_other_functions_of_the_same_degrees_are_no_limits(n):
     assert not are_no_limits(row, [([0, *num[1:]], den, p) for num, den, p in drawn])
 
 
-@pytest.mark.parametrize("n", [4, 5])
-def test_its_own_functions_are_not_refuted(n):
-    """At the root of the joint both forms have a common root; N is a product, so no root stands for
-    all, and at no point is more said.
-    """
+@pytest.mark.parametrize("n", [4, 5, 6])
+def test_its_own_functions_fulfil_it_at_the_root_of_the_joint_alone(n):
     row = Row(n, False, 1, 2, True)
     assert not are_no_limits(row, points(row.structure, f"own {n}"))
+    for num, den, modulus in islice(points(row.structure, f"own {n}"), 3):
+        numerator, energy = polynomial(num, modulus), polynomial(den[2:], modulus)
+        factors = [f for f, _ in numerator.factor()[1] if f.degree() == 1]
+        roots = [-int(f[0]) * pow(int(f[1]), -1, modulus) for f in factors]
+        apart = [_has_no_common_root(numerator, energy, t % modulus) for t in roots]
+        assert apart.count(False) == 1
 
 
 @pytest.mark.parametrize("n", [4, 5])
