@@ -32,7 +32,7 @@ FAMILIES = {
     "trees of masses": ("trees-4", replaced),
     "two kinds of elements": ("circuits-4", full_set),
     "parts of two kinds": ("cells-4", replaced),
-    "parts of damped machines": ("machines-3-damped", replaced),
+    "parts of three kinds": ("circuits-5", replaced),
     "trees of compartments": ("compartments-3", replaced),
     "interlacing": ("machines-3", interlaced),
     "interlacing of 4": ("trees-4", interlaced),

@@ -9,6 +9,7 @@ from scipy.linalg import qr
 from scipy.optimize import least_squares
 
 STARTS = 200
+NEAR, FARTHER = 1.5, 0.03  # logarithms of values from which searches start, and growth of these
 BITS = 256
 STEPS = 12
 CLOSE = 1e-4
@@ -26,8 +27,8 @@ def construct(given, other, draw, starts=STARTS):
     with ctx.workprec(BITS):
         exact = _ratios(_values(rows, list(map(arb, mine))))
         goal = np.array([float(x) for x in exact])
-        for _ in range(starts):
-            start = _start(there, len(other.parameters), goal, draw)
+        for k in range(starts):
+            start = _start(there, len(other.parameters), goal, draw, NEAR + k * FARTHER)
             found = None if start is None else _polished(there, start, exact)
             if found is not None:
                 return found
@@ -39,7 +40,7 @@ def _rows(model):
     return [[(e, int(c)) for e, c in terms] for side in sides for terms in side]
 
 
-def _start(rows, count, goal, draw):
+def _start(rows, count, goal, draw, spread):
     terms = [(i, e, float(c)) for i, row in enumerate(t for t in rows if t) for e, c in row]
     places, numbers = np.array([i for i, _, _ in terms]), np.array([c for _, _, c in terms])
     powers = np.array([e for _, e, _ in terms], float)
@@ -53,7 +54,7 @@ def _start(rows, count, goal, draw):
         by = slopes[:-1] / totals[-1] - found[:, None] * slopes[-1] / totals[-1]
         return found / goal - 1, by / goal[:, None]
 
-    first = np.array([draw.uniform(-1.5, 1.5) for _ in range(count)])
+    first = np.array([draw.uniform(-spread, spread) for _ in range(count)])
     tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "max_nfev": 300}
     found = least_squares(lambda x: both(x)[0], first, lambda x: both(x)[1], **tight)
     if np.max(np.abs(found.fun)) > CLOSE or np.max(np.abs(found.x)) > FARTHEST:
