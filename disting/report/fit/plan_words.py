@@ -150,7 +150,8 @@ def plan_command(found: Plan) -> str:
         hertz = found.rival.hertz
         lines = f" --band {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
     named = named_with_values(found.model, found.values, found.other)
-    return f"disting plan {named} --noise {size:.3g}{lines}"
+    repeats = f" --repeats {found.repeats}" if (found.repeats or 1) > 1 else ""
+    return f"disting plan {named} --noise {size:.3g}{lines}{repeats}"
 
 
 def _answer(found: Plan) -> str:
