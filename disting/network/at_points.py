@@ -56,7 +56,7 @@ class Entry:
         return (((i, one), (j, sign * point[self.ratio])),) * 2
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)  # one of a kind: see `_frame`
 class Frame:
     """P of a network: `size` rows, `entries`; `n_values` parameters. Powers are those of s, or of
     s^(1/2).
@@ -139,8 +139,12 @@ def assembly(network: Network, halves: bool) -> Assembly | None:
     )
     size = max(i for e in plain.elements for i in e.nodes)
     entries = tuple(_entry(e, places, e.kind.halves // step + lift) for e in plain.elements)
-    frame = Frame(size, entries, len(network.parameters))
+    frame = _frame(size, entries, len(network.parameters))
     return Assembly(frame, force, sensor, 2 * network.order // step + lift)
+
+
+_frame = lru_cache(maxsize=REMEMBERED)(Frame)
+"""All ports of a network share it, and it is looked up by what it is, not by what it holds."""
 
 
 def _entry(e: Element, places: dict[str, int], power: int) -> Entry:
@@ -154,7 +158,7 @@ def _entry(e: Element, places: dict[str, int], power: int) -> Entry:
 
 def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
     """N and D at a point without zeros; None where P cannot be inverted at enough numbers s."""
-    seen = _solved(of.frame, tuple(point), modulus)
+    seen = solved(of.frame, tuple(point), modulus)
     if not seen:
         return None
     rows, wanted = [_at_number(of, at, modulus) for at in seen], len(seen)
@@ -163,13 +167,13 @@ def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
     )
     width = len(rows[0])
     known = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
-    solved = [int(x) for x in powers.solve(known).entries()]
-    num, den, *slopes = (nmod_poly(solved[i::width], modulus) for i in range(width))
+    found = [int(x) for x in powers.solve(known).entries()]
+    num, den, *slopes = (nmod_poly(found[i::width], modulus) for i in range(width))
     return _turned(of, point, num, den, slopes)
 
 
 @lru_cache(maxsize=4)  # for the other ports of the same network
-def _solved(of: Frame, point: tuple[int, ...], modulus: int) -> tuple[Solved, ...]:
+def solved(of: Frame, point: tuple[int, ...], modulus: int) -> tuple[Solved, ...]:
     """As many numbers s as there can be powers, or none where too few are found."""
     values = [pow(e.value(point), -1, modulus) if e.divides else e.value(point) for e in of.entries]
     wanted = of.highest + 1

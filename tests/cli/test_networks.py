@@ -40,6 +40,30 @@ def test_what_is_mostly_inductive_is_not_turned(tmp_path):
     assert "-Im" not in done.stderr
 
 
+def test_all_sensors_are_simulated_and_fitted(tmp_path):
+    """One file for each sensor; a fit of an undamped machine to them begins anywhere."""
+    two, values = "1~2~3; F1; S1 S3", "m1=0.01,m2=0.012,m3=0.006,k12=500,k23=900"
+    path = tmp_path / "frf.csv"
+    done = called(
+        "simulate",
+        two,
+        "--set",
+        values,
+        "--output-noise",
+        "1e-7",
+        "--samples",
+        "500",
+        "--csv",
+        path,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split()[-1].endswith("frf-2-1.csv")
+    data = [tmp_path / f"frf-{k}-1.csv" for k in (1, 2)]
+    done = called("fit", *data, "--models", two, "--models", "1~2, 1~3; F1; S1 S3")
+    assert done.returncode == 0, done.stderr
+    assert f"{two} is the simplest that explains the data." in done.stdout
+
+
 def test_a_tree_is_simulated_with_friction():
     done = called("simulate", TREE, "--set", VALUES, "--samples", "500", "--friction", "3=0.01")
     assert done.returncode == 0 and "# sensor: acceleration" in done.stdout
@@ -189,7 +213,11 @@ def test_damaged_files_are_refused(fit_file, tmp_path, change, words):
         ("simulate R0-C1 --set R0=1,C1=1 --response position", "--response belongs to machines"),
         ("simulate R0-C1 --set R0=1,C1=1 --damped", "--damped belongs to numbered chains"),
         ("simulate R0-C1 --set R0=1,C1=1 --friction 1=1", "friction belongs to machines"),
-        ("simulate '1~2; F1; S1 S2' --set m1=1,m2=1,k12=1", "several inputs or outputs"),
+        ("simulate '1~2; F1; S1 S2' --set m1=1,m2=1,k12=1", "such as --csv frf.csv for frf-1-1.csv"),
+        (
+            "plan '1~2; F1; S1 S2' '1~2; F1; S1' --set m1=1,m2=1,k12=1 --noise 0.1 --band 1..9",
+            "have the same outputs and inputs",
+        ),
         ("simulate --notation spice", "parameters belong to a model"),
     ],
 )  # fmt: skip
