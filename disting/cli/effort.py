@@ -9,13 +9,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
-from threading import Timer
+from threading import Event, Thread
+from time import process_time
 
 from disting.cli.plain import complain
 from disting.model.family import Family
 
 LONG = 60.0  # seconds that nobody needs to be told of
 PATIENCE = 5.0  # seconds that one pair may take without a word
+LOOK = 0.1  # seconds between two looks at the time
 UNITS = (("day", 86400.0), ("hour", 3600.0), ("minute", 60.0))
 
 
@@ -88,14 +90,20 @@ def announced(work: Work, counts: Mapping[int, int], jobs: int = 1) -> None:
 
 @contextmanager
 def told_if_long(message: str, seconds: float = PATIENCE) -> Iterator[None]:
-    """Tell of work that is not done after so many seconds, while it goes on."""
-    timer = Timer(seconds, complain, [message])
-    timer.daemon = True
-    timer.start()
+    """Tell of work that is not done after so many seconds of one core, while it goes on."""
+    done = Event()
+    Thread(target=_watch, args=(done, message, process_time() + seconds), daemon=True).start()
     try:
         yield
     finally:
-        timer.cancel()
+        done.set()
+
+
+def _watch(done: Event, message: str, until: float) -> None:
+    while not done.wait(max(until - process_time(), LOOK)):
+        if process_time() >= until:
+            complain(message)
+            return
 
 
 def pairs_work(damped: bool) -> Work:
