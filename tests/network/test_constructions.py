@@ -15,7 +15,7 @@ from disting.general.replacement import full_set
 from disting.network.families import family_of
 from disting.network.notation import network_of
 from disting.network.simplest import simplest
-from tests.general.test_ways import positive, structures
+from tests.general.test_ways import positive
 from tests.oracles.constructions import construct
 
 DRAWS = 1000  # of each theorem, one way or the other
@@ -92,12 +92,11 @@ def test_what_is_not_the_same_is_not_constructed():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("group", ["machines-3", "three compartments"])
-def test_twenty_points_of_each_verdict(group):
-    draw = random.Random(group)
+def test_twenty_points_of_each_verdict_on_three_masses():
+    draw = random.Random("machines-3")
     wrong = [
         (given.name, other.name)
-        for pair in same_by_verdict(group)
+        for pair in same_by_verdict()
         for given, other in (pair, pair[::-1])
         for _ in range(POINTS)
         if construct(given, other, draw) is None
@@ -105,12 +104,9 @@ def test_twenty_points_of_each_verdict(group):
     assert not wrong, Counter(wrong)
 
 
-def same_by_verdict(group):
-    """Pairs of models whose verdict over positive values is INDISTINGUISHABLE."""
-    if group == "three compartments":
-        models = structures()
-    else:
-        networks = family_of(group).networks
-        models = [of_network(n) for n in networks if sum(e.letter == "k" for e in n.elements) <= 3]
+def same_by_verdict():
+    """Pairs of machines of at most three springs that are INDISTINGUISHABLE for positive values."""
+    networks = family_of("machines-3").networks
+    models = [of_network(n) for n in networks if sum(e.letter == "k" for e in n.elements) <= 3]
     pairs = [(a, b) for a, b in combinations(models, 2) if a.degrees == b.degrees]
     return [p for p in pairs if positive(*p).relation is Relation.INDISTINGUISHABLE]
