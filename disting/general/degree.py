@@ -21,6 +21,7 @@ everywhere, or everywhere its opposite.
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import lru_cache
 
 from disting.errors import InputError
 from disting.general.listed import goal_of, one_less, orientation, positive
@@ -29,11 +30,13 @@ from disting.general.powers import placed_network
 from disting.network.network import Network
 from disting.network.normal_form import Part
 
+REMEMBERED = 1024  # one-ports: each is asked about in many pairs
 TRIES = 3  # points, of which almost all would do
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19)
 SetOf = Callable[[Model], tuple[int, Part] | None]
 
 
+@lru_cache(maxsize=REMEMBERED)
 def covers(model: Model, whole: Part, set_of: SetOf) -> bool:
     """Whether a one-port of two kinds gives all functions of the set K(n, c, z), given as a part,
     in which its generic ones are; False says nothing.
@@ -49,7 +52,8 @@ def covers(model: Model, whole: Part, set_of: SetOf) -> bool:
         {name: Fraction(PRIMES[(i * (k + 1)) % d], k + 1) for i, name in enumerate(names)}
         for k in range(TRIES)
     )
-    return any(_degree(model, values) for values in points)
+    degrees = (_degree(model, values) for values in points)
+    return bool(next((degree for degree in degrees if degree is not None), 0))
 
 
 def _order(part: Part) -> int:
@@ -86,11 +90,11 @@ def _is_of_one_kind(network: Network) -> bool:
     return len({e.power for e in network.elements}) == 1
 
 
-def _degree(model: Model, values: dict[str, Fraction]) -> int:
-    """The sum of signs over all positive values with the function of these; 0 where not all are
-    known and regular.
+def _degree(model: Model, values: dict[str, Fraction]) -> int | None:
+    """The sum of signs over all positive values with the function of these; 0 where they are not
+    all known, None where not all are regular.
     """
     goal = goal_of(model, values)
     found = (goal and positive(goal, model, thorough=True)) or ()
     signs = [orientation(model, e) for e in found]
-    return sum(signs) if all(signs) else 0
+    return sum(signs) if all(signs) else None
