@@ -147,6 +147,7 @@ CALLS: tuple[Call, ...] = (
     ("simulation.frequency_response", lambda: simulation.frequency_response(DRIVE, {}, OMEGA), InputError),
     ("simulation.matrices", lambda: simulation.matrices(DRIVE, VALUES | {"m1": -1.0}), InputError),
     ("simulation.simulate", lambda: simulation.simulate(DRIVE, {}), InputError),
+    ("simulation.simulate_all", lambda: simulation.simulate_all(network_of("1=2; F1; S1; S2"), {}), InputError),
     ("fit.chosen_ports", lambda: fit.chosen_ports([1], "2", "2"), InputError),
     ("fit.collinearity_index", lambda: fit.collinearity_index(NAN), InputError),
     ("fit.condition_indices", lambda: fit.condition_indices(NAN), InputError),

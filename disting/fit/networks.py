@@ -167,7 +167,8 @@ def searched(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
             for other in others:
                 p, _ = fine(other, leading, box, p)
             ends.append(fine(plant, cost, box, p))
-            costs[k] = ends[-1][1]
+            valley = np.isclose(sizes, sizes[k], rtol=REACHED, atol=NOTHING)
+            costs[valley] = np.fmin(costs[valley], ends[-1][1])
         p, j = min(ends, key=lambda end: end[1])
     return BestFit(p, j, tuple(sorted(map(float, np.nan_to_num(costs, nan=np.inf)))))
 

@@ -174,7 +174,7 @@ def test_where_an_interval_ends_the_likelihood_has_fallen_as_far_as_it_says():
 
 def test_what_has_gone_to_zero_may_come_back_where_others_are_held():
     """A damper is zero at the optimum: m2 is known as badly as if it were there."""
-    machine = bench_drive(3, 0)
+    machine = bench_drive(3, 10)
     found = select(bench_data(machine, 1), [bench_truth(machine)])
     (member,) = found.members
     assert member.candidate.estimate.parameters["d23"] < 1e-6 * machine.values["d23"]
