@@ -42,10 +42,8 @@ from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import determinable, names_of
 
-LONGER = (
-    "this pair takes longer than most: up to a minute; less to do: --domain complex, which asks"
-    " for complex values only; Ctrl-C stops it"
-)
+LONGER = "this pair takes longer than most; Ctrl-C stops it"
+LESS = "; less to do: --domain complex, which asks for complex values only"
 Known = tuple[str, int, int]
 """The name of a model, how much of it is determined, how many parameters it has."""
 
@@ -95,7 +93,8 @@ class Judged:
 
 def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
     """The verdict on two models, proven where that is asked for."""
-    with told_if_long(LONGER):
+    less = LESS if asked.view.domain is not Domain.COMPLEX else ""
+    with told_if_long(LONGER + less):
         return _judged(sides, asked, options)
 
 

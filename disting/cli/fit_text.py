@@ -63,6 +63,22 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
     yield f"badly determined, the higher the worse: {columns(found.thresholds)}"
     yield ""
+    yield from _described(found, train)
+    yield from _excluded(found)
+    yield from _set(found)
+    yield from _relied_on(found)
+    if found.selected and found.explanation.explains:
+        yield ""
+        yield from _alternatives(found)
+    rest = [said for said in suspicions(found) if said not in first_lines(found)]
+    yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
+    yield from (
+        ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
+    )
+
+
+def _described(found: Selection, train: FrequencyResponse) -> Iterator[str]:
+    """The selected structure, or the best one, with its values."""
     chain, explains = found.described.chain, found.explanation.explains
     what = "selected" if explains else "the best one, which does not explain the data"
     yield (
@@ -74,17 +90,6 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from (f"  {line}" for line in _parameters(found))
     yield ""
     yield from (f"  {line}" for line in _results(physical(found.described, found.task), train))
-    yield from _excluded(found)
-    yield from _set(found)
-    yield from _relied_on(found)
-    if found.selected and explains:
-        yield ""
-        yield from _alternatives(found)
-    rest = [said for said in suspicions(found) if said not in first_lines(found)]
-    yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
-    yield from (
-        ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
-    )
 
 
 def _lines(found: Selection) -> str:

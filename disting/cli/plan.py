@@ -3,6 +3,7 @@
 import argparse
 import json
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +47,12 @@ class Effort:
     source: str
     repeats: int = 1
 
+    def planned(
+        self, model: AnyStructure, values: dict[str, float], rival: AnyStructure, **work: Any
+    ) -> Plan:
+        """One plan with this effort; `work`: engine, executor and progress of `plan`."""
+        return plan(model, values, rival, self.omega, self.rho, repeats=self.repeats, **work)
+
 
 def run(options: argparse.Namespace) -> int:
     """Plan for one pair, or for all rivals that a fit names."""
@@ -58,16 +65,8 @@ def run(options: argparse.Namespace) -> int:
     effort = _effort(options, model, values, None)
     _warn(effort)
     with engine_for(options) as (engine, pool, progress):
-        found = plan(
-            model,
-            values,
-            rival,
-            effort.omega,
-            effort.rho,
-            repeats=effort.repeats,
-            engine=engine,
-            executor=pool,
-            progress=progress,
+        found = effort.planned(
+            model, values, rival, engine=engine, executor=pool, progress=progress
         )
         progress("spectrum", 0, 1)
         best = designed(found)
@@ -106,20 +105,7 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
     _warn(effort)
     found = list[tuple[Plan, Plan | None]]()
     with engine_for(options) as (engine, pool, progress):
-
-        def planned(one: AnyStructure, values: dict[str, float], other: AnyStructure) -> Plan:
-            """One plan with this effort."""
-            return plan(
-                one,
-                values,
-                other,
-                effort.omega,
-                effort.rho,
-                repeats=effort.repeats,
-                engine=engine,
-                executor=pool,
-            )
-
+        planned = partial(effort.planned, engine=engine, executor=pool)
         for rival, values in named.rivals.items():
             progress("rival", len(found), len(named.rivals))
             there = planned(named.model, named.values, rival)

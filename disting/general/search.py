@@ -26,6 +26,7 @@ def values_near(
     goal, ratios = np.array(wanted), _ratios(rows, unknowns)
 
     def errors(logs: Any) -> tuple[Any, Any]:
+        """Relative differences of both, and their derivatives by the logarithms of all values."""
         found, slopes = ratios(logs)
         return found / goal - 1, slopes / goal[:, None]
 
@@ -48,6 +49,7 @@ def common_points(left: Model, right: Model) -> Iterator[tuple[bool, Values, tup
     ]
 
     def errors(logs: Any) -> tuple[Any, Any]:
+        """Relative differences of both, and their derivatives by the logarithms of all values."""
         (one, slopes), (other, along) = ratios[0](logs[:count]), ratios[1](logs[count:])
         found = one / other
         both = [slopes / other[:, None], -along * (found / other)[:, None]]
@@ -74,6 +76,7 @@ def _ratios(rows: Sequence[Terms], unknowns: int) -> Callable[[Any], tuple[Any, 
     numbers = np.array([c for _, _, c in terms])
 
     def at(logs: Any) -> tuple[Any, Any]:
+        """c_i/c_0, shape (n_c - 1,), and the derivatives, shape (n_c - 1, n_p)."""
         each = numbers * np.exp(np.clip(powers @ logs, -300, 300))
         totals, slopes = np.bincount(places, each, len(rows)), np.zeros((len(rows), unknowns))
         np.add.at(slopes, places, each[:, None] * powers)

@@ -41,6 +41,7 @@ input does not repeat itself, so that its lines do not stand apart.
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
@@ -79,23 +80,12 @@ def estimate(
     low, high = band or (0.0, np.inf)
     grid: Real = np.fft.rfftfreq(segment, 1 / rate).astype(np.float64)
     kept = (grid > 0) & (grid < rate / 2) & (grid >= low) & (grid <= high)
-
-    def spectrum(a: Real, b: Real) -> Complex:
-        """S_ab at the lines that are kept."""
-        return _cross_spectrum(a, b, rate, segment)[kept]
-
-    uu, yy, uy = spectrum(u, u).real, spectrum(y, y).real, spectrum(u, y)
-    rr, ru, ry = (
-        (uu, uu + 0j, uy)
-        if reference is None
-        else tuple(spectrum(reference, x) for x in (reference, u, y))
-    )
-    _refuse_silent(uu, yy, rr, ru)
+    uu, yy, uy, rr, ru, ry = _spectra(u, y, reference, rate, segment, kept)
     response, effective = ry / ru, count / (1 + 2 / 36)
     unexplained = np.maximum(yy - 2 * (response.conj() * uy).real + np.abs(response) ** 2 * uu, 0.0)
-    deviation = np.sqrt(unexplained * rr.real / effective) / np.abs(ru)
+    deviation = np.sqrt(unexplained * rr / effective) / np.abs(ru)
     coherence = np.minimum(
-        *(np.abs(cross) ** 2 / (rr.real * power) for cross, power in ((ru, uu), (ry, yy)))
+        *(np.abs(cross) ** 2 / (rr * power) for cross, power in ((ru, uu), (ry, yy)))
     )
     level = 1 - CHANCE ** (1 / (effective - 1)) if least_coherence is None else least_coherence
     even = np.rint(grid[kept] * segment / rate) % 2 == 0
@@ -124,6 +114,25 @@ def estimate(
         ),
         window=Window(segment / rate, order, ratio, share) if smooth else None,
     )
+
+
+def _spectra(
+    u: Real, y: Real, reference: Real | None, rate: float, segment: int, kept: NDArray[np.bool_]
+) -> tuple[Real, Real, Complex, Real, Complex, Complex]:
+    """S_uu, S_yy, S_uy, S_rr, S_ru, S_ry at the lines that are kept; without a reference r is u.
+    Raises InputError where one of them is silent.
+    """
+
+    def spectrum(a: Real, b: Real) -> Complex:
+        """S_ab."""
+        return _cross_spectrum(a, b, rate, segment)[kept]
+
+    uu, yy, uy = spectrum(u, u).real, spectrum(y, y).real, spectrum(u, y)
+    rr, ru, ry = uu, uu.astype(np.complex128), uy
+    if reference is not None:
+        rr, ru, ry = spectrum(reference, reference).real, *(spectrum(reference, x) for x in (u, y))
+    _refuse_silent(uu, yy, rr, ru)
+    return uu, yy, uy, rr, ru, ry
 
 
 def _refuse_silent(*powers: np.ndarray[Any, Any]) -> None:

@@ -231,6 +231,18 @@ def _problems_of_names(elements: Sequence[Element]) -> Iterator[str]:
         yield f"{name} is an exponent and something else: give it its own name"
 
 
+def _problems_of_ends(network: Network, port: Port, what: str) -> Iterator[str]:
+    known = (0, *network.nodes)
+    missing = sorted({port.plus, port.minus} - {*known})
+    if missing:
+        yield (
+            f"{what} is at node {missing[0]}, but no element is; nodes are"
+            f" {', '.join(map(str, known))}"
+        )
+    if port.plus == port.minus:
+        yield f"{what} is between node {port.plus} and itself: it needs two different ends"
+
+
 def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]:
     (entering, _), (seeing, _) = names = PORTS[network.sort]
     for given, (what, example) in zip((network.inputs, network.outputs), names, strict=True):
@@ -238,17 +250,8 @@ def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]
             yield f"{what} is missing: say where it is, such as {example} in a text"
     if len(ports) > 2 * MOST_PORTS:
         yield f"a network has {MOST_PORTS} inputs and outputs at most"
-    known = {0, *network.nodes}
     for p in ports:
-        missing = sorted({p.plus, p.minus} - known)
-        if missing:
-            yield (
-                f"{entering if p in network.inputs else seeing} is at node {missing[0]}, but no"
-                f" element is; nodes are {', '.join(map(str, (0, *network.nodes)))}"
-            )
-        if p.plus == p.minus:
-            what = entering if p in network.inputs else seeing
-            yield f"{what} is between node {p.plus} and itself: it needs two different ends"
+        yield from _problems_of_ends(network, p, entering if p in network.inputs else seeing)
     if type(network.order) is not int or not 0 <= network.order <= HIGHEST:
         yield "a sensor shows the position (0) or its first (1) or second (2) derivative"
     if network.order and network.sort is not Sort.MACHINE:
@@ -259,7 +262,7 @@ def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]
         yield f"a flow or a port is at node {node}, but no compartment: add the element v there"
     joined = [edge for e in network.elements for edge in edges(e)]
     ends = {i for p in ports for i in (p.plus, p.minus)}
-    roots = parts(known | ends, joined)
+    roots = parts({0, *network.nodes, *ends}, joined)
     lost = [i for i in network.nodes if roots[i]] if network.sort is Sort.MACHINE else []
     if lost:
         yield f"node {lost[0]} has no mass and no way to the rest: connect it or leave it away"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from disting import Family
-from disting.cli.compare import LONGER
+from disting.cli.compare import LESS, LONGER
 from disting.cli.effort import LONG, Work, announced, pairs_by_size, told_if_long
 from disting.measurement import write_csv
 from disting.simulation import demo
@@ -79,7 +79,7 @@ def test_a_pair_of_many_unknowns_says_so_and_can_be_stopped() -> None:
     first = process.stderr.readline()
     process.send_signal(signal.SIGINT)
     said, _ = process.communicate(timeout=60)
-    assert first == f"disting: {LONGER}\n" and (process.returncode, said) == (130, "")
+    assert first == f"disting: {LONGER}{LESS}\n" and (process.returncode, said) == (130, "")
 
 
 @pytest.mark.parametrize(

@@ -84,8 +84,8 @@ def _has_no_common_root(n: Modular, energy: Modular, t: int) -> bool:
     scale = pow(lead, -1, modulus)
     n, energy = n * scale, energy * scale
     rest = n // polynomial([-t, 1], modulus)
-    if not int(n[0]) or n.gcd(n.derivative()).degree() > 0:
-        return False
+    if not int(n[0]) or any(n.gcd(f).degree() > 0 for f in (n.derivative(), energy)):
+        return False  # a root twice, or not in lowest terms
     e = rest.degree()
     degree = (3 * e - 4) * e
     try:
