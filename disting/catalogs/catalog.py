@@ -159,6 +159,11 @@ class Catalog(Shown):
         Raises CatalogError where the verdicts contradict each other. Pairs that agree for some
         parameters only belong to no group for that (see `depending`).
         """
+        if view not in self._classes:
+            self._classes[view] = self._classes_of(view)
+        return self._classes[view]
+
+    def _classes_of(self, view: View) -> tuple[tuple[int, ...], ...]:
         pairs = self.records[1 + len(self.family) :]
         relations = {(r["left"], r["right"]): relation_of(self._deciding(r, view)) for r in pairs}
         names = [str(number) for number in range(1, 1 + len(self.family))]
@@ -260,6 +265,11 @@ class Catalog(Shown):
             group=group,
             identifiability=known,
         )
+
+    @cached_property
+    def _classes(self) -> dict[View, tuple[tuple[int, ...], ...]]:
+        """Groups that were asked for: the page of every model says its own."""
+        return {}
 
     @cached_property
     def _known(self) -> dict[tuple[int, int, View], Verdict]:
