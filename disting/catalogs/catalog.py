@@ -6,7 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -323,9 +323,16 @@ def catalog(n_masses: int, *, damped: bool = True, folder: Path | None = None) -
             f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting"
             " catalog build'"
         )
-    return Catalog.from_records(
-        read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl")
-    )
+    return _shipped(n_masses, damped) if folder is None else _read(folder, n_masses, damped)
+
+
+@lru_cache(maxsize=2)  # a look-up asks for the verdict, then for what is known of each model
+def _shipped(n_masses: int, damped: bool) -> Catalog:
+    return _read(shipped_folder(), n_masses, damped)
+
+
+def _read(folder: Path, n_masses: int, damped: bool) -> Catalog:
+    return Catalog.from_records(read_records(folder / f"{name_of(n_masses, damped)}.jsonl"))
 
 
 _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
