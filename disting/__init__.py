@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from disting.catalogs import Catalog as Catalog
     from disting.catalogs import ModelRow as ModelRow
     from disting.catalogs import catalog as catalog
-    from disting.conditions.finding import Finding as Finding
-    from disting.conditions.finding import Outcome as Outcome
+    from disting.conditions.rule import Finding as Finding
+    from disting.conditions.rule import Outcome as Outcome
     from disting.conditions.table import CONDITIONS as CONDITIONS
     from disting.equivalence import equivalents as equivalents
     from disting.equivalence import explicit_map as explicit_map
@@ -63,11 +63,11 @@ if TYPE_CHECKING:
     from disting.verdict.comparison import compare as compare
     from disting.verdict.comparison import findings as findings
     from disting.verdict.comparison import identifiability as identifiability
+    from disting.verdict.comparison import prove as prove
     from disting.verdict.decisions import Decisions as Decisions
     from disting.verdict.engine import Engine as Engine
     from disting.verdict.everywhere import compare_everywhere as compare_everywhere
     from disting.verdict.everywhere import everywhere_file as everywhere_file
-    from disting.verdict.proof import prove as prove
     from disting.verdict.query import Query as Query
     from disting.verdict.query import View as View
     from disting.verdict.result import Relation as Relation
@@ -81,7 +81,7 @@ _NAMES = {
     "disting.algebra.certainty": "Certainty",
     "disting.behaviour.expanded": "transfer_function",
     "disting.catalogs": "Catalog ModelRow catalog",
-    "disting.conditions.finding": "Finding Outcome",
+    "disting.conditions.rule": "Finding Outcome",
     "disting.conditions.table": "CONDITIONS",
     "disting.equivalence": "equivalents explicit_map gate",
     "disting.errors": "CatalogError ConstraintViolation ContradictionError DistingError InputError",
@@ -104,11 +104,10 @@ _NAMES = {
     "disting.questions.inclusion": "Inclusion",
     "disting.store": "CacheWarning Store",
     "disting.verdict.cascade": "Step",
-    "disting.verdict.comparison": "compare findings identifiability",
+    "disting.verdict.comparison": "compare findings identifiability prove",
     "disting.verdict.decisions": "Decisions",
     "disting.verdict.engine": "Engine",
     "disting.verdict.everywhere": "compare_everywhere everywhere_file",
-    "disting.verdict.proof": "prove",
     "disting.verdict.query": "Query View",
     "disting.verdict.result": "Relation Verdict",
     "disting.verdict.verdict_file": "verdict_file",

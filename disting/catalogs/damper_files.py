@@ -19,8 +19,7 @@ import numpy as np
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.dampers import DamperSets
 from disting.catalogs.files import Record, lines, shipped_folder, write_provenance
-from disting.conditions.finding import WRITTEN
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, WRITTEN
 from disting.errors import CatalogError
 from disting.files import intact_text, write_whole
 from disting.model.family import Family

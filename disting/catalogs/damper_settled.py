@@ -9,7 +9,7 @@ import json
 from collections.abc import Iterable
 from pathlib import Path
 
-from disting.conditions.finding import Finding
+from disting.conditions.rule import Finding
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals import coefficient_map, matched, normalised, refuted_at
 from disting.files import intact_text, shipped_folder

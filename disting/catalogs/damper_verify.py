@@ -12,7 +12,7 @@ from pathlib import Path
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.damper_files import name_of, read, text_of
 from disting.catalogs.damper_settled import append, holds, read_settled
-from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import Finding, Outcome
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical

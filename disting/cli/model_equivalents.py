@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from disting.cli.arguments import parted
-from disting.cli.output import emitted
-from disting.cli.plain import keep_apart
+from disting.cli.output import emitted, keep_apart
 from disting.cli.workers import engine_for
 from disting.equivalence import assignments
 from disting.errors import InputError

@@ -25,8 +25,7 @@ from disting.conditions.side import AnySide
 from disting.errors import InputError, listed, printable
 from disting.experiments.menu import Costs, Item
 from disting.general.any_model import of_network
-from disting.model.chain import Chain
-from disting.model.drawing import LEGEND, text_drawing
+from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import chains_named, name_of, read
 from disting.network.element import Sort

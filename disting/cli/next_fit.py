@@ -7,13 +7,11 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 
-from disting.cli.plain import complain
+from disting.cli.output import complain
 from disting.errors import InputError, listed
 from disting.experiments.menu import Costs
-from disting.fit.plan.fit_file import Named, named_by
-from disting.fit.plan.further import bench_of, foretold
-from disting.fit.plan.network_file import is_of_networks, left_by
-from disting.fit.plan.relations import stood
+from disting.fit.plan.fit_file import Named, is_of_networks, left_by, named_by
+from disting.fit.plan.further import bench_of, foretold, stood
 from disting.fit.results.networks import BAR
 from disting.network.network import Network
 from disting.report.fit.left_first import again, first_sentence

@@ -14,9 +14,7 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from disting.equivalence.cauer import common_ratio, proportional_solutions
-from disting.equivalence.identity import difference
-from disting.equivalence.images import DUALITY, Image, images
+from disting.equivalence.checks import Bench, benches, difference
 from disting.equivalence.inputs import Value, chains_of, point_of
 from disting.equivalence.listing import (
     Equivalent,
@@ -29,12 +27,17 @@ from disting.equivalence.listing import (
     special,
     under_all,
 )
-from disting.equivalence.under_experiments import Bench, benches
+from disting.equivalence.theorems import (
+    DUALITY,
+    Image,
+    common_ratio,
+    images,
+    proportional_solutions,
+)
 from disting.errors import ContradictionError, InputError
 from disting.experiments import Experiment, named
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Fibre, Solution, Status, target
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chains_named, name_of

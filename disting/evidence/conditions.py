@@ -5,8 +5,7 @@ masses.
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind
-from disting.evidence.seen import Labels, SeenPair, spelled
+from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, Labels, SeenPair, spelled
 from disting.model.question import Domain, Relation
 
 TRANSCENDENTAL = (

@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 
 from disting.errors import listed
 from disting.evidence.decision import Theorem
-from disting.evidence.kind import Carrier, Claim, Kind, plain_fields, read
-from disting.evidence.seen import Labels
+from disting.evidence.kind import Carrier, Claim, Kind, Labels, plain_fields, read
 from disting.model.question import Domain, Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]

@@ -7,8 +7,7 @@ from enum import StrEnum
 from itertools import groupby
 from typing import ClassVar, NamedTuple
 
-from disting.evidence.kind import Claim, Inside, Kind
-from disting.evidence.seen import Labels, spelled
+from disting.evidence.kind import Claim, Inside, Kind, Labels, spelled
 
 
 class Why(StrEnum):

@@ -13,7 +13,7 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.fit.judge.exclusion import basis_of, limit, statistic
-from disting.fit.judge.responses import explained, noises, scatters, together
+from disting.fit.judge.explanation import explained, noises, scatters, together
 from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection

@@ -12,11 +12,9 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice, repeat
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import Certainty, residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
-from disting.algebra.sampling import residues
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Explicit, NoEquivalent, Point, Witnesses

@@ -49,9 +49,8 @@ from itertools import combinations, permutations
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.sampling import residues
-from disting.algebra.symbols import factored
+from disting.algebra.certainty import residues
+from disting.algebra.symbols import RationalFunction, factored
 from disting.general.elimination import branches
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch

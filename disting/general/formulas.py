@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.evidence.general import ZERO, Explicit, Formula, NoEquivalent
 from disting.general.between import End, Path
 from disting.general.boundary import Boundary, at_boundary, equivalents_without

@@ -20,9 +20,8 @@ from itertools import islice
 
 from flint import fmpz_mpoly, nmod_mat
 
-from disting.algebra.certainty import Certainty
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import Certainty, prime, residues
+from disting.algebra.symbols import RationalFunction
 from disting.general.behaviour import evaluated
 from disting.general.cases import ORDERS, Case, Search, orders, searched
 from disting.general.expression import text_of

@@ -8,8 +8,7 @@ part of the form. So two models behave alike exactly if all their entries are eq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import symbols
+from disting.algebra.symbols import RationalFunction, symbols
 from disting.errors import InputError, listed, of_type, shown
 from disting.general.entries import polynomial, refuse_namesakes, rows_of
 from disting.general.expansion import Expansion

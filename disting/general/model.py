@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.notation import printed, quotient
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import renamed, symbols
+from disting.algebra.symbols import RationalFunction, renamed, symbols
 from disting.behaviour.expanded import expanded
 from disting.errors import InputError, shown
 from disting.general.entries import polynomial, refuse_namesakes, state_space

@@ -33,8 +33,7 @@ from dataclasses import replace
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import factored
+from disting.algebra.symbols import RationalFunction, factored
 from disting.general.cases import Case, cases_of
 from disting.general.model import Model, Terms
 from disting.general.orthant import Orthant, TooMuch

@@ -16,7 +16,7 @@ from functools import reduce
 from flint import fmpz_mpoly
 
 from disting.algebra.determinants import minors
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.general.entries import StateSpace
 from disting.general.expansion import Expansion
 from disting.general.expression import Tree

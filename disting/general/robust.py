@@ -27,7 +27,7 @@ from math import lcm
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.general.cases import Case, Search
 from disting.general.orthant import value_at
 from disting.general.sections import Section

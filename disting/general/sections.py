@@ -28,7 +28,7 @@ from itertools import product
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.general.cases import (
     Case,
     Search,

@@ -19,7 +19,7 @@ from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import Distortion, distortion
-from disting.measurement.outliers import left_out
+from disting.measurement.repeats import left_out
 from disting.measurement.window import Window
 from disting.model.presentation import plural
 

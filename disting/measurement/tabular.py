@@ -18,7 +18,6 @@ from disting.measurement.columns import (
     groups,
     level_of,
 )
-from disting.measurement.grid import in_omega, taken_unit
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
@@ -26,6 +25,7 @@ from disting.measurement.response import (
     Signal,
     as_sign,
 )
+from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import Table
 from disting.measurement.units import FREQUENCIES, LEVELS, PHASES, gain, known_unit, motion, ratio
 from disting.model.chain import Sensor, as_sensor

@@ -13,8 +13,8 @@ from functools import cached_property
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.constraints import Indices, violated
 from disting.model.presentation import Shown
+from disting.model.structure import Indices, violated
 
 
 def count(n: int) -> int:

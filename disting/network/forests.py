@@ -37,7 +37,7 @@ from functools import lru_cache
 
 from flint import fmpz_mat
 
-from disting.algebra.sampling import about, prime, residues
+from disting.algebra.certainty import about, prime, residues
 from disting.network.at_points import Assembly, Entry, Vector, assembly, quotient_at
 from disting.network.network import Network
 from disting.network.trees import Edge, forests

@@ -6,9 +6,9 @@ Mechatronics and Automation,
 """
 
 from disting.paper.claim import Claim as Claim
+from disting.paper.claim import Findings as Findings
 from disting.paper.claim import Found as Found
 from disting.paper.claim import Outcome as Outcome
 from disting.paper.claims import CLAIMS as CLAIMS
-from disting.paper.findings import Findings as Findings
 from disting.paper.refit import Mode as Mode
 from disting.paper.refit import Refit as Refit

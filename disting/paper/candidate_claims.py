@@ -7,8 +7,7 @@ from itertools import combinations
 from disting.catalogs.dampers import DamperSets, spelled
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome, Seen
-from disting.paper.findings import Findings
+from disting.paper.claim import Claim, Findings, Found, Outcome, Seen
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 

@@ -5,12 +5,13 @@
 from collections import Counter
 from itertools import combinations
 
-from disting.conditions.finding import Outcome as Holding
+from disting.conditions.rule import Outcome as Holding
 from disting.conditions.rule import Stage
-from disting.conditions.structural import condition_9
+from disting.conditions.sufficient import condition_9
 from disting.model.family import Family
 from disting.paper.claim import (
     Claim,
+    Findings,
     Found,
     Outcome,
     Pair,
@@ -23,7 +24,6 @@ from disting.paper.claim import (
     undecided,
 )
 from disting.paper.damped_claims import MISREAD
-from disting.paper.findings import Findings
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 

@@ -7,6 +7,7 @@ import numpy as np
 from disting.conditions.rule import DEPENDENCES
 from disting.paper.claim import (
     Claim,
+    Findings,
     Found,
     Outcome,
     Pair,
@@ -21,7 +22,6 @@ from disting.paper.claim import (
     undecided,
 )
 from disting.paper.family_claims import coefficients
-from disting.paper.findings import Findings
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 

@@ -3,10 +3,9 @@
 from dataclasses import replace
 
 from disting.model.chain import Chain, Sensor
-from disting.model.constraints import Indices, violated
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome, families, models, named
-from disting.paper.findings import Findings
+from disting.model.structure import Indices, violated
+from disting.paper.claim import Claim, Findings, Found, Outcome, families, models, named
 
 FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 

@@ -12,14 +12,13 @@ from disting.fit.judge.practical import (
     importance,
     unit_columns,
 )
-from disting.fit.results.sweep import CRITERIA, sweep
+from disting.fit.results.selection import CRITERIA, sweep
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.paper.claim import Claim, Found, Outcome, named
-from disting.paper.findings import Findings
+from disting.paper.claim import Claim, Findings, Found, Outcome, named
 
 SAMPLE = np.array([[3.0, 1.0], [4.0, 2.0], [0.0, 2.0]])  # columns of lengths 5 and 3
 # condition index, PII ratio, collinearity index: their thresholds, test bed 1, test bed 2

@@ -6,12 +6,13 @@ from itertools import combinations
 
 import numpy as np
 
-from disting.conditions.finding import Outcome as Holding
+from disting.conditions.rule import Outcome as Holding
 from disting.conditions.sufficient import condition_7
 from disting.model.chain import Sensor
 from disting.model.family import Family
 from disting.paper.claim import (
     Claim,
+    Findings,
     Found,
     Outcome,
     counted,
@@ -21,7 +22,6 @@ from disting.paper.claim import (
     told,
     undecided,
 )
-from disting.paper.findings import Findings
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 

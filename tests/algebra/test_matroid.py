@@ -8,6 +8,7 @@ from flint import nmod_mat
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from disting.algebra.certainty import residues
 from disting.algebra.matroid import (
     Component,
     Matroid,
@@ -17,7 +18,6 @@ from disting.algebra.matroid import (
     separating_rows,
 )
 from disting.algebra.matroid_circuits import dependent_flats, search_size
-from disting.algebra.sampling import residues
 
 P = 2**31 - 1
 LIMIT = 10**6

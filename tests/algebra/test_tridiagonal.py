@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Matrix
 
-from disting.algebra.tridiagonal import Tridiagonal
+from disting.algebra.determinants import Tridiagonal
 
 numbers = st.integers(-5, 5)
 

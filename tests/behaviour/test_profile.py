@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Chain, Engine, Family, Settings
+from disting.algebra.certainty import Size, prime, safety
 from disting.algebra.matroid import rank_in
-from disting.algebra.sampling import Size, prime, safety
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, degrees, is_sign_free
 from disting.behaviour.expanded import expanded

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from disting.fit.judge.admissible import Rule
-from disting.fit.judge.explanation import LARGEST, chi2, explanation
-from disting.fit.judge.responses import yardsticks
+from disting.fit.judge.explanation import LARGEST, chi2, explanation, yardsticks
 from disting.fit.noise.scatter import changed, scatter
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost

@@ -13,8 +13,8 @@ import sympy as sp
 
 from disting import Certainty, Family, Query, Relation, View, compare
 from disting import compare as compare_chains
-from disting.algebra.rational_function import RationalFunction
-from disting.conditions.finding import Outcome
+from disting.algebra.symbols import RationalFunction
+from disting.conditions.rule import Outcome
 from disting.errors import InputError
 from disting.evidence.general import Explicit
 from disting.general.admissible import confirms, points

@@ -10,7 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from disting import Query, View, compare
-from disting.algebra.sampling import prime
+from disting.algebra.certainty import prime
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.errors import InputError

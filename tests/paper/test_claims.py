@@ -16,8 +16,7 @@ import pytest
 
 from disting import Chain, Engine, Family, Outcome, Query, Relation, Sensor, View, compare
 from disting.behaviour.sample import Representation
-from disting.conditions.structural import condition_9
-from disting.conditions.sufficient import condition_7
+from disting.conditions.sufficient import condition_7, condition_9
 from tests.paper.fibre import fibre_is_empty
 
 ENGINE = Engine()

@@ -17,7 +17,7 @@ from markdown_it import MarkdownIt
 from disting.catalogs import catalog
 from disting.cli.parser import parser
 from disting.errors import InputError
-from disting.model.drawing import text_drawing
+from disting.model.chain import text_drawing
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.network.notation import network_of, notations_of

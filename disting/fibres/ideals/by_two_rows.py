@@ -24,13 +24,13 @@ from disting.fibres.decision import Decision
 from disting.fibres.ideals.confirm import confirms
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.membership import Limits, decide
-from disting.fibres.ideals.monodromy import poles_are_inseparable
 from disting.fibres.ideals.splits import (
     Receptances,
     Split,
     gap,
     has_relation,
     is_plain,
+    poles_are_inseparable,
     power,
     receptances,
     relative_degree,

@@ -20,9 +20,9 @@ from dataclasses import dataclass
 from math import ceil
 from time import process_time
 
+from disting.algebra.certainty import about, residues
 from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.algebra.groebner.points import free_variable, solution
-from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.decision import Decision

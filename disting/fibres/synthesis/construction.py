@@ -12,11 +12,10 @@ from dataclasses import replace
 
 from flint import ctx, fmpq
 
-from disting.fibres.synthesis.ball import Imprecise
-from disting.fibres.synthesis.branch_ends import RowValues
+from disting.fibres.synthesis.branch import Imprecise, RowValues
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.methods import is_covered, synthesise
-from disting.fibres.synthesis.target import Exact, Target, target
+from disting.fibres.synthesis.task import Exact, Target, target
 from disting.model.chain import Chain
 from disting.model.row import Row, grounded_and_free
 from disting.model.structure import Ports

@@ -31,11 +31,16 @@ from operator import mul
 from flint import acb, acb_mat, acb_poly, ctx, fmpq
 
 from disting.fibres.synthesis import friction
-from disting.fibres.synthesis.ball import (
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
     Ball,
     Imprecise,
+    Leaf,
     Poly,
     Receptance,
+    RowValues,
+    combined,
     cut,
     enclosed,
     is_boundary,
@@ -45,7 +50,6 @@ from disting.fibres.synthesis.ball import (
     shifted,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
 from disting.fibres.synthesis.conjugate import conjugate_factors
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.model.row import Row

@@ -8,9 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from disting.fit.judge.exclusion import Exclusion
-from disting.fit.judge.explanation import chi2
+from disting.fit.judge.explanation import chi2, explained, noises, scatters, together, yardsticks
 from disting.fit.judge.practical import Practical, Seen, practical
-from disting.fit.judge.responses import explained, noises, scatters, together, yardsticks
 from disting.fit.judge.structural import with_structure
 from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter

@@ -14,11 +14,10 @@ from dataclasses import dataclass, replace
 
 from flint import acb, fmpq
 
-from disting.algebra.certainty import Certainty, Grade
-from disting.algebra.sampling import enough
+from disting.algebra.certainty import Certainty, Grade, enough
 from disting.behaviour.chain_model import ChainModel
 from disting.errors import ContradictionError
-from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.task import Answer, Status
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.question import Question, Settings

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil, log2
 
+from disting.algebra.certainty import Size, safety
 from disting.algebra.quotient import matrix
-from disting.algebra.sampling import Size, safety
 from disting.behaviour.chain_model import ChainModel
 from disting.model.structure import Structure
 from disting.questions.identifiability.functions import Candidate, Candidates

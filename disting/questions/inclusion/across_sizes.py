@@ -24,8 +24,7 @@ from dataclasses import astuple
 from functools import lru_cache
 from itertools import permutations, product
 
-from disting.algebra.certainty import Certainty
-from disting.algebra.sampling import about
+from disting.algebra.certainty import Certainty, about
 from disting.behaviour.chain_model import degrees
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding

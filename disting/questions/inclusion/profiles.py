@@ -36,8 +36,8 @@ from disting.algebra.matroid import Matroid, rank_in
 from disting.behaviour.profile import Profile
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.conditions import Counts
+from disting.evidence.kind import Labels
 from disting.evidence.limits import FullImage, LargerProjection, RelativeDegrees
-from disting.evidence.seen import Labels
 from disting.model.chain import Chain
 from disting.model.row import rows_of
 

@@ -16,8 +16,7 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.chain import Chain
 from disting.questions.positive.obstacles import (
     Obstacle,

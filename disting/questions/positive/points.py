@@ -8,11 +8,10 @@ from math import frexp, ldexp
 
 from flint import fmpq
 
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 from disting.evidence.positive import Values
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import Target, fraction, target
+from disting.fibres.synthesis.task import Answer, Status, Target, fraction, target
 from disting.model.chain import Chain
 from disting.model.row import Row
 from disting.questions.positive.obstacles import Point, distances, receptances, rows

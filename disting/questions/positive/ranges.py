@@ -25,13 +25,11 @@ from disting.algebra.content import written
 from disting.errors import InputError, shown
 from disting.evidence.positive import BoxMap, Empirical, Excluded, Points, PositiveFinding, Share
 from disting.fibres.synthesis.construction import is_untested
-from disting.fibres.synthesis.duality import are_dual, dual
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Solution, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Solution, Status, target
+from disting.fibres.synthesis.theorems import are_dual, dual
 from disting.model.chain import Chain
-from disting.model.exact_number import MOST_DIGITS, is_too_long
-from disting.model.names import name_of
+from disting.model.names import MOST_DIGITS, is_too_long, name_of
 from disting.model.question import Settings
 from disting.model.symmetry import canonical, forms
 from disting.questions.positive.obstacles import Obstacle, Point

@@ -47,8 +47,7 @@ from math import ceil, log2
 
 from flint import fmpq
 
-from disting.algebra.certainty import LEAST_SAFETY
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import LEAST_SAFETY, residues
 from disting.model.chain import Chain
 from disting.questions.positive.obstacles import Point
 from disting.questions.positive.points import Range

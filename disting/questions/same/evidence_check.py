@@ -9,10 +9,9 @@ from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
-from disting.evidence.kind import Kind
+from disting.evidence.kind import Kind, Seen, SeenPair, seen
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
-from disting.evidence.seen import Seen, SeenPair, seen
 from disting.fibres.ideals import (
     MOST,
     chains_told_apart,
@@ -23,8 +22,7 @@ from disting.fibres.ideals import (
 )
 from disting.fibres.synthesis.decide import Grounds
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Status
-from disting.fibres.synthesis.target import fraction, target
+from disting.fibres.synthesis.task import Status, fraction, target
 from disting.model.chain import Chain
 from disting.model.minors import embeddings
 from disting.model.question import Settings

@@ -44,8 +44,7 @@ from typing import Any
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
 from disting.evidence.kinds import Evidence
@@ -65,8 +64,7 @@ from disting.fibres.ideals import (
 )
 from disting.fibres.ideals.full_rows import same_by_full_rows
 from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
-from disting.fibres.synthesis.duality import are_dual
-from disting.fibres.synthesis.foster import are_foster, are_same_by_rows
+from disting.fibres.synthesis.theorems import are_dual, are_foster, are_same_by_rows
 from disting.model.chain import Chain
 from disting.model.question import Membership, Settings
 from disting.model.structure import Structure

@@ -15,15 +15,22 @@ import numpy as np
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.modes import Result
-from disting.fit.results.confidence import Confidence, confidence, response_of
+from disting.fit.results.selection import Confidence, confidence, response_of
 from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.report.fit.axes import degrees, logarithmic, spread
-from disting.report.fit.distorted import beneath
-from disting.report.fit.series import Series, band, bars, points, series_of
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.series import Series, band, bars, beneath, points, series_of
+from disting.report.fit.style import (
+    Drawn,
+    Tone,
+    degrees,
+    drawn,
+    heading,
+    is_narrow,
+    logarithmic,
+    spread,
+)
 from disting.report.fit.words import name, readable, response_unit, result_unit
 
 if TYPE_CHECKING:

@@ -8,12 +8,10 @@ from typing import Any
 from disting.experiments.menu import Costs, Item
 from disting.fit.judge.exclusion import LEVEL, joined
 from disting.fit.plan.fit_file import Left, Named
-from disting.fit.plan.further import Foretold, Step
-from disting.fit.plan.relations import Standing, Stood
+from disting.fit.plan.further import Foretold, Standing, Step, Stood
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import as_listed, reference
-from disting.model.chain import Chain
-from disting.model.drawing import LEGEND, text_drawing
+from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
 from disting.schemas import Format

@@ -8,15 +8,13 @@ import numpy as np
 
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.plan.design import Designed
-from disting.fit.plan.fit_file import Named
-from disting.fit.plan.network_file import NamedNetworks
+from disting.fit.plan.fit_file import Named, NamedNetworks
 from disting.fit.plan.power import Answer, Plan, is_trusted, typical
 from disting.fit.plan.rival import Limit, Rival
 from disting.fit.plan.sample import POWER
 from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.search.candidates import as_listed, reference
-from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
+from disting.model.chain import Chain, text_drawing
 from disting.model.names import damping_option
 from disting.network.element import Sort
 from disting.report.fit.words import percent, readable

@@ -3,12 +3,21 @@
 import pytest
 from flint import acb, ctx
 
-from disting.fibres.synthesis.ball import Imprecise, poly, roots, vanishes
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, OPEN, RowValues, combined
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
+    OPEN,
+    Imprecise,
+    RowValues,
+    combined,
+    poly,
+    roots,
+    vanishes,
+)
 from disting.fibres.synthesis.damped_neighbours import inner_neighbours, interpolated
 from disting.fibres.synthesis.damped_next_to_end import next_to_end
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import target
 from disting.model.chain import Chain
 from disting.model.row import Row
 

@@ -22,8 +22,7 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding

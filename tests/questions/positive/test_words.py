@@ -13,9 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from disting import Chain
-from disting.fibres.synthesis.ball import Receptance
-from disting.fibres.synthesis.branch_ends import RowValues
-from disting.fibres.synthesis.target import Target
+from disting.fibres.synthesis.branch import Receptance, RowValues
+from disting.fibres.synthesis.task import Target
 from disting.fibres.synthesis.undamped import neighbours_at
 from disting.model.row import Row
 from disting.questions.positive.obstacles import receptances
