@@ -23,9 +23,13 @@ from typing import Any
 
 from disting.catalogs.damper_settled import FILE as SETTLED
 from disting.errors import CatalogError
-from disting.files import PROVENANCE as PROVENANCE
-from disting.files import __version__, intact_text, write_whole
-from disting.files import shipped_folder as shipped_folder
+from disting.files import (
+    PROVENANCE as PROVENANCE,
+    __version__,
+    intact_text,
+    shipped_folder as shipped_folder,
+    write_whole,
+)
 
 SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)

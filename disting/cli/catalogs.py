@@ -124,8 +124,12 @@ def families(options: argparse.Namespace) -> int:
 def menus(options: argparse.Namespace) -> int:
     """Compute what to measure next for all groups of whole families."""
     from disting.catalogs.damper_files import damper_catalog
-    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-    from disting.catalogs.next_files import WITH_DAMPERS, build_next, write
+    from disting.catalogs.next_files import (
+        SHIPPED_SIZES as NEXT_SIZES,
+        WITH_DAMPERS,
+        build_next,
+        write,
+    )
 
     with engine_for(options) as (engine, pool, progress):
         for n, damped in product(options.masses or NEXT_SIZES, (False, True)):
@@ -193,8 +197,7 @@ def _wrong_of_one_size(
     """
     from disting.catalogs.damper_files import SHIPPED_SIZES, read
     from disting.catalogs.damper_verify import verify_dampers
-    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-    from disting.catalogs.next_files import WITH_DAMPERS, verify_next
+    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, verify_next
     from disting.catalogs.verify import verify as verify_chains
 
     fresh, found = Engine(), list[str]()

@@ -20,9 +20,9 @@ from disting.equivalence import (
     among,
     assignments,
     chains_of,
+    equivalents as find,
     explicit_map,
 )
-from disting.equivalence import equivalents as find
 from disting.errors import InputError
 from disting.model.chain import Chain, text_drawing
 from disting.model.kinds import EXAMPLES

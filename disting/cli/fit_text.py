@@ -23,11 +23,11 @@ from disting.report.fit.sentences import first_lines, learned, suspicions, which
 from disting.report.fit.words import (
     cost_in_words,
     fit_in_words,
+    name as name_of,
     percent,
     result_unit,
     with_error,
 )
-from disting.report.fit.words import name as name_of
 from disting.verdict.result import Relation
 
 SHOWN = 8  # candidates of the printed table

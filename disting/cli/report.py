@@ -5,9 +5,11 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
-from disting.catalogs.damper_files import damper_catalog
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_files import (
+    SHIPPED_SIZES as DAMPER_SIZES,
+    damper_catalog,
+    name_of as damper_name,
+)
 from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes_files import sizes_catalog

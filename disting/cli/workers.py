@@ -214,8 +214,7 @@ def _bars(pause: float) -> Iterator[Progress]:
 def _drawn(ended: Event, latest: dict[str, tuple[int, int]]) -> None:
     """A bar for each thing that is done, a moving one where nothing is counted yet."""
     from rich.console import Console
-    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
-    from rich.progress import Progress as Bar
+    from rich.progress import BarColumn, Progress as Bar, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
     console = Console(stderr=True)

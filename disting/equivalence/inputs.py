@@ -9,8 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from itertools import chain as chained
-from itertools import combinations
+from itertools import chain as chained, combinations
 from numbers import Number
 
 from flint import fmpq

@@ -22,8 +22,7 @@ from disting.errors import InputError, shown
 from disting.general.entries import polynomial, refuse_namesakes, state_space
 from disting.general.expansion import Expansion
 from disting.general.expression import LONGEST_NUMBER, Tree, names, tree
-from disting.general.powers import PLAIN, Powers, cell_in, in_v, powers_of
-from disting.general.powers import Terms as Terms
+from disting.general.powers import PLAIN, Powers, Terms as Terms, cell_in, in_v, powers_of
 from disting.general.response import responses
 from disting.model.chain import Chain
 from disting.model.names import name_of, names_another

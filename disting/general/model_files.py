@@ -34,8 +34,7 @@ from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of, name_of
 from disting.model.presentation import Shown, plural, summary
 from disting.network.notation.compartments import space_of_flows
-from disting.network.notation.entries import FORMS as NETWORKS
-from disting.network.notation.entries import entry_of, network_of_entry
+from disting.network.notation.entries import FORMS as NETWORKS, entry_of, network_of_entry
 from disting.schemas import Format
 
 LARGEST = 5_000_000  # bytes of a file

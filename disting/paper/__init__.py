@@ -5,10 +5,11 @@ Mechatronics and Automation,
 2020. Tests assert every outcome, and the page "The paper, claim by claim" prints the same list.
 """
 
-from disting.paper.claim import Claim as Claim
-from disting.paper.claim import Findings as Findings
-from disting.paper.claim import Found as Found
-from disting.paper.claim import Outcome as Outcome
+from disting.paper.claim import (
+    Claim as Claim,
+    Findings as Findings,
+    Found as Found,
+    Outcome as Outcome,
+)
 from disting.paper.claims import CLAIMS as CLAIMS
-from disting.paper.refit import Mode as Mode
-from disting.paper.refit import Refit as Refit
+from disting.paper.refit import Mode as Mode, Refit as Refit

@@ -30,8 +30,7 @@ from disting.equivalence import explicit_map
 from disting.equivalence.theorems import images
 from disting.evidence.general import Formula
 from disting.general.expansion import Expansion
-from disting.general.expression import names as symbols_of
-from disting.general.expression import tree
+from disting.general.expression import names as symbols_of, tree
 from disting.general.model import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination

@@ -10,12 +10,13 @@ from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
-from disting.catalogs.damper_files import damper_catalog
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_files import (
+    SHIPPED_SIZES as DAMPER_SIZES,
+    damper_catalog,
+    name_of as damper_name,
+)
 from disting.catalogs.files import SHIPPED_SIZES, name_of
-from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
-from disting.catalogs.sizes_files import name_of as sizes_name
+from disting.catalogs.sizes_files import SizesCatalog, name_of as sizes_name, sizes_catalog
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source

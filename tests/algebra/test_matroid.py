@@ -5,8 +5,7 @@ from itertools import chain, combinations
 import numpy as np
 import pytest
 from flint import nmod_mat
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.algebra.certainty import residues
 from disting.algebra.matroid import (

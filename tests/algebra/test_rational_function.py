@@ -4,8 +4,7 @@ it.
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.algebra.notation import expression, latex, latex_symbol, text
 from disting.algebra.symbols import RationalFunction, variables

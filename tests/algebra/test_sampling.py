@@ -8,8 +8,7 @@ from math import log2
 
 import pytest
 from flint import fmpz
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from disting.algebra.certainty import (
     LEAST_SAFETY,

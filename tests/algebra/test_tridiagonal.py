@@ -4,8 +4,7 @@ polynomials.
 
 import pytest
 from flint import fmpz_poly
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from sympy import Matrix
 
 from disting.algebra.determinants import Tridiagonal

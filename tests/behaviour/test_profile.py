@@ -7,8 +7,7 @@ from itertools import combinations
 from math import ceil, comb, log2
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Engine, Family, Settings
 from disting.algebra.certainty import Size, prime, safety

@@ -7,8 +7,7 @@ from itertools import product
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Family, View
 from disting.catalogs import catalog

@@ -21,9 +21,7 @@ from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
 from disting.simulation import Bench, Friction, simulate
 from tests.fit.drives import OMEGA, bench, response, truth
-from tests.fit.monte_carlo import drive as bench_drive
-from tests.fit.monte_carlo import measured as bench_data
-from tests.fit.monte_carlo import truth as bench_truth
+from tests.fit.monte_carlo import drive as bench_drive, measured as bench_data, truth as bench_truth
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,))
 VALUES = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "b2": 20.0}

@@ -11,8 +11,7 @@ import networkx as nx
 import pytest
 import sympy as sp
 
-from disting import Certainty, Family, Query, Relation, View, compare
-from disting import compare as compare_chains
+from disting import Certainty, Family, Query, Relation, View, compare, compare as compare_chains
 from disting.algebra.symbols import RationalFunction
 from disting.conditions.rule import Outcome
 from disting.errors import InputError

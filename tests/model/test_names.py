@@ -1,8 +1,7 @@
 """One name for a model: what is read, what is written, what is refused with its remedy."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from disting import (
     Family,

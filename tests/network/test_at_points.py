@@ -6,8 +6,7 @@ import pickle
 import random
 
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from hypothesis import assume, given, strategies as st
 
 from disting import Query, View, compare
 from disting.algebra.certainty import prime

@@ -6,8 +6,7 @@ from itertools import combinations
 
 import networkx
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from disting.network.trees import forests
 

@@ -8,8 +8,7 @@ fibre, and what the conditions reach is stated beside it.
 from collections import Counter
 from dataclasses import replace
 from functools import cache
-from itertools import chain as flatten
-from itertools import combinations
+from itertools import chain as flatten, combinations
 
 import numpy as np
 import pytest

@@ -6,8 +6,7 @@ from itertools import permutations
 
 import pytest
 from flint import acb, ctx, fmpq
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Family
 from disting.fibres.synthesis.fibre import fibre

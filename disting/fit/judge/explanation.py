@@ -24,8 +24,7 @@ from dataclasses import dataclass, replace
 from math import degrees, isfinite, pi
 
 import numpy as np
-from scipy.stats import chi2 as chi2_distribution
-from scipy.stats import f as f_distribution
+from scipy.stats import chi2 as chi2_distribution, f as f_distribution
 
 from disting.fit.noise.covariance import Noise, correlation, noise
 from disting.fit.noise.scatter import Scatter, changed, scatter, widened

@@ -38,10 +38,10 @@ from disting.evidence.limits import RowsInside
 from disting.fibres.ideals import (
     Limits,
     coefficient_map,
+    decide as decide_ideal,
     included_by_rows,
     normalised,
 )
-from disting.fibres.ideals import decide as decide_ideal
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question, Settings
 from disting.questions.inclusion.across_sizes import by_computing, by_sizes

@@ -4,8 +4,7 @@ import random
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.algebra.groebner.elimination import TooLarge, basis_steps
 from disting.algebra.groebner.modular import Order

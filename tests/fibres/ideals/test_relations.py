@@ -6,8 +6,7 @@ from math import log2
 
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.fibres.ideals.bounds import Bounded, relation
 

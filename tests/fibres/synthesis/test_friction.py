@@ -7,8 +7,7 @@ from itertools import combinations
 
 import pytest
 from flint import acb, fmpq, fmpq_poly
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Query, View, compare
 from disting.fibres.ideals import coefficient_map

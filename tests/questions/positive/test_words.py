@@ -9,8 +9,7 @@ from random import Random
 import numpy as np
 import pytest
 from flint import acb_poly, ctx, fmpq, fmpq_poly
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain
 from disting.fibres.synthesis.branch import Receptance, RowValues
