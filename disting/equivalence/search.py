@@ -95,7 +95,7 @@ def equivalents(
     fractions = {name: Fraction(int(v.p), int(v.q)) for name, v in point.items()}
     special_damping = given.n_masses > 2 and common_ratio(given, point) is not None
     return Equivalents(
-        name=_name(given),
+        name=name_of(given),
         chain=given,
         values=fractions,
         listings=listings,
@@ -139,7 +139,7 @@ def _listing(given: Chain, point: Point, other: Chain) -> Listing:
     members = _members(found, point)
     cause = special(given, point) if found.fibre.status is Status.DEGENERATE else ""
     told = sentence(found.fibre, len(members), cause)
-    return Listing(_name(other), other, found.fibre.status, members, found.is_complete, told)
+    return Listing(name_of(other), other, found.fibre.status, members, found.is_complete, told)
 
 
 def _members(found: _Found, point: Point) -> tuple[Equivalent, ...]:
@@ -166,7 +166,7 @@ def _under(bench: Bench, point: Point) -> Listing:
     members = tuple(_everywhere(m, bench, plain) for m in _members(kept, point))
     told = under_all(found.fibre, len(members), found.is_complete)
     return Listing(
-        _name(other), other, found.fibre.status, members, found.is_complete, told, bench.places
+        name_of(other), other, found.fibre.status, members, found.is_complete, told, bench.places
     )
 
 
@@ -255,18 +255,8 @@ def _from_solution(
     residual = difference(given, point, other, _read(text))
     proven = found.real is not Answer.UNKNOWN and not (real and found.positive is Answer.UNKNOWN)
     bound = difference(given, point, other, found.values)
-    return Equivalent(
-        other,
-        _floats(text),
-        text,
-        {},
-        _signs(found, real),
-        origin,
-        residual,
-        bound,
-        found.gauges,
-        proven,
-    )
+    told = _floats(text), text, {}, _signs(found, real), origin, residual, bound
+    return Equivalent(other, *told, found.gauges, proven)
 
 
 def _signs(found: Solution, real: bool) -> Signs:
@@ -306,7 +296,3 @@ def _order(member: Equivalent) -> tuple[int, bool, list[tuple[float, float]]]:
     """Positive ones first, exact ones before others, then by value."""
     numbers = [(complex(v).real, complex(v).imag) for v in member.values.values()]
     return list(Signs).index(member.signs), not member.exact, numbers
-
-
-def _name(chain: Chain) -> str:
-    return name_of(chain)

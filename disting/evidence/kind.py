@@ -154,16 +154,40 @@ class Claim:
 
 
 COMPLEX = (Domain.COMPLEX,)
+ROLES = {
+    "left_given": ("given", "searched"),
+    "left_is_larger": ("larger", "smaller"),
+    "left_is_part": ("part", "whole"),
+}  # of the left model and the right one where the field is true, exchanged where it is not
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """Evidence of a kind: `kind` is its name in files, its fields are what is stored, `sentence`
-    and `formula` of two models its words.
+    """Evidence of a kind: `kind` is its name in files, its fields are what is stored.
+
+    `words`, `symbols` and `theorem` make `sentence`, `formula` and `title`, if its class says no
+    more: {0} is the evidence, {left} and {right} are the models, also by the roles (`ROLES`) that
+    a field of it gives them.
     """
 
     kind: ClassVar[str]
     claim: ClassVar[Claim] = Claim()
+    words: ClassVar[str] = ""
+    symbols: ClassVar[str] = ""
+    theorem: ClassVar[str] = ""
+
+    def sentence(self, left: str, right: str) -> str:
+        """What it says of two models with these names."""
+        names = {"left": left, "right": right}
+        for flag, (first, second) in ROLES.items():
+            ordered = (left, right) if getattr(self, flag, True) else (right, left)
+            names |= zip((first, second), ordered, strict=True)
+        return self.words.format(self, **names)
+
+    @property
+    def formula(self) -> str:
+        """The same in symbols."""
+        return self.symbols.format(self)
 
     def shows(self, domain: Domain) -> Relation:
         """Which relation it shows over a domain, UNDECIDED: nothing. A difference over complex
@@ -180,7 +204,7 @@ class Kind:
     @property
     def title(self) -> str:
         """What the theorem is called that it speaks by; "" where it has no name of its own."""
-        return ""
+        return self.theorem
 
     def holds(self, pair: SeenPair, representation: str) -> bool:
         """Whether it is true of two models, seen anew, and decides them; unless a class says how,

@@ -165,26 +165,28 @@ class Claim:
     """One statement of the paper.
 
     `place` where it is printed; `text` the statement, literally where it stands in quotation
-    marks; `printed` its value; `check` computes ours, None where nobody can; `outcome` what the
-    check is known to give; `reason` why; `about` the subject of what differs, in a few words.
+    marks; `printed` its value; `check` computes ours, None where nobody can; `reason` why it does
+    not agree; `about` the subject of what differs, in a few words, "" where nothing does.
     """
 
     key: str
     place: str
     text: str
     printed: str
-    check: Callable[[Findings], Found] | None
-    outcome: Outcome
+    check: Callable[[Findings], Found] | None = None
     reason: str = ""
     about: str = ""
 
     def __post_init__(self) -> None:
-        if (self.check is None) != (self.outcome is Outcome.UNCHECKED):
-            raise ValueError(f"{self.key}: a claim without a check is unchecked, and no other")
         if self.outcome is not Outcome.AGREES and not self.reason:
             raise ValueError(f"{self.key}: what does not agree needs a reason")
-        if (self.outcome is Outcome.DIFFERS) != bool(self.about):
-            raise ValueError(f"{self.key}: what differs, and nothing else, says what it is about")
+
+    @property
+    def outcome(self) -> Outcome:
+        """What the check is known to give."""
+        if self.check is None:
+            return Outcome.UNCHECKED
+        return Outcome.DIFFERS if self.about else Outcome.AGREES
 
 
 Pair = tuple[int, int]

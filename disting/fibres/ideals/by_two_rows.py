@@ -40,7 +40,6 @@ from disting.fibres.ideals.system import CoefficientMap
 from disting.model.question import Membership
 from disting.model.structure import Structure
 
-PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 # for up to eight statements: at most two rows in three splits, and the ranks that they rest on
 SPARE_BITS = 3
 Pair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there

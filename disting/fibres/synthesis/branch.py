@@ -15,7 +15,7 @@ from enum import StrEnum
 from itertools import combinations
 from typing import Any
 
-from flint import acb, acb_poly, arb, ctx
+from flint import acb, acb_poly, arb, ctx, fmpq
 
 from disting.model.row import Row
 
@@ -250,3 +250,23 @@ def combined(
 
 def _refuted(leaves: list[Leaf]) -> bool:
     return bool(leaves) and all(leaf == NONZERO for leaf in leaves)
+
+
+def circle(degree: int, radius: float) -> list[Ball]:
+    """As many points on a circle as a polynomial of this degree has coefficients."""
+    return [radius * u for u in _unit(degree + 1)]
+
+
+def through(values: list[Ball], radius: float) -> Poly:
+    """The polynomial with these values on the `circle`."""
+    count, unit = len(values), _unit(len(values))
+    sums = [
+        sum((v * unit[-i * k % count] for k, v in enumerate(values)), acb(0)) / count
+        for i in range(count)
+    ]
+    return poly([c / acb(radius) ** i for i, c in enumerate(sums)])
+
+
+def _unit(count: int) -> list[Ball]:
+    """The roots of unity."""
+    return [acb.exp_pi_i(acb(fmpq(2 * j, count))) for j in range(count)]

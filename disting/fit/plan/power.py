@@ -61,15 +61,6 @@ def power(noncentrality: float, surplus: int = 1, level: float = LEVEL) -> float
     return ideal(surplus, level).power(noncentrality) if noncentrality > 0 else level
 
 
-def needed(surplus: int = 1, level: float = LEVEL, wanted: float = POWER) -> float:
-    """Noncentrality for a power, if the scatter is known.
-
-    >>> round(needed(), 1), round(needed(2), 1)
-    (17.8, 20.6)
-    """
-    return ideal(surplus, level).needed(wanted)
-
-
 @dataclass(frozen=True, eq=False)
 class Plan(Shown):
     """What is planned for one rival; `rival` is None where the verdict makes a fit idle, `verdict`

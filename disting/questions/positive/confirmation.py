@@ -1,11 +1,10 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
 from disting.algebra.certainty import Certainty
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import Excluded, Theorem
 from disting.evidence.positive import (
     BoxMap,
     EmptyFibre,
-    Excluded,
     Interlacing,
     OnlyOne,
     Points,

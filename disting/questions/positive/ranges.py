@@ -23,7 +23,8 @@ from flint import arb, fmpq
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, graded
 from disting.algebra.content import written
 from disting.errors import InputError, shown
-from disting.evidence.positive import BoxMap, Empirical, Excluded, Points, PositiveFinding, Share
+from disting.evidence.decision import Excluded
+from disting.evidence.positive import BoxMap, Empirical, Points, PositiveFinding, Share
 from disting.fibres.synthesis.construction import is_untested
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Answer, Solution, Status, target

@@ -27,11 +27,10 @@ from dataclasses import replace
 
 from disting.algebra.certainty import Certainty, about
 from disting.errors import InputError
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import Excluded, Theorem
 from disting.evidence.positive import (
     Empirical,
     EmptyFibre,
-    Excluded,
     Interlacing,
     Points,
     PositiveEvidence,

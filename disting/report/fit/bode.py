@@ -215,15 +215,7 @@ def _amplitude(
     wide = np.exp(QUANTILE * np.minimum(line.sure.amplitude, WIDEST))
     band(panel, hertz, np.abs(line.G) / wide, np.abs(line.G) * wide)
     for (label, values), dashes in zip(inertias, ((0, (6, 3)), (0, (1.5, 2))), strict=False):
-        panel.semilogy(
-            hertz,
-            values,
-            color=Tone.MUTED,
-            linestyle=dashes,
-            linewidth=1.2,
-            label=label,
-            zorder=1.5,
-        )
+        panel.semilogy(hertz, values, color=Tone.MUTED, ls=dashes, lw=1.2, label=label, zorder=1.5)
     shown = np.concatenate([np.abs(line.G), *(np.abs(s.measured.G) for s in series)])
     low, high = shown.min() / 1.4, shown.max() * 1.4
     panel.set_ylim(low, high)

@@ -9,12 +9,14 @@ from disting.fibres.synthesis.branch import (
     OPEN,
     Imprecise,
     RowValues,
+    circle,
     combined,
     poly,
     roots,
+    through,
     vanishes,
 )
-from disting.fibres.synthesis.damped_neighbours import inner_neighbours, interpolated
+from disting.fibres.synthesis.damped_neighbours import inner_neighbours
 from disting.fibres.synthesis.damped_next_to_end import next_to_end
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.task import target
@@ -42,7 +44,7 @@ def test_inner_method_finds_what_the_end_method_finds(n: int) -> None:
 
 def test_interpolation_returns_the_polynomial() -> None:
     p = poly([1, -2, 0, 5])
-    q = interpolated(p, 3)
+    q = through([p(d) for d in circle(3, 2.0)], 2.0)
     assert all(q[i].contains(p[i]) for i in range(4))
 
 

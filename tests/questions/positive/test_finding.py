@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import Excluded, Theorem
 from disting.evidence.positive import (
     Empirical,
     EmptyFibre,
-    Excluded,
     Interlacing,
     Points,
     PositiveFinding,
