@@ -1,12 +1,11 @@
-"""Whether the input of a record follows its output, as under a controller.
+"""A record of input and output samples, and the frequency response that it shows; whether the
+input follows the output, as under a controller.
 
 Input and output are whitened by autoregressive models. In open loop the whitened input is not
 correlated with the past of the output, whatever the noise: the sample correlation at n samples has
 the deviation 1/sqrt(n). A controller feeds the output back, and its noise appears in the input a
 few samples later (Soderstrom and Stoica, System Identification, 1989, section 10). Not seen: a
 controller that acts within the same sample only, and one in a record with hardly any noise.
-
-A record of input and output samples, and the frequency response that it shows.
 """
 
 from dataclasses import dataclass, fields, replace
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, shown
-from disting.measurement import checks, periodic, welch
+from disting.measurement import periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
 from disting.measurement.units import motion
@@ -179,27 +178,18 @@ class TimeSeries:
                 found = welch.estimate(
                     *given, segment, band, self.reference, least_coherence, self.sensor.order
                 )
-        _refuse_few(found, band)
         in_doubt = segment is not None and self.reference is None
         doubt = follows_output(self.u, self.y) if in_doubt else None
-        response = FrequencyResponse(
-            omega=found.omega,
-            G=found.G,
-            deviation=found.deviation,
-            coherence=found.coherence,
+        closed = ", with a reference, which holds in closed loop" * (self.reference is not None)
+        response = replace(
+            found,
             sensor=self.sensor,
             input=self.input,
             output=self.output,
             origin=self.origin,
             notes=(*self.notes, *found.notes, *([doubt] if doubt else [])),
-            distortion=found.distortion,
-            reading=f"record in time, input {self.input}, output {self.output}"
-            + ", with a reference, which holds in closed loop" * (self.reference is not None)
+            reading=f"record in time, input {self.input}, output {self.output}{closed}"
             + (self.left_out and f"; {self.left_out}"),
-            freedom=found.freedom,
-            doubts=found.doubts,
-            window=found.window,
-            drive=found.drive,
         )
         return response if sensor is None else response.to_quantity(sensor)
 
@@ -237,15 +227,6 @@ def _check_method(
         raise InputError(
             "--outliers drop compares periods or repeats; segments of Welch's method are not alike:"
             " cut the record where it is disturbed, or leave it away"
-        )
-
-
-def _refuse_few(found: periodic.Estimated, band: tuple[float, float] | None) -> None:
-    if len(found.omega) < checks.FEWEST:
-        within = [f"band {band[0]:g}..{band[1]:g} Hz"] if band else []
-        raise InputError(
-            f"{len(found.omega)} frequencies are too few, at least {checks.FEWEST} are needed:"
-            f" {'; '.join((*found.notes, *within))}"
         )
 
 

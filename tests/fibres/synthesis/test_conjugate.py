@@ -54,7 +54,7 @@ def test_factors_are_told_apart_where_their_fields_are_independent(factors, inde
 
 def _without_factors(monkeypatch):
     monkeypatch.setattr(
-        sys.modules["disting.fibres.synthesis.damped_neighbours"], "conjugate_factors", lambda _: ()
+        sys.modules["disting.fibres.synthesis.conjugate"], "conjugate_factors", lambda _: ()
     )
 
 
