@@ -123,7 +123,7 @@ def families(options: argparse.Namespace) -> int:
 
 def menus(options: argparse.Namespace) -> int:
     """Compute what to measure next for all groups of whole families."""
-    from disting.catalogs.damper_files import damper_catalog
+    from disting.catalogs.damper_family import damper_catalog
     from disting.catalogs.next_files import (
         SHIPPED_SIZES as NEXT_SIZES,
         WITH_DAMPERS,
@@ -146,8 +146,8 @@ def settle(options: argparse.Namespace) -> int:
     """Decide pairs of classes with dampers to the ground that are open, of the sizes that have
     files.
     """
-    from disting.catalogs.damper_files import read
-    from disting.catalogs.damper_verify import settle_dampers
+    from disting.catalogs.damper_family import read
+    from disting.catalogs.verify import settle_dampers
 
     with engine_for(options) as (engine, _, _):
         for n in options.masses:
@@ -195,10 +195,9 @@ def _wrong_of_one_size(
     """What is wrong in the files of chains of one size; nothing is taken from the cache: a
     verification computes.
     """
-    from disting.catalogs.damper_files import SHIPPED_SIZES, read
-    from disting.catalogs.damper_verify import verify_dampers
+    from disting.catalogs.damper_family import SHIPPED_SIZES, read
     from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, verify_next
-    from disting.catalogs.verify import verify as verify_chains
+    from disting.catalogs.verify import verify as verify_chains, verify_dampers
 
     fresh, found = Engine(), list[str]()
     for check in (verify_chains, verify_dampers) if n in SHIPPED_SIZES else (verify_chains,):

@@ -1,7 +1,7 @@
-"""Completion of commands, options, choices and models by TAB, with argcomplete; a shell asks for it
-by an environment variable, see `disting.cli.run`.
+"""Runs one command and turns every expected failure into one sentence and an exit status.
 
-Runs one command and turns every expected failure into one sentence and an exit status.
+Completion of commands, options, choices and models by TAB, with argcomplete; a shell asks for it
+by an environment variable, see `disting.cli.run`.
 """
 
 import argparse

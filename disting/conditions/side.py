@@ -19,8 +19,16 @@ from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Premise
-from disting.model.protocol import Columns, Model
-from disting.model.question import Answerer, Domain, Models, Question, Settings, computed
+from disting.model.question import (
+    Answerer,
+    Columns,
+    Domain,
+    Model,
+    Models,
+    Question,
+    Settings,
+    computed,
+)
 from disting.model.structure import Structure
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]

@@ -255,8 +255,9 @@ def _from_solution(
     residual = difference(given, point, other, _read(text))
     proven = found.real is not Answer.UNKNOWN and not (real and found.positive is Answer.UNKNOWN)
     bound = difference(given, point, other, found.values)
-    told = _floats(text), text, {}, _signs(found, real), origin, residual, bound
-    return Equivalent(other, *told, found.gauges, proven)
+    signs, values = _signs(found, real), _floats(text)
+    errors = residual, bound, found.gauges
+    return Equivalent(other, values, text, {}, signs, origin, *errors, proven)
 
 
 def _signs(found: Solution, real: bool) -> Signs:

@@ -1,18 +1,4 @@
-"""Which positive parameters of one measured chain have positive equivalents in another, where
-generic complex ones have equivalents.
-
-One experiment alone. No positive equivalents in one of them: none in all of them together. Always
-positive equivalents in one of them, in which the searched chain has but one parameter vector for
-a generic behaviour: that one is the equivalent under all of them.
-
-Points. At a random rational point, positive, the list of one experiment is put into the others
-(`listing`). Equivalents are among those that are not refuted. If all of these are certainly not
-positive, the point has none. If one is left, it is the equivalent, which exists at generic points;
-its conjugate is one too and has no other place, so it is real, and it is positive if its ball is.
-Both are so all around the points. They are as sure as that the models are the same, and that the
-points are generic (see `listing`; a scale of each coordinate changes none of it).
-
-The exact decision under several experiments, where conditions 1 to 7 stay silent: a list of all
+"""The exact decision under several experiments, where conditions 1 to 7 stay silent: a list of all
 parameters that fit one experiment, put into the others (`listing`), then the ideal of one fibre of
 the stacked map.
 
@@ -36,6 +22,20 @@ A rank seen at a point modulo a prime is a lower bound. So the larger one is pro
 one is wrong only where a minor that is not zero vanishes at all points (`algebra.sampling`). A
 minor of k rows has a degree of at most the sum of those of the coordinates, less one each; its
 coefficients sum to at most k! times the product of the largest sums of a gradient's entry.
+
+Which positive parameters of one measured chain have positive equivalents in another, where
+generic complex ones have equivalents.
+
+One experiment alone. No positive equivalents in one of them: none in all of them together. Always
+positive equivalents in one of them, in which the searched chain has but one parameter vector for
+a generic behaviour: that one is the equivalent under all of them.
+
+Points. At a random rational point, positive, the list of one experiment is put into the others
+(`listing`). Equivalents are among those that are not refuted. If all of these are certainly not
+positive, the point has none. If one is left, it is the equivalent, which exists at generic points;
+its conjugate is one too and has no other place, so it is real, and it is positive if its ball is.
+Both are so all around the points. They are as sure as that the models are the same, and that the
+points are generic (see `listing`; a scale of each coordinate changes none of it).
 """
 
 from collections.abc import Iterator, Sequence

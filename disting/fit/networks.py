@@ -18,6 +18,7 @@ from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.cost import Case, Cost
+from disting.fit.search.data import Whitened
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
@@ -29,7 +30,6 @@ from disting.fit.search.network_plant import (
     random_starts,
 )
 from disting.fit.search.setup import Setup
-from disting.fit.search.whitened import Whitened
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real

@@ -1,4 +1,7 @@
-"""Which of several measurements of one response do not belong to the others.
+"""Repeated measurements of one response: their mean, its standard deviation from their scatter,
+and whether signs agree.
+
+Which of several measurements of one response do not belong to the others.
 
 With n measurements G_i of a line, noise of one variance and the others' mean and variance,
 
@@ -12,9 +15,6 @@ named where p times the number of all of them is below `LEVEL`, which is far out
 repeat themselves less well than noise does; a whole measurement where its lines are that unlikely
 on average and `ALONE` times as unlikely as those of any other. Two measurements do not tell which
 of them is the other one.
-
-Repeated measurements of one response: their mean, its standard deviation from their scatter,
-and whether signs agree.
 """
 
 from collections.abc import Sequence

@@ -1,11 +1,11 @@
-"""The unit of a grid of frequencies: what a file or a caller says, held against the numbers
+"""A measured response in SI units, so that results are in kg m2 or kg, Nm/rad or N/m.
+
+The unit of a grid of frequencies: what a file or a caller says, held against the numbers
 themselves.
 
 Who measures a response chooses round frequencies in the unit in which he thinks: 0.1, 0.2, .. 1000
 Hz. In a file of the other unit these are 0.628, 1.257, ... So a grid that is round after division
 by 2 pi, and is not round itself, is in rad/s.
-
-A measured response in SI units, so that results are in kg m2 or kg, Nm/rad or N/m.
 """
 
 from dataclasses import replace

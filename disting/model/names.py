@@ -1,11 +1,11 @@
-"""Exact numbers that users write: how long they may be. A power of ten is a short text and a
-number without end.
-
-One name for a model, read and written here: 3:1+b2+lag+delay is model 1 of 3 masses, with a
+"""One name for a model, read and written here: 3:1+b2+lag+delay is model 1 of 3 masses, with a
 damper from mass 2 to the ground, a first-order lag and a dead time.
 
 Where the number of masses is known, A1+b2 does. Damping of the springs and the sensor quantity are
 no part of a name; they are said once for all models that are named together.
+
+Exact numbers that users write: how long they may be. A power of ten is a short text and a
+number without end.
 """
 
 import re

@@ -1,17 +1,17 @@
-"""The constraints (36), (37) and (38) of the paper, each a named predicate with its equation
+"""What a chain is made of: masses, springs, dampers and ports.
+
+A `Structure` is wider than a `Chain`: any set of joints may be present, so the supermodel of two
+chains (condition 9), which has no gap, is a structure too. Elements know their parameter's name
+and how they enter the equation of motion A(s) x = e_act F with A(s) = M s^2 + D s + K: each adds
+parameter * s^power * v v^T for a vector v of the masses.
+
+The constraints (36), (37) and (38) of the paper, each a named predicate with its equation
 number.
 
 (36) says where a port may be, (37) that every mass is excited and measured, (38) breaks the
 symmetry between models that differ in the numbering only. A chain that breaks (36) or (37) is no
 model; one that breaks (38) is a model with another numbering, so it can be made and compared but
 is not listed in a family.
-
-What a chain is made of: masses, springs, dampers and ports.
-
-A `Structure` is wider than a `Chain`: any set of joints may be present, so the supermodel of two
-chains (condition 9), which has no gap, is a structure too. Elements know their parameter's name
-and how they enter the equation of motion A(s) x = e_act F with A(s) = M s^2 + D s + K: each adds
-parameter * s^power * v v^T for a vector v of the masses.
 """
 
 from collections.abc import Callable, Iterator

@@ -9,11 +9,11 @@ from itertools import product
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.damper_files import (
+from disting.catalogs.damper_family import (
     SHIPPED_SIZES as DAMPER_SIZES,
+    DamperFamily,
     damper_catalog,
-    name_of as damper_name,
+    damper_name,
 )
 from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.sizes_files import SizesCatalog, name_of as sizes_name, sizes_catalog
@@ -29,9 +29,8 @@ from disting.report.matrix import figure, figure_png, has_slides, slide_name, sl
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.model_list import lists_beside
 from disting.report.motion import motion_page
-from disting.report.next_page import next_page
 from disting.report.next_steps import found_for, page_of
-from disting.report.page import page
+from disting.report.page import next_page, page
 from disting.report.search import ADDRESS, search_script
 from disting.report.sizes import sizes_page
 from disting.report.svg import svg

@@ -1,12 +1,12 @@
-"""Raises bounded verdicts to proven ones where exact elimination ends in time.
+"""`compare` and `findings`: any two chains, named as the paper names them, or general models;
+`identifiability`: which parameters of one model can be determined, from one experiment or from
+several together.
+
+Raises bounded verdicts to proven ones where exact elimination ends in time.
 
 A verdict by condition 4 or 5 says that a set of invariants has rank k in one model and more in the
 other. The larger rank is proven already (a minor that is not zero somewhere is not zero); that the
 smaller one is k at most is proven by elimination over the polynomials.
-
-`compare` and `findings`: any two chains, named as the paper names them, or general models;
-`identifiability`: which parameters of one model can be determined, from one experiment or from
-several together.
 """
 
 from collections.abc import Iterator, Sequence

@@ -33,8 +33,7 @@ from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
-from disting.model.protocol import Model
-from disting.model.question import Question
+from disting.model.question import Model, Question
 from disting.questions.same.low_cost import INVERSELY, QUICKLY
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.chain_side import ComparedChain

@@ -1,4 +1,10 @@
-"""Networks under one further experiment, as matrices of transfer functions.
+"""One kind of further experiment on networks that one measurement cannot tell apart: every node of
+every network against every node of every other one.
+
+A spot is a network as it is and with the experiment at one of its nodes, a matrix of transfer
+functions; all of them are decided together, over generic complex parameters.
+
+Networks under one further experiment, as matrices of transfer functions.
 
 With the transfer functions T from the inputs and from one node i to the outputs and to that node,
 all in one sensor quantity s^q, whatever is done at the node is seen without another network:
@@ -9,12 +15,6 @@ all in one sensor quantity s^q, whatever is done at the node is seen without ano
 
 As all values of a network may be given in other units, the known one has size 1. Derivation: what
 the node feels from outside is a force f = -h x_i, or the one that makes x_i = 0.
-
-One kind of further experiment on networks that one measurement cannot tell apart: every node of
-every network against every node of every other one.
-
-A spot is a network as it is and with the experiment at one of its nodes, a matrix of transfer
-functions; all of them are decided together, over generic complex parameters.
 """
 
 from collections.abc import Sequence

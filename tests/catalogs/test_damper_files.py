@@ -19,25 +19,26 @@ from disting import (
     catalog,
     compare,
 )
-from disting.catalogs.damper_family import DamperFamily, damper_family
-from disting.catalogs.damper_files import (
+from disting.catalogs.damper_family import (
     SHIPPED_SIZES,
+    DamperFamily,
     _read,
     _written,
     damper_catalog,
-    name_of,
+    damper_family,
+    damper_name,
     read,
     text_of,
     write,
 )
 from disting.catalogs.damper_settled import FILE, append, holds, read_settled
-from disting.catalogs.damper_verify import (
+from disting.catalogs.files import shipped_folder
+from disting.catalogs.verify import (
     DECIDES,
     false_settled,
     settle_dampers,
     verify_dampers,
 )
-from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.model.family import Family
@@ -54,7 +55,7 @@ ALL = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
 
 
 def shipped_text(n, damped):
-    return (shipped_folder() / f"{name_of(n, damped)}.jsonl").read_text(encoding="utf-8")
+    return (shipped_folder() / f"{damper_name(n, damped)}.jsonl").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("n", "damped"), ALL)
@@ -148,7 +149,7 @@ def test_a_file_that_was_written_is_read(tmp_path):
     ],
 )
 def test_a_damaged_file_is_refused_with_the_remedy(tmp_path, damage):
-    path = tmp_path / f"{name_of(3, True)}.jsonl"
+    path = tmp_path / f"{damper_name(3, True)}.jsonl"
     path.write_text("\n".join(damage(shipped_text(3, True).splitlines())), encoding="utf-8")
     with pytest.raises(CatalogError, match="disting catalog dampers 3"):
         read(tmp_path, 3, True)
@@ -195,7 +196,7 @@ def test_models_that_are_not_there_are_refused():
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
-    name = f"{name_of(3, damped)}.jsonl"
+    name = f"{damper_name(3, damped)}.jsonl"
     text = shipped_text(3, damped)
     (tmp_path / name).write_text(text, encoding="utf-8")
     engine = Engine()
@@ -204,7 +205,7 @@ def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
         text.replace('"undecided":[]', '"undecided":[[0,1]]'), encoding="utf-8"
     )
     assert verify_dampers(3, damped=damped, folder=tmp_path, engine=engine) == [
-        f"{name_of(3, damped)} is not what is computed now"
+        f"{damper_name(3, damped)} is not what is computed now"
     ]
 
 

@@ -12,7 +12,7 @@ from disting.fit.judge.explanation import LARGEST, chi2, explanation, yardsticks
 from disting.fit.noise.scatter import changed, scatter
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost
-from disting.fit.search.whitened import Whitened
+from disting.fit.search.data import Whitened
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.measurement.tabular import ASSUMED_LINEAR

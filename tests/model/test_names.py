@@ -14,7 +14,7 @@ from disting import (
     prove,
     transfer_function,
 )
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes import combined_family
 from disting.catalogs.sizes_files import sizes_catalog

@@ -12,7 +12,7 @@ import pytest
 
 from disting import Family, compare, network_of
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.model.chain import Chain
 from disting.model.names import chain_of

@@ -1,4 +1,61 @@
-"""How large an algebraic relation between k + 1 polynomials in k variables has to be: its degree,
+"""How surely one fibre modulo one random prime tells what holds for generic parameters over the
+complex numbers.
+
+Notation: n1, n2 parameters, c coordinates, V1 and V2 the closures of the images of Phi1 and Phi2.
+Point and prime are random. Of numerators of unequal degrees the missing coordinates are the
+polynomial 0, to which all of the following applies. The relations E are those of `relations`;
+degrees d_1 >= d_2 >= .. are those of the coordinates, 1 at least.
+
+EMPTY FIBRE. Suppose that generic points of V1 were reached by Phi2. Then {(p, q): Phi1(p) =
+Phi2(q)} has a component X over the rational numbers that dominates the points p. Let f be the
+dimension of its generic fibres over p. Then f of the q, algebraically independent over Q(p) on X,
+are counted among the p, and X is generically finite over these p. For equal ranks, f = n2 - r,
+these are the parameters of the slice: X has the dimension n1 + n2 - r, and may be chosen to
+dominate the points q as well. Let I be the prime ideal of all integer polynomials that vanish on
+X, and R = Z[p, q]/I. Each other q_j satisfies an equation A_j(p) q_j^k + .. = 0 in R, so R[1/A] is
+integral over Z[p][1/A], A the product of the A_j. By the lying-over theorem, every point p0 modulo
+a prime at which A(p0) is not zero lies below a point of R, where all equations that hold on X hold
+modulo the prime: the fibre's and, if V1 = V2 and the minors that give the ranks of both Jacobian
+matrices do not vanish at the points drawn, the tangent equations. So a fibre that is empty modulo
+the prime refutes the supposition, unless A or one of two minors vanishes. (Free q without a slice
+may be chosen: then only a coefficient of A, as a polynomial in them, has to be other than 0.)
+
+A_j: take n2 - f polynomials g_1, g_2, .. such that X is a component of their common zeros, of
+codimension n2 - f. For equal ranks these are r coordinates of Phi1 - Phi2 whose gradients by the q
+that are not free are independent at generic points of X, so that the zeros are smooth there. Else
+they are combinations of coordinates, in falling order of degrees, the i-th one of the i-th and
+later ones with a first factor other than 0, so that deg g_i <= d_i: on a component Y of the zeros
+of g_1, .., g_(i-1) through X that is larger than X, not all coordinates vanish, and if all from
+the i-th on did, so would, by g_(i-1), .., g_1, the others. So a combination that vanishes on no
+such Y avoids one linear condition for each, at most delta = d_1 d_2 .. of them (Bezout), and one
+more for the first factor: factors of 0, .., delta + 1 do. Then the g_i, all p and q_j are one
+polynomial more than there are variables, and have a relation E. Divide it by the power of its
+first variable that it contains. On the zeros of g_1, and so on the component of them that holds X,
+what is left is 0 with g_1 = 0; g_2 does not vanish on that component, or X would have a smaller
+codimension. Going on, a polynomial that is not zero remains, whose coefficients are those of E, in
+p and q_j alone, and which vanishes on X. The p are independent there, so it contains q_j: A_j is
+its leading coefficient, of degree delta at most.
+
+NOT EMPTY. Suppose that V1 does not lie inside V2, r = dim V2. Let y be a point of V1 outside of
+V2. There are r + 1 linear forms in the coordinates, with factors as above, such that the
+projection of y is none of the closure of the projection of V2: of the hyperplanes l_i(y') = l_i(y)
+through y the first r + 1 leave no point of the projective closure of V2, if each of them contains
+no component of what the ones before leave; a component has a point other than y, so that is one
+linear condition for each of them, deg V2 <= delta at most, which is not void by the same
+triangular argument. Then the projection is a morphism on the projective closure of V2, its image
+is closed, and y's is none of it. The image has dimension r, being finite over V2: it is F = 0 with
+F irreducible. Choose r independent columns of the Jacobian matrix of Phi2; the forms l_i(Phi2(q))
+and the n2 - r other q are one polynomial more than there are variables. Their values fill the
+hypersurface F = 0 times all values of these q, so F divides their relation E. F(l(Phi2)) = 0 is an
+identity of integer polynomials, so it holds modulo every prime: a solution of Phi2(q) = Phi1(p0)
+modulo the prime, in whatever extension, shows F(l(Phi1)) = 0 at p0. As a polynomial in p that is
+not zero, it vanishes there by accident only.
+
+PROBABILITY. A polynomial of degree d and B bits vanishes at a random point modulo a random prime
+of b bits with a probability of at most d/2^(b-1) (Schwartz, Zippel), plus the share of the primes
+that divide all its coefficients, at most B/(b-1) of them.
+
+How large an algebraic relation between k + 1 polynomials in k variables has to be: its degree,
 and its coefficients.
 
 Theorem. Let q_0, .., q_k be polynomials in x_1, .., x_k with integer coefficients, q_j of degree
@@ -61,63 +118,6 @@ max(|v_i|, |w|)).
    products of the u are orthogonal.
 
 4. The mean of log |E + e ..| over |e| = 1 is at least log |E| (Jensen's formula), so M(E) <= M(R).
-
-How surely one fibre modulo one random prime tells what holds for generic parameters over the
-complex numbers.
-
-Notation: n1, n2 parameters, c coordinates, V1 and V2 the closures of the images of Phi1 and Phi2.
-Point and prime are random. Of numerators of unequal degrees the missing coordinates are the
-polynomial 0, to which all of the following applies. The relations E are those of `relations`;
-degrees d_1 >= d_2 >= .. are those of the coordinates, 1 at least.
-
-EMPTY FIBRE. Suppose that generic points of V1 were reached by Phi2. Then {(p, q): Phi1(p) =
-Phi2(q)} has a component X over the rational numbers that dominates the points p. Let f be the
-dimension of its generic fibres over p. Then f of the q, algebraically independent over Q(p) on X,
-are counted among the p, and X is generically finite over these p. For equal ranks, f = n2 - r,
-these are the parameters of the slice: X has the dimension n1 + n2 - r, and may be chosen to
-dominate the points q as well. Let I be the prime ideal of all integer polynomials that vanish on
-X, and R = Z[p, q]/I. Each other q_j satisfies an equation A_j(p) q_j^k + .. = 0 in R, so R[1/A] is
-integral over Z[p][1/A], A the product of the A_j. By the lying-over theorem, every point p0 modulo
-a prime at which A(p0) is not zero lies below a point of R, where all equations that hold on X hold
-modulo the prime: the fibre's and, if V1 = V2 and the minors that give the ranks of both Jacobian
-matrices do not vanish at the points drawn, the tangent equations. So a fibre that is empty modulo
-the prime refutes the supposition, unless A or one of two minors vanishes. (Free q without a slice
-may be chosen: then only a coefficient of A, as a polynomial in them, has to be other than 0.)
-
-A_j: take n2 - f polynomials g_1, g_2, .. such that X is a component of their common zeros, of
-codimension n2 - f. For equal ranks these are r coordinates of Phi1 - Phi2 whose gradients by the q
-that are not free are independent at generic points of X, so that the zeros are smooth there. Else
-they are combinations of coordinates, in falling order of degrees, the i-th one of the i-th and
-later ones with a first factor other than 0, so that deg g_i <= d_i: on a component Y of the zeros
-of g_1, .., g_(i-1) through X that is larger than X, not all coordinates vanish, and if all from
-the i-th on did, so would, by g_(i-1), .., g_1, the others. So a combination that vanishes on no
-such Y avoids one linear condition for each, at most delta = d_1 d_2 .. of them (Bezout), and one
-more for the first factor: factors of 0, .., delta + 1 do. Then the g_i, all p and q_j are one
-polynomial more than there are variables, and have a relation E. Divide it by the power of its
-first variable that it contains. On the zeros of g_1, and so on the component of them that holds X,
-what is left is 0 with g_1 = 0; g_2 does not vanish on that component, or X would have a smaller
-codimension. Going on, a polynomial that is not zero remains, whose coefficients are those of E, in
-p and q_j alone, and which vanishes on X. The p are independent there, so it contains q_j: A_j is
-its leading coefficient, of degree delta at most.
-
-NOT EMPTY. Suppose that V1 does not lie inside V2, r = dim V2. Let y be a point of V1 outside of
-V2. There are r + 1 linear forms in the coordinates, with factors as above, such that the
-projection of y is none of the closure of the projection of V2: of the hyperplanes l_i(y') = l_i(y)
-through y the first r + 1 leave no point of the projective closure of V2, if each of them contains
-no component of what the ones before leave; a component has a point other than y, so that is one
-linear condition for each of them, deg V2 <= delta at most, which is not void by the same
-triangular argument. Then the projection is a morphism on the projective closure of V2, its image
-is closed, and y's is none of it. The image has dimension r, being finite over V2: it is F = 0 with
-F irreducible. Choose r independent columns of the Jacobian matrix of Phi2; the forms l_i(Phi2(q))
-and the n2 - r other q are one polynomial more than there are variables. Their values fill the
-hypersurface F = 0 times all values of these q, so F divides their relation E. F(l(Phi2)) = 0 is an
-identity of integer polynomials, so it holds modulo every prime: a solution of Phi2(q) = Phi1(p0)
-modulo the prime, in whatever extension, shows F(l(Phi1)) = 0 at p0. As a polynomial in p that is
-not zero, it vanishes there by accident only.
-
-PROBABILITY. A polynomial of degree d and B bits vanishes at a random point modulo a random prime
-of b bits with a probability of at most d/2^(b-1) (Schwartz, Zippel), plus the share of the primes
-that divide all its coefficients, at most B/(b-1) of them.
 """
 
 from collections.abc import Sequence

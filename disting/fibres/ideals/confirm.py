@@ -1,14 +1,14 @@
-"""Contradictions by plain Macaulay matrices: slow, simple, and independent of the search for
+"""What one or more fibres show, checked without the search that found it.
+
+The labels of the evidence stand for random primes and points (`fibre_ideal.drawn`). The error bound
+is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
+
+Contradictions by plain Macaulay matrices: slow, simple, and independent of the search for
 Gröbner bases.
 
 The span of the generators of degree up to D is multiplied by the variables, as long as a product
 of degree up to D is new, elements whose degree fell included. If 1 lies in the span, there are no
 common zeros.
-
-What one or more fibres show, checked without the search that found it.
-
-The labels of the evidence stand for random primes and points (`fibre_ideal.drawn`). The error bound
-is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

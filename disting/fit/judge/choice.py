@@ -18,9 +18,9 @@ from disting.fit.judge.exclusion import Exclusion, Fitted, basis_of, excluded, l
 from disting.fit.judge.explanation import Explanation, allowed, explained, noises
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
+from disting.fit.search.data import Whitened
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
-from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings

@@ -1,13 +1,13 @@
-"""What a few fits tell before all candidates are fitted: the signs of sensors where nobody said
-them, and how much the lines of several responses scatter.
-
-What would fit where no candidate does: another sensor quantity, a reversed sensor, phases of
+"""What would fit where no candidate does: another sensor quantity, a reversed sensor, phases of
 the other sign, gains in dB, a zero-order hold, other places, one mass more.
 
 A chain with dampers, a lag and a dead time, of as many masses as the best candidate, is fitted
 under each reading. They are compared by J on the training data, which in
 logarithms does not depend on the unit of the quantity. A mass more fits almost everything better, a
 rod, a notch filter, friction: it is named only if it explains the data (`explains`).
+
+What a few fits tell before all candidates are fitted: the signs of sensors where nobody said
+them, and how much the lines of several responses scatter.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -1,10 +1,4 @@
-"""How the structures that a fit left stand to each other: which of them no data with this force and
-sensor tell apart, and which the noise alone left together.
-
-Over generic complex parameters to be indistinguishable is transitive, so each structure is compared
-with one of each class only.
-
-What a further experiment would show on the structures that a fit left, each at its values.
+"""What a further experiment would show on the structures that a fit left, each at its values.
 
 The experiment gives the responses G_A, of the one that is taken for true, and G_B on lines that
 scatter by rho in ln |G| and in arg G. With r_k = |G_B/G_A - 1|_k / rho_k
@@ -19,6 +13,12 @@ with the response that was measured, it is what a measurement without noise woul
 Which mass of one structure is which of another one is not known: `least` takes the place that
 differs least. A structure with several parameter vectors that the data leave is as far away as
 the nearest of them.
+
+How the structures that a fit left stand to each other: which of them no data with this force and
+sensor tell apart, and which the noise alone left together.
+
+Over generic complex parameters to be indistinguishable is transitive, so each structure is compared
+with one of each class only.
 """
 
 from collections.abc import Mapping, Sequence

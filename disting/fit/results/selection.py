@@ -1,7 +1,4 @@
-"""What each criterion alone does at every threshold (Figs 5 to 8), and profiles of single
-parameters.
-
-What a selection found, and how sure its values and its criteria are.
+"""What a selection found, and how sure its values and its criteria are.
 
 With g = d ln G / d ln p, shape (n_p,) at each frequency, ln |G| and arg G have by the chain rule
 the standard errors
@@ -11,6 +8,9 @@ the standard errors
 with the covariance C of the logarithms of the parameters from which their own standard errors
 follow (`covariance`): the band |G| exp(-+1.96 s_1), arg G -+ 1.96 s_2 holds the true response at
 each frequency with 95 %, if the structure is the true one.
+
+What each criterion alone does at every threshold (Figs 5 to 8), and profiles of single
+parameters.
 """
 
 from collections.abc import Sequence

@@ -24,11 +24,9 @@ from disting.model.question import Question, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.basis import Basis, basis
 from disting.questions.identifiability.formula import Formula, monomial
-from disting.questions.identifiability.functions import Candidate
+from disting.questions.identifiability.functions import Basis, Candidate, basis, scalings
 from disting.questions.identifiability.parts import Combination, Level, Origin, Renaming, Scaling
-from disting.questions.identifiability.scalings import scalings
 from disting.questions.identifiability.solutions import (
     Listing,
     Member,

@@ -36,11 +36,9 @@ from disting.model.structure import Structure
 from disting.questions.inclusion.across_sizes import degrees_of, exceeds, fewer_poles, twins
 from disting.questions.inclusion.closures import confirms_rows
 from disting.questions.inclusion.limit_fibre import contains
-from disting.questions.inclusion.limits import follows
-from disting.questions.inclusion.meeting import Room, room
-from disting.questions.inclusion.missing_elements import confirms_missing
+from disting.questions.inclusion.limits import Room, follows, room
 from disting.questions.inclusion.pole_sharing import excludes
-from disting.questions.inclusion.profiles import exceed, ordered
+from disting.questions.inclusion.profiles import confirms_missing, exceed, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part

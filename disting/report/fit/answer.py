@@ -1,11 +1,11 @@
-"""Rows of the tables of numbers: what a model says about the machine, its parameters, and their
+"""What a fit says to somebody who reads one paragraph: a plain answer, three numbers, the rule by
+which the structure was chosen.
+
+Rows of the tables of numbers: what a model says about the machine, its parameters, and their
 intervals.
 
 The structures that the data do not exclude, as the page shows them: drawn, with intervals,
 links and commands.
-
-What a fit says to somebody who reads one paragraph: a plain answer, three numbers, the rule by
-which the structure was chosen.
 """
 
 from collections.abc import Iterator, Sequence

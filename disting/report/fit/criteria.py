@@ -1,7 +1,7 @@
-"""What each criterion alone would select at other thresholds: Figs. 5 to 8 of the paper.
-
-The criteria of a candidate as a report puts them: value, threshold and meaning, what is
+"""The criteria of a candidate as a report puts them: value, threshold and meaning, what is
 least determined, who is nearest.
+
+What each criterion alone would select at other thresholds: Figs. 5 to 8 of the paper.
 """
 
 from collections.abc import Callable, Sequence

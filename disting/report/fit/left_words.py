@@ -226,8 +226,8 @@ def _apart(found: Onward) -> Iterator[tuple[str, ...]]:
             continue
         rule = found.stood.rule(a, b)
         relation = Relation.DISTINGUISHABLE if rule else Relation.UNDECIDED
-        masses = (range(1, found.left[k].chain.n_masses + 1) for k in (a, b))
-        for kind, i, j in product(found.costs.cheapest_first, *masses):
+        places = product(*(range(1, found.left[k].chain.n_masses + 1) for k in (a, b)))
+        for kind, (i, j) in product(found.costs.cheapest_first, places):
             names = found.left[a].name, str(i), found.left[b].name, str(j)
             yield kind.name, *names, relation.value, rule, "", ""
 

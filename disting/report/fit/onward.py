@@ -10,7 +10,7 @@ from os.path import relpath
 from pathlib import Path
 from urllib.parse import quote
 
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import damper_name
 from disting.catalogs.files import name_of as catalog_name
 from disting.fit.judge.members import NOTHING, Member, Twin
 from disting.fit.plan.power import Plan, typical

@@ -1,12 +1,12 @@
-"""Axes that read like those drawn by hand: plain numbers, few ticks, labels that keep their
-distance.
-
-One look for all figures of a fit, and files that repeat byte by byte.
+"""One look for all figures of a fit, and files that repeat byte by byte.
 
 A figure is drawn in few tones. In a file they are colours; in the page each becomes a variable of
 the style sheet, which knows light and dark. Every figure is drawn twice, wide for files and
 screens, narrow for phones, with letters of one size; the page shows the one that fits. Settings of
 the user's matplotlib, dates and version names do not enter the files, and no global state remains.
+
+Axes that read like those drawn by hand: plain numbers, few ticks, labels that keep their
+distance.
 """
 
 import re

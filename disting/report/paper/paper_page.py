@@ -11,7 +11,7 @@ from pathlib import Path
 from markupsafe import Markup, escape
 
 from disting.catalogs import ModelRow
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import damper_name
 from disting.catalogs.files import name_of
 from disting.files import __version__, write_whole
 from disting.model.family import Family

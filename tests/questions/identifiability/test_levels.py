@@ -22,7 +22,7 @@ from disting.questions.identifiability import (
     identifiability,
 )
 from disting.questions.identifiability.analysis import judged
-from disting.questions.identifiability.scalings import integer_kernel, scalings
+from disting.questions.identifiability.functions import integer_kernel, scalings
 from disting.questions.identifiability.solutions import Listing, foster_count, images
 from disting.questions.identifiability.tangent import short_vectors
 
