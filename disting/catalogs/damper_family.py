@@ -8,7 +8,7 @@ masses.
 then a line a model of the family with a list for each of its sets of dampers, in the order of
 `DamperSets.ALL`: `columns` (buckets of the tests that the header names, 10 for the exact decision;
 null where not known), `group`, `renamed`, `free` and `rank`, as in `verdict.classes`. Evidence is
-kept of what was settled once (`damper_settled`); of all else `compare` gives it.
+kept of what was settled once (`files`); of all else `compare` gives it.
 """
 
 import json
@@ -20,10 +20,9 @@ from pathlib import Path
 
 import numpy as np
 
-from disting.catalogs.damper_settled import read_settled
 from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.export import premise_text
-from disting.catalogs.files import Record, lines, shipped_folder, write_provenance
+from disting.catalogs.files import Record, lines, read_settled, shipped_folder, write_provenance
 from disting.conditions.rule import EXACT, WRITTEN
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole

@@ -10,13 +10,12 @@ from pathlib import Path
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily, damper_family, damper_name, read, text_of
-from disting.catalogs.damper_settled import append, holds, read_settled
-from disting.catalogs.files import lines, name_of
+from disting.catalogs.files import append, lines, name_of, read_settled
 from disting.conditions.rule import Finding, Outcome
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
-from disting.questions.same.evidence_check import Witness
+from disting.questions.same.evidence_check import Witness, finding_holds
 from disting.questions.same.low_cost import patient_finding
 from disting.verdict.buckets import Forest
 from disting.verdict.chain_side import ComparedChain
@@ -141,7 +140,9 @@ def false_settled(
     place = {canonical(chain).chain: i for i, chain in enumerate(classes.chains)}
     known = read_settled(place, folder)
     asked = [(found, *pair, settings) for pair, found in known.items()]
-    for done, ((found, *chains, _), is_true) in enumerate(mapped(holds, asked, executor), 1):
+    for done, ((found, *chains, _), is_true) in enumerate(
+        mapped(finding_holds, asked, executor), 1
+    ):
         left, right = (place[chain] for chain in chains)
         pair = stored.pair_text(left, right)
         if not is_true or classes.rank[left] != classes.rank[right]:

@@ -14,9 +14,9 @@ from flint import fmpq
 
 from disting.experiments import Places
 from disting.fibres.synthesis.task import Fibre, Status, target
+from disting.files import Format
 from disting.model.chain import Chain, text_drawing
 from disting.model.presentation import Shown, summary
-from disting.schemas import Format
 
 
 class Signs(StrEnum):

@@ -30,7 +30,6 @@ from disting.fit.search.network_plant import (
     random_starts,
 )
 from disting.fit.search.setup import Setup
-from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.network.network import Network
@@ -85,7 +84,7 @@ def fit_networks(
     data = [measured] if isinstance(measured, FrequencyResponse) else list(measured)
     asked = _asked(data, networks)
     engine = engine or Engine()
-    subjects = engine.general_subjects([of_network(network) for network in asked])
+    subjects = engine.general_subjects(asked)
     decided = engine.decisions(subjects, Query(View.POSITIVE, inclusion=False))
     first = _first_of_same(decided, len(asked))
     cost, found = _cost(data), list[tuple[AnyNetworkPlant, Real]]()

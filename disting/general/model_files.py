@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import InputError, listed, of_type, printable, shown
-from disting.files import as_path, read_bounded, write_whole
+from disting.files import Format, as_path, read_bounded, write_whole
 from disting.general.any_model import as_chain, of_network
 from disting.general.expression import polynomial_text
 from disting.general.matrix_model import AnyModel, MatrixModel
@@ -35,7 +35,6 @@ from disting.model.names import DAMPED, chain_of, name_of
 from disting.model.presentation import Shown, plural, summary
 from disting.network.notation.compartments import space_of_flows
 from disting.network.notation.entries import FORMS as NETWORKS, entry_of, network_of_entry
-from disting.schemas import Format
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs

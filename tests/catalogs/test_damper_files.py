@@ -31,8 +31,7 @@ from disting.catalogs.damper_family import (
     text_of,
     write,
 )
-from disting.catalogs.damper_settled import FILE, append, holds, read_settled
-from disting.catalogs.files import shipped_folder
+from disting.catalogs.files import SETTLED, append, read_settled, shipped_folder
 from disting.catalogs.verify import (
     DECIDES,
     false_settled,
@@ -44,6 +43,7 @@ from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.model.family import Family
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
+from disting.questions.same.evidence_check import finding_holds
 from disting.questions.same.low_cost import quick_finding, quick_profile
 from disting.store.scheduling import executor
 from disting.verdict.grouping import classes
@@ -227,13 +227,15 @@ def test_what_was_settled_once_is_sure_and_holds(damped, kinds):
     known = settled(damped)
     assert all(f.safety >= 100 and f.outcome in DECIDES for f in known.values())
     assert one_of_each(known).keys() >= kinds
-    assert all(holds(*of_one, Settings()) for of_one in one_of_each(known).values())
+    assert all(finding_holds(*of_one, Settings()) for of_one in one_of_each(known).values())
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("damped", [False, True])
 def test_what_was_settled_once_holds(damped):
-    assert all(holds(found, *pair, Settings()) for pair, found in [*settled(damped).items()][::9])
+    assert all(
+        finding_holds(found, *pair, Settings()) for pair, found in [*settled(damped).items()][::9]
+    )
 
 
 def forged(found):
@@ -256,14 +258,14 @@ def forged(found):
 @pytest.mark.parametrize("kind", ["shared", "solved", "refuted"])
 def test_what_says_more_than_its_evidence_shows_does_not_hold(kind):
     found, *pair = one_of_each(settled(False))[kind]
-    assert [x for x in forged(found) if holds(x, *pair, Settings())] == []
+    assert [x for x in forged(found) if finding_holds(x, *pair, Settings())] == []
 
 
 def test_what_is_settled_of_another_pair_does_not_hold():
     known = settled(False)
     for found, *pair in one_of_each(known).values():
         others = (other for other in known if other[0] != pair[0])
-        assert not holds(found, *next(others), Settings())
+        assert not finding_holds(found, *next(others), Settings())
 
 
 def test_what_is_settled_is_taken_over_from_a_folder_of_ones_own(tmp_path):
@@ -294,7 +296,7 @@ def test_what_is_settled_and_what_contradicts_the_file_is_said_by_the_names_of_t
         "4:3+b1 and 4:7+b1, damped: distinguishable",
         "4:8+b1 and 4:19+b1, damped: indistinguishable",
     ]
-    assert len((tmp_path / FILE).read_text(encoding="utf-8").splitlines()) == 2
+    assert len((tmp_path / SETTLED).read_text(encoding="utf-8").splitlines()) == 2
     assert list(false_settled(found, tmp_path, Settings())) == [
         "4:3+b1 and 4:7+b1, damped: settled, but not in the file",
         "4:8+b1 and 4:19+b1, damped: settled, but not in the file",

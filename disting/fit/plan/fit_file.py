@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.errors import InputError, listed
-from disting.files import read_json
+from disting.files import Format, read_json
 from disting.fit.results.model_file import FIT_FILE, chain_from_dict, model_from_dict, number_of
 from disting.fit.results.networks import BAR
 from disting.fit.search.candidates import as_listed, reference
@@ -22,7 +22,6 @@ from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.network.network import Network
 from disting.network.notation.entries import network_of_entry
-from disting.schemas import Format
 from disting.verdict.result import Relation
 
 Values = dict[str, float]

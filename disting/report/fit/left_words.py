@@ -6,6 +6,7 @@ from itertools import combinations, permutations, product
 from typing import Any
 
 from disting.experiments.menu import Costs, Item
+from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL, joined
 from disting.fit.plan.fit_file import Left, Named
 from disting.fit.plan.further import Foretold, Standing, Step, Stood
@@ -14,7 +15,6 @@ from disting.fit.search.candidates import as_listed, reference
 from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
-from disting.schemas import Format
 from disting.verdict.everywhere import Answer
 from disting.verdict.further import Further
 from disting.verdict.further_words import CSV_COLUMNS, rows, to_dict

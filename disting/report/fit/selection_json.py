@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from disting.files import Format
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation, explanations
 from disting.fit.judge.members import Member
@@ -16,7 +17,6 @@ from disting.fit.search.candidates import as_listed, reference
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.sentences import places, suspicions
-from disting.schemas import Format
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:
