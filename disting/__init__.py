@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from disting.algebra.certainty import Certainty as Certainty
     from disting.behaviour.expanded import transfer_function as transfer_function
     from disting.catalogs import Catalog as Catalog, ModelRow as ModelRow, catalog as catalog
-    from disting.conditions.rule import Finding as Finding, Outcome as Outcome
+    from disting.conditions.finding import Finding as Finding, Outcome as Outcome
     from disting.conditions.table import CONDITIONS as CONDITIONS
     from disting.equivalence import (
         equivalents as equivalents,
@@ -85,7 +85,7 @@ _NAMES = {
     "disting.algebra.certainty": "Certainty",
     "disting.behaviour.expanded": "transfer_function",
     "disting.catalogs": "Catalog ModelRow catalog",
-    "disting.conditions.rule": "Finding Outcome",
+    "disting.conditions.finding": "Finding Outcome",
     "disting.conditions.table": "CONDITIONS",
     "disting.equivalence": "equivalents explicit_map gate",
     "disting.errors": "CatalogError ConstraintViolation ContradictionError DistingError InputError",

@@ -23,7 +23,7 @@ from disting.algebra.symbols import coefficients
 from disting.behaviour.expanded import written_out
 from disting.behaviour.sample import at_point, coefficient_columns
 from disting.behaviour.transfer import Arrangement, plain_receptance, receptance, values_at
-from disting.model.question import Columns, Degrees
+from disting.model.protocol import Columns, Degrees
 from disting.model.structure import Structure
 
 REMEMBERED = 4096

@@ -18,7 +18,8 @@ from disting.algebra.matroid import Component, Matroid, SearchTooLargeError, mat
 from disting.algebra.quotient import Quotient, rational, series_rows
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Drawn, Representation, Sample, drawn, samples, seen_at
-from disting.model.question import Model, Settings
+from disting.model.protocol import Model
+from disting.model.question import Settings
 from disting.model.structure import Structure
 
 REMEMBERED = 64

@@ -28,7 +28,7 @@ from flint import nmod_mat
 from disting.algebra.certainty import PROOF_BITS, about, prime, residues
 from disting.algebra.quotient import Quotient, coefficient_rows, matrix, series_rows
 from disting.errors import InputError
-from disting.model.question import ZERO, Columns, Degrees, Model
+from disting.model.protocol import ZERO, Columns, Degrees, Model
 
 DRAWS = 20  # of a point
 REMEMBERED = 64  # points: of a few verdicts, for a sketch and the profile that may follow it

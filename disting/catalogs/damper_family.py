@@ -23,7 +23,8 @@ import numpy as np
 from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.export import premise_text
 from disting.catalogs.files import Record, lines, read_settled, shipped_folder, write_provenance
-from disting.conditions.rule import EXACT, WRITTEN
+from disting.conditions.finding import WRITTEN
+from disting.conditions.rule import EXACT
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
 from disting.model.family import Family

@@ -26,7 +26,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from disting.conditions.rule import Finding
+from disting.conditions.finding import Finding
 from disting.errors import CatalogError
 from disting.files import (
     PROVENANCE as PROVENANCE,

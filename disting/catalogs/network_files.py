@@ -17,7 +17,8 @@ from itertools import combinations
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
-from disting.conditions.rule import ADMISSIBLE, Finding
+from disting.conditions.finding import Finding
+from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.side import AnySide
 from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from

@@ -11,7 +11,7 @@ from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily, damper_family, damper_name, read, text_of
 from disting.catalogs.files import append, lines, name_of, read_settled
-from disting.conditions.rule import Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical

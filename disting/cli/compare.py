@@ -24,7 +24,8 @@ from disting.cli.arguments import (
 )
 from disting.cli.compare_words import both_ways, every_way, explained, in_letters
 from disting.cli.model_names import MODEL, models_named
-from disting.cli.output import emitted, query
+from disting.cli.output import emitted
+from disting.cli.relations import query
 from disting.cli.workers import engine_for, told_if_long
 from disting.errors import InputError
 from disting.experiments import named

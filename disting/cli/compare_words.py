@@ -4,7 +4,7 @@ within ranges.
 
 from collections.abc import Iterator, Sequence
 
-from disting.cli.output import in_colour
+from disting.cli.relations import in_colour
 from disting.errors import InputError, listed
 from disting.experiments import Experiment, MeasuredChain, Places, moved
 from disting.general.any_model import as_chain

@@ -18,7 +18,8 @@ from disting.catalogs.damper_family import (
 )
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
-from disting.cli.output import emitted, emitted_lines, relations_in_words, written_file
+from disting.cli.output import emitted, emitted_lines, written_file
+from disting.cli.relations import relations_in_words
 from disting.cli.workers import Work, announced, engine_for
 from disting.conditions.rule import RULES
 from disting.errors import InputError

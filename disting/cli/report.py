@@ -14,8 +14,8 @@ from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import Listed, add_out, add_work, size_or_list
-from disting.cli.output import relations_in_words
 from disting.cli.parser import parser
+from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import LISTS, list_of
 from disting.cli.workers import announced, announced_family, engine_for, pairs_by_size, pairs_work
 from disting.errors import InputError

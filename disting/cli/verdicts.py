@@ -19,15 +19,8 @@ from disting.cli.arguments import (
     sizes_or_list,
     whole,
 )
-from disting.cli.output import (
-    VIEWS,
-    emitted,
-    keep_apart,
-    query,
-    relations_in_words,
-    rules_in_words,
-    written_file,
-)
+from disting.cli.output import emitted, keep_apart, written_file
+from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
 from disting.cli.workers import announced, announced_family, engine_for, pairs_by_size, pairs_work
 from disting.conditions.side import AnySide
 from disting.errors import InputError, in_row

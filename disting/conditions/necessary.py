@@ -11,16 +11,8 @@ from disting.algebra.certainty import Certainty, Grade, graded
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import (
-    DEGREES,
-    DEPENDENCES,
-    FORM,
-    INVARIANTS,
-    RANK,
-    Finding,
-    Outcome,
-    Rule,
-)
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import DEGREES, DEPENDENCES, FORM, INVARIANTS, RANK, Rule
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.kinds import Evidence
 

@@ -13,22 +13,14 @@ from disting.algebra.colouring import Colouring, colouring
 from disting.algebra.content import written
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
+from disting.conditions.finding import Finding
 from disting.conditions.inclusion import Inclusions
-from disting.conditions.rule import Finding
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Premise
-from disting.model.question import (
-    Answerer,
-    Columns,
-    Domain,
-    Model,
-    Models,
-    Question,
-    Settings,
-    computed,
-)
+from disting.model.protocol import Columns, Model
+from disting.model.question import Answerer, Domain, Models, Question, Settings, computed
 from disting.model.structure import Structure
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]

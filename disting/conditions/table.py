@@ -12,6 +12,7 @@ from disting.algebra.certainty import Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions import necessary, sufficient
+from disting.conditions.finding import Finding
 from disting.conditions.rule import (
     DEGREES,
     DEPENDENCES,
@@ -22,7 +23,6 @@ from disting.conditions.rule import (
     RENAMING,
     SUBMODEL,
     SUPERMODEL,
-    Finding,
     Rule,
 )
 from disting.conditions.side import AnySide

@@ -15,7 +15,8 @@ from types import UnionType
 from typing import Any, ClassVar, Self, Union, get_args, get_origin, get_type_hints
 
 from disting.behaviour.sample import Representation, Sample, samples
-from disting.model.question import Domain, Model, Relation
+from disting.model.protocol import Model
+from disting.model.question import Domain, Relation
 
 Labels = tuple[str, ...]
 POINTS = 3

@@ -56,7 +56,8 @@ from disting.algebra.certainty import (
     safety,
     weakest,
 )
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.evidence.positive import Empirical, OnlyOne, Points, PositiveFinding, Share
 from disting.experiments.equal_machines import same_by_rows
 from disting.experiments.experiment import MeasuredChain

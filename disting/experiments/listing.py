@@ -29,7 +29,8 @@ from flint import acb_poly, ctx, fmpq, fmpq_poly
 from disting.algebra.certainty import Certainty, about
 from disting.algebra.determinants import Ring
 from disting.behaviour.transfer import plain_receptance
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.evidence.decision import FibreUnder
 from disting.experiments.experiment import Entry, MeasuredChain
 from disting.fibres.synthesis.decide import (

@@ -36,7 +36,7 @@ from disting.behaviour.sample import (
 )
 from disting.behaviour.transfer import plain_receptance, touched
 from disting.experiments.experiment import Entry, MeasuredChain
-from disting.model.question import ZERO, Columns, Degrees
+from disting.model.protocol import ZERO, Columns, Degrees
 
 REMEMBERED = 1024
 

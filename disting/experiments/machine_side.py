@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import weakest
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import ADMISSIBLE, EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence

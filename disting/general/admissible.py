@@ -14,7 +14,8 @@ from itertools import islice, repeat
 
 from disting.algebra.certainty import Certainty, residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
-from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Explicit, NoEquivalent, Point, Witnesses

@@ -13,7 +13,7 @@ from fractions import Fraction
 
 from disting.algebra.groebner.own_process import End, run_limited
 from disting.algebra.groebner.rational import Bounds, TooLarge
-from disting.conditions.rule import Outcome
+from disting.conditions.finding import Outcome
 from disting.errors import of_type
 from disting.general.any_model import on_one_variable
 from disting.general.equivalent import Equivalent

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar, overload
 
-from disting.conditions.rule import Finding
+from disting.conditions.finding import Finding
 from disting.fibres.ideals import (
     CoefficientMap,
     Fraction as Ratio,

@@ -36,7 +36,7 @@ from disting.behaviour.chain_model import UNBOUNDED, size_of_minors
 from disting.behaviour.sample import label, shared_poles
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
-from disting.model.question import ZERO, Columns, Degrees
+from disting.model.protocol import ZERO, Columns, Degrees
 
 Known = Fraction | None
 """The value of an invariant that is proven constant, or None."""

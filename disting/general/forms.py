@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses

@@ -4,7 +4,7 @@ what it shows.
 
 from functools import partial
 
-from disting.conditions.rule import Finding
+from disting.conditions.finding import Finding
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import Refuted, Solved

@@ -14,7 +14,8 @@ from functools import cached_property, partial
 
 from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import ADMISSIBLE, EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import GENERIC, Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming

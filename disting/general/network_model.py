@@ -25,7 +25,7 @@ from disting.behaviour.sample import label, shared_poles
 from disting.general.any_model import unnamed
 from disting.general.behaviour import GeneralModel, Known, known_invariants, summary_size
 from disting.general.matrix_model import AnyModel
-from disting.model.question import ZERO, Columns, Degrees
+from disting.model.protocol import ZERO, Columns, Degrees
 from disting.network.at_points import Assembly, Sides, assembly, quotient_at, sides_at
 from disting.network.forests import Counts, counts, counts_of
 from disting.network.network import Network

@@ -1,79 +1,14 @@
-"""What is asked of models and answered, and what every family of them offers.
-
-The behaviour of a model is its transfer functions, one or several, as they depend on the
-parameters; a family says what they are at a point modulo a prime, how large the polynomials behind
-them are, and which invariants it proves to be constant.
+"""What is asked of models, and answered: over which parameter values, with which settings, by which
+relation; questions beyond conditions 1 to 9 are answered by a pure function, and the answers kept
+as text by whoever keeps them.
 """
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 from functools import partial
 from typing import Any, Generic, Protocol, Self, TypeVar
-
-from disting.algebra.certainty import Size
-from disting.algebra.quotient import Quotient
-
-Degrees = tuple[int, int]
-"""Of numerator and denominator."""
-ZERO: Degrees = (-1, 0)  # of a transfer function that is zero
-Columns = tuple[tuple[int, ...], list[tuple[int, ...]]]
-"""Values of some functions, and for each parameter their derivatives."""
-
-
-class Model(Protocol):
-    """A parametric model: immutable, hashable, and written out by its fields.
-
-    A number of Markov parameters is that after G_0; None stands for the coefficients.
-    """
-
-    def __hash__(self) -> int:
-        """Equal models have equal numbers."""
-
-    @property
-    def parameters(self) -> tuple[str, ...]:
-        """Names of the parameters; the last one is a dead time where there is one."""
-
-    @property
-    def dead_time(self) -> bool:
-        """Whether all transfer functions have a factor exp(-Td s), which `quotients` leave out."""
-
-    @property
-    def n_states(self) -> int:
-        """Order of the transfer functions, at most."""
-
-    @property
-    def content(self) -> tuple[object, ...]:
-        """All that tells it from other models: labels of random points are made of it."""
-
-    @property
-    def degrees(self) -> tuple[Degrees, ...]:
-        """Of all transfer functions in lowest terms, exactly; ZERO of one that is zero."""
-
-    @property
-    def is_numbered(self) -> bool:
-        """Whether invariants carry the number of their transfer function, as of several."""
-
-    @property
-    def lost_bits(self) -> int:
-        """Bits of an error bound that each point costs, as it may have been drawn again."""
-
-    @property
-    def most_subsets(self) -> int:
-        """Largest number of subsets of rows that a search of dependences is worth."""
-
-    def quotients(self, point: Sequence[int], modulus: int) -> Sequence[Quotient | None]:
-        """The transfer functions at a point, in lowest terms there; None for one that is zero."""
-
-    def columns(self, point: Sequence[int], modulus: int) -> Columns:
-        """Functions that a renaming of the parameters carries into those of the other model."""
-
-    def minor_size(self, markov: int | None) -> Size:
-        """Bounds of the cleared minors of the Jacobian of all invariants."""
-
-    def constants(self, markov: int | None) -> Mapping[str, str]:
-        """Values of the invariants that are proven constant, by their labels."""
 
 
 class Domain(StrEnum):

@@ -5,7 +5,8 @@
 from collections import Counter
 from itertools import combinations
 
-from disting.conditions.rule import Outcome as Holding, Stage
+from disting.conditions.finding import Outcome as Holding
+from disting.conditions.rule import Stage
 from disting.conditions.sufficient import condition_9
 from disting.model.family import Family
 from disting.paper.claim import (

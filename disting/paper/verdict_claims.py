@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
-from disting.conditions.rule import Outcome as Holding
+from disting.conditions.finding import Outcome as Holding
 from disting.conditions.sufficient import condition_7
 from disting.model.chain import Sensor
 from disting.model.family import Family

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from disting.behaviour.profile import Profile, Unsearched
-from disting.conditions.rule import Outcome
+from disting.conditions.finding import Outcome
 from disting.conditions.side import AnySide
 from disting.conditions.sufficient import condition_6
 from disting.conditions.table import Necessary

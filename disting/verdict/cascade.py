@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Finding, Outcome, Role, Stage
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Role, Stage
 from disting.conditions.side import AnySide, notes_of
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError

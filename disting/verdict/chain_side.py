@@ -8,7 +8,8 @@ from functools import cached_property
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence

@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty
-from disting.conditions.rule import ADMISSIBLE, EXACT, Finding
+from disting.conditions.finding import Finding
+from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import AnySide, notes_of
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import ADMISSIBLE, RULES, Finding, Stage
+from disting.conditions.finding import Finding
+from disting.conditions.rule import ADMISSIBLE, RULES, Stage
 from disting.conditions.side import AnySide
 from disting.conditions.table import NECESSARY
 from disting.evidence.positive import PositiveFinding

@@ -29,7 +29,8 @@ from disting.general.network_model import behaviour_of
 from disting.general.readings import settled
 from disting.model.chain import Chain
 from disting.model.presentation import summary
-from disting.model.question import Model, Models, Question, Settings
+from disting.model.protocol import Model
+from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical
 from disting.network.network import Network
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given

@@ -29,11 +29,13 @@ import numpy as np
 from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
-from disting.model.question import Model, Question
+from disting.model.protocol import Model
+from disting.model.question import Question
 from disting.questions.same.low_cost import INVERSELY, QUICKLY
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.chain_side import ComparedChain

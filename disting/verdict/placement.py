@@ -28,7 +28,8 @@ from disting.algebra.certainty import Certainty
 from disting.algebra.content import written
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import FREE_CHOICE, RENAMING, Outcome
+from disting.conditions.finding import Outcome
+from disting.conditions.rule import FREE_CHOICE, RENAMING
 from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
 from disting.experiments import MeasuredChain

@@ -39,7 +39,8 @@ from disting.catalogs.verify import (
     verify_dampers,
 )
 from disting.cli import main
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.model.family import Family
 from disting.model.question import Settings
 from disting.model.symmetry import canonical

@@ -10,7 +10,8 @@ from disting import Chain, Engine, Family, Outcome, Query, View, compare
 from disting.algebra.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import EXACT, Finding
+from disting.conditions.finding import Finding
+from disting.conditions.rule import EXACT
 from disting.general.any_model import same
 from disting.general.behaviour import GeneralModel
 from disting.general.model import Model

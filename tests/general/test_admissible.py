@@ -8,7 +8,7 @@ import pytest
 
 from disting import Certainty, Query, Relation, View, compare
 from disting.algebra.symbols import RationalFunction
-from disting.conditions.rule import Outcome
+from disting.conditions.finding import Outcome
 from disting.errors import ContradictionError
 from disting.evidence.conditions import Renaming
 from disting.evidence.general import NoEquivalent, Witnesses

@@ -13,7 +13,7 @@ from hypothesis import assume, given, settings, strategies as st
 
 from disting import Family, InputError
 from disting.algebra.groebner.rational import TooLarge, basis
-from disting.conditions.rule import Outcome
+from disting.conditions.finding import Outcome
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Answer, Status, target as chain_target
 from disting.general.alternatives import AT_ONCE, alternatives

@@ -22,7 +22,8 @@ from disting import (
 )
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import is_renamed
 from disting.general.behaviour import GeneralModel

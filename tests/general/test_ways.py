@@ -13,7 +13,7 @@ import sympy as sp
 
 from disting import Certainty, Family, Query, Relation, View, compare, compare as compare_chains
 from disting.algebra.symbols import RationalFunction
-from disting.conditions.rule import Outcome
+from disting.conditions.finding import Outcome
 from disting.errors import InputError
 from disting.evidence.general import Explicit
 from disting.general.admissible import confirms, points

@@ -9,7 +9,8 @@ import pytest
 from disting import Certainty, Chain, Engine, Finding, Relation
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.damper_family import damper_family
-from disting.conditions.rule import EXACT, Outcome
+from disting.conditions.finding import Outcome
+from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import condition_8, condition_9
 from disting.questions.same.low_cost import QUICKLY
 from disting.verdict.engine import question_key

@@ -26,7 +26,8 @@ from disting import (
 )
 from disting.catalogs.damper_family import DamperFamily, damper_family
 from disting.catalogs.dampers import DamperSets, dampers
-from disting.conditions.rule import EXACT, Outcome
+from disting.conditions.finding import Outcome
+from disting.conditions.rule import EXACT
 from disting.errors import ContradictionError
 from disting.model.question import Settings
 from disting.questions.same.low_cost import QUICKLY, quick_finding, quick_profile

@@ -17,7 +17,8 @@ from disting.algebra.certainty import Certainty, enough, graded, joint_safety, s
 from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
 from disting.model.presentation import summary
-from disting.model.question import Model, Settings
+from disting.model.protocol import Model
+from disting.model.question import Settings
 from disting.questions.identifiability.parts import Level
 
 

@@ -7,7 +7,7 @@ from functools import partial
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
-from disting.conditions.rule import Finding
+from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
 from disting.evidence.kind import Kind, Seen, SeenPair, seen

@@ -44,7 +44,8 @@ from typing import Any
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
 from disting.evidence.kinds import Evidence

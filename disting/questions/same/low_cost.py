@@ -16,7 +16,8 @@ from disting.behaviour.profile import (
     profile_from_json,
     profile_to_json,
 )
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings

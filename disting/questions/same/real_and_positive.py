@@ -24,7 +24,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty, Grade, weakest
-from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError, InputError
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import RATIONAL, Theorem

@@ -1,0 +1,80 @@
+"""What several commands share: how conditions and views are asked for, and how relations are told,
+on a terminal in colour, which their words tell too.
+
+Nothing is coloured where standard output is no terminal, where the environment variable NO_COLOR
+is set (https://no-color.org), and where TERM is dumb.
+"""
+
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterable
+
+from disting.conditions.rule import RULES
+from disting.errors import InputError
+from disting.model.question import Domain
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
+
+# bright enough on a dark ground, dark enough on a light one
+COLOURS = {
+    Relation.DISTINGUISHABLE: "34",  # blue
+    Relation.INDISTINGUISHABLE: "31",  # red
+    Relation.SOMETIMES: "35",  # magenta
+    Relation.UNDECIDED: "33",  # yellow
+}
+
+
+def in_colour(text: str, relation: Relation) -> str:
+    """The text as a terminal shows it in the colour of the relation, or as it is."""
+    return f"\033[1;{COLOURS[relation]}m{text}\033[0m" if _is_wanted() else text
+
+
+def _is_wanted() -> bool:
+    silent = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return not silent and sys.stdout.isatty()
+
+
+VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
+
+
+def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
+    """Over positive parameters where no domain ("") is named, but the paper's view, over complex
+    ones, where it is asked for.
+
+    Conditions that are named decide alone: the exact decision belongs to the default.
+    """
+    paper = conditions is not None or view is not View.EXACT
+    domain = domain or (Domain.COMPLEX if paper else Domain.POSITIVE)
+    if domain != Domain.COMPLEX:
+        if paper:
+            raise InputError(
+                f"--domain {domain} comes after the exact decision: leave --conditions and"
+                " --representation away"
+            )
+        return Query(View(domain), markov=markov)
+    if conditions is None:
+        return Query(view, markov=markov)
+    return Query(View.COMBINED if view is View.EXACT else view, conditions, markov)
+
+
+def relations_in_words(found: Iterable[Relation]) -> str:
+    """How many pairs are what; SOMETIMES only where there are any.
+
+    >>> relations_in_words([Relation.DISTINGUISHABLE, Relation.SOMETIMES])
+    '1 distinguishable, 0 indistinguishable, 1 sometimes, 0 undecided'
+    """
+    counts = Counter(found)
+    return ", ".join(
+        f"{counts[r]} {r}" for r in Relation if counts[r] or r is not Relation.SOMETIMES
+    )
+
+
+def rules_in_words(counts: dict[str, int], domain: Domain) -> str:
+    """How many pairs each rule decides."""
+    return (
+        ", ".join(
+            f"{n} by {RULES[rule].in_words(domain)}" for rule, n in counts.items() if rule and n
+        )
+        or "none"
+    )
