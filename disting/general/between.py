@@ -26,8 +26,8 @@ from flint import fmpz_mpoly
 
 from disting.algebra.certainty import residues
 from disting.algebra.symbols import RationalFunction, factored
-from disting.general.cases import Case, numbered, placed
 from disting.general.counts import number_of_roots, remainder
+from disting.general.elimination import Case, numbered, placed
 from disting.general.orthant import Orthant
 
 CHOICES = 12  # fractions that are tried for the unknown that is chosen

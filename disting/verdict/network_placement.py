@@ -26,7 +26,7 @@ from disting.algebra.symbols import RationalFunction
 from disting.errors import InputError
 from disting.experiments.menu import Costs, Gain
 from disting.general.matrix_model import MatrixModel, of_ratios
-from disting.general.model import network_powers, network_ratios
+from disting.general.response import network_powers, network_ratios
 from disting.model.kinds import CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS, Kind
 from disting.network.element import Port, Sort
 from disting.network.network import Network

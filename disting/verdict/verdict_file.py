@@ -20,7 +20,7 @@ from disting.files import Format, __version__
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
-from disting.general.model_files import LARGEST_CHAIN, as_entry, read_entry
+from disting.general.model_entries import LARGEST_CHAIN, as_entry, read_entry
 from disting.model.chain import Chain, Sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES

@@ -19,7 +19,8 @@ from disting.evidence.general import Explicit
 from disting.general.admissible import confirms, points
 from disting.general.alternatives import alternatives
 from disting.general.between import path
-from disting.general.cases import Case, Search
+from disting.general.cases import Search
+from disting.general.elimination import Case
 from disting.general.formulas import fit, is_explicit
 from disting.general.model import Model
 from disting.general.orthant import Orthant, value_at

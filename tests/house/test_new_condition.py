@@ -20,7 +20,7 @@ CHECKS = """
 from dataclasses import replace
 from disting.algebra.certainty import Certainty, graded
 from disting.evidence.conditions import Mark
-from disting.conditions.rule import Outcome
+from disting.conditions.finding import Outcome
 from disting.conditions.rule import AGAIN, ALWAYS, MARKED, NEVER
 
 
