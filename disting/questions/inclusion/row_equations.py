@@ -22,8 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from disting.algebra.certainty import SEARCH_BITS, Size, prime, residues, safety
 from disting.algebra.quotient import constant, matrix, variable
-from disting.algebra.sampling import SEARCH_BITS, Size, prime, residues, safety
 from disting.behaviour.chain_model import common_power, powers
 from disting.behaviour.transfer import plain_receptance, values_at
 from disting.model.row import Row
