@@ -1,0 +1,182 @@
+"""Values that are written in steps: fractions of parameters, of values that have a name of their
+own, and of roots of quadratic equations.
+
+A value of more than some terms gets a name, and what is made of it contains the name. So what would
+be a fraction of thousands of terms is some short ones. Names are not independent: whether a value
+is zero cannot be seen from how it is written. Who builds values knows that from elsewhere, and what
+is built is put into what it is to solve (see `closed_form`).
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import reduce
+from operator import mul
+
+from flint import fmpz_mpoly
+
+from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import coefficients, factored, symbols
+from disting.general.orthant import TooMuch
+
+SHORT = 6
+MOST_NAMES = 60
+LARGEST = 2000  # terms of a polynomial that is factored
+Poly = tuple[RationalFunction, ...]
+"""Coefficients of x^0, x^1, .."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A value with a name: `value`, or with `root` = (c, b, a) a root of c + b x + a x^2, that with
+    this `sign` of the square root.
+    """
+
+    name: str
+    value: RationalFunction
+    root: Poly = ()
+    sign: int = 1
+
+    @property
+    def discriminant(self) -> RationalFunction:
+        """b^2 - 4 a c."""
+        c, b, a = self.root
+        return b * b - four(a * c)
+
+
+def four(value: RationalFunction) -> RationalFunction:
+    """Four times a value."""
+    return RationalFunction(4 * value.num, value.den)
+
+
+@dataclass
+class Field:
+    """Fractions of some parameters and of values that get a name on the way; raises TooMuch where
+    these are too many.
+
+    >>> found = Field(("a", "b"))
+    >>> one, _ = found.split((found["b"], found["a"], found.one))
+    >>> str(one.num), found.steps[0].discriminant == found["a"]**2 - four(found["b"])
+    ('x1', True)
+    """
+
+    parameters: tuple[str, ...]
+    letters: int = 40  # of a value without a name
+    steps: list[Step] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        free = [c for c in "uxyzwh" if not any(n.startswith(c) for n in self.parameters)]
+        if len(free) < len("ux"):
+            raise TooMuch("no letters are left for values with a name")
+        self._letters = sorted(free[:2])
+        names = [f"{c}{i}" for c in self._letters for i in range(1, MOST_NAMES + 1)]
+        self.ring = symbols([*self.parameters, *names, " "])
+        self.one = RationalFunction(self.ring[" "] ** 0, self.ring[" "] ** 0)
+
+    def __getitem__(self, name: str) -> RationalFunction:
+        return RationalFunction(self.ring[name], self.one.num)
+
+    def short(self, value: RationalFunction) -> RationalFunction:
+        """The value, or a name for it."""
+        if letters(value.num) + letters(value.den) <= self.letters:
+            return value
+        known = next((s for s in self.steps if not s.root and s.value == value), None)
+        return self[known.name] if known else self._named(0, value)
+
+    def split(self, quadratic: Poly) -> tuple[RationalFunction, RationalFunction]:
+        """Both roots of a polynomial of degree 2, by names."""
+        known = [s for s in self.steps if s.root == quadratic]
+        if known:
+            one, other = (self[s.name] for s in known)
+        else:
+            one, other = (self._named(1, self.one, quadratic, sign) for sign in (1, -1))
+        return one, other
+
+    def _named(
+        self, letter: int, value: RationalFunction, root: Poly = (), sign: int = 1
+    ) -> RationalFunction:
+        start = self._letters[letter]
+        number = 1 + sum(s.name.startswith(start) for s in self.steps)
+        if number > MOST_NAMES:
+            raise TooMuch(f"more than {MOST_NAMES} values with a name")
+        self.steps.append(Step(f"{start}{number}", value, root, sign))
+        return self[f"{start}{number}"]
+
+    def needed(self, values: Iterable[RationalFunction]) -> tuple[Step, ...]:
+        """The steps that values are made of, in order."""
+        wanted, kept = {n for v in values for n in names_in(v)}, list[Step]()
+        for step in reversed(self.steps):
+            if step.name in wanted:
+                kept.append(step)
+                wanted |= {n for v in (step.value, *step.root) for n in names_in(v)}
+        return tuple(reversed(kept))
+
+    def lifted(self, polynomial: fmpz_mpoly) -> RationalFunction:
+        """A polynomial in the parameters."""
+        images = [self.ring[n] for n in polynomial.context().names()]
+        return RationalFunction(
+            polynomial.compose(*images, ctx=self.one.num.context()), self.one.num
+        )
+
+    def factors(self, polynomial: Poly) -> list[Poly]:
+        """Polynomials whose product it is, but for a factor without x; none of them a product as
+        far as is seen from how its coefficients are written.
+        """
+        common = reduce(_multiple, (c.den for c in polynomial))
+        x = self.ring[" "]
+        whole = sum(
+            ((c.num * (common // c.den)) * x**i for i, c in enumerate(polynomial)), x - x
+        )
+        if len(whole) > LARGEST:
+            return [polynomial]
+        return [
+            tuple(RationalFunction(c, self.one.num) for c in coefficients(f, " "))
+            for f, power in factored(whole)[1]
+            for _ in range(power)
+            if f.degrees()[-1]
+        ]
+
+    def times(self, *polynomials: Poly) -> Poly:
+        """Their product."""
+        return reduce(self._times, polynomials, (self.one,))
+
+    def _times(self, one: Poly, other: Poly) -> Poly:
+        found = [self.one - self.one] * (len(one) + len(other) - 1)
+        for i, a in enumerate(one):
+            for j, b in enumerate(other):
+                found[i + j] += a * b
+        return tuple(map(self.short, found))
+
+    def plus(self, one: Poly, other: Poly, factor: RationalFunction | None = None) -> Poly:
+        """one + factor other."""
+        by = self.one if factor is None else factor
+        size = max(len(one), len(other))
+        return tuple(self.short(a + by * b) for a, b in zip(*(
+            (*p, *[self.one - self.one] * (size - len(p))) for p in (one, other)
+        ), strict=True))
+
+    def at(self, polynomial: Poly, x: RationalFunction) -> RationalFunction:
+        """Its value."""
+        total = self.one - self.one
+        for c in reversed(polynomial):
+            total = total * x + c
+        return self.short(total)
+
+
+def letters(polynomial: fmpz_mpoly) -> int:
+    """How many symbols are written, powers apart; a number is one."""
+    return sum(max(1, sum(map(bool, e))) for e in polynomial.monoms())
+
+
+def names_in(value: RationalFunction) -> set[str]:
+    """The symbols that occur."""
+    names = value.num.context().names()
+    return {
+        name
+        for side in (value.num, value.den)
+        for name, degree in zip(names, side.degrees(), strict=True)
+        if degree
+    }
+
+
+def _multiple(one: fmpz_mpoly, other: fmpz_mpoly) -> fmpz_mpoly:
+    return one // one.gcd(other) * other
