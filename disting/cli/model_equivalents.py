@@ -12,6 +12,7 @@ from disting.cli.output import emitted
 from disting.cli.plain import keep_apart
 from disting.cli.workers import engine_for
 from disting.equivalence import assignments
+from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import of_network
@@ -19,6 +20,7 @@ from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_files import read_models
+from disting.general.synthesis import NoFormulas
 from disting.model.names import chains_named, name_of
 from disting.model.presentation import plural
 from disting.model.question import Domain
@@ -33,10 +35,10 @@ OPEN = (Relation.UNDECIDED, Relation.SOMETIMES)
 
 def run(options: argparse.Namespace) -> int:
     """Print the networks that are not told apart from one, with values where they are given."""
-    if options.also or options.formulas or options.latex or options.sympy:
+    if options.also:
         raise InputError(
-            "of networks and models of a file values are listed, not formulas or experiments: leave"
-            " --also, --formulas, --latex and --sympy away"
+            "of networks and models of a file values and formulas are listed, not experiments:"
+            " leave --also away"
         )
     (given,) = _named(options.model, options)
     listed = map(of_network, family_of(options.family).networks) if options.family else ()
@@ -44,8 +46,14 @@ def run(options: argparse.Namespace) -> int:
     others = [model for model in (*listed, *named) if model.name != given.name]
     keep_apart(model.name for model in (given, *others))
     values = assignments(options.values) if options.values else None
+    formulas = options.formulas or options.latex or options.sympy
+    if formulas and values is not None:
+        raise InputError("formulas are for any values: leave --set away, or ask for values alone")
     with engine_for(options) as (engine, _, _progress):
         found = model_equivalents(given, others, values, engine=engine)
+    if formulas:
+        print("\n".join(_formulas(given, found, options)))
+        return 0
     if options.json:
         whole = {
             "format": Format.NETWORK_EQUIVALENTS.value,
@@ -85,6 +93,33 @@ def _lines(given: str, count: int, other: str, found: list[ModelEquivalent]) -> 
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
             yield from (f"  {line}" for line in _values(x.values))
+
+
+def _formulas(
+    given: AnyModel, found: list[ModelEquivalent], options: argparse.Namespace
+) -> Iterator[str]:
+    """For each model that does the same for all positive values its values as formulas, or why
+    none are known.
+    """
+    mark = "% " if options.latex else "# " if options.sympy else ""
+    same = [x for x in found if x.verdict.relation is Relation.INDISTINGUISHABLE]
+    if not same:
+        yield f"{mark}{given.name}: nothing that was looked at does the same for all values"
+    for at, x in enumerate(same):
+        yield from [""] * bool(at)
+        yield f"{mark}{given.name}"
+        yield f"{mark}{x.model.name}   (primed)"
+        try:
+            forms = closed_forms(given, x.model, x.verdict)
+        except NoFormulas as none:
+            yield f"{mark}no formulas: {none} (--set gives values)"
+            continue
+        for number, form in enumerate(forms, 1):
+            ways = f"{number} of {len(forms)}: " * (len(forms) > 1)
+            yield f"{mark}{ways}{form.checked}"
+            yield from (f"{mark}{name}' = {same}" for name, same in sorted(x.exponents))
+            yield from (f"{mark}where {g} > 0" for g in form.where)
+            yield form.latex if options.latex else form.python if options.sympy else form.text
 
 
 def _values(found: Alternatives) -> Iterator[str]:

@@ -13,7 +13,7 @@ from disting.evidence.conditions import Renaming
 from disting.general.any_model import on_one_variable
 from disting.general.between import Path
 from disting.general.closed_form import ClosedForm, confirmed
-from disting.general.field import Field, Step
+from disting.general.field import Field, Values
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.sections import Section
@@ -71,7 +71,7 @@ def _solved(given: AnyModel, other: AnyModel, none: NoFormulas) -> list[ClosedFo
         field = Field(given.parameters)
         return [_of_section(field, found, section) for section in found.covering]
     root = found.path() if found is not None else None
-    if root is None:
+    if found is None or root is None:
         raise none
     degree = int(root.equation.degrees()[root.at])
     if degree > QUADRATIC:
@@ -88,16 +88,10 @@ def _of_section(field: Field, found: Way, section: Section) -> ClosedForm:
 def _of_path(found: Way, path: Path) -> Iterator[ClosedForm]:
     """Both roots of the quadratic equation, those at which all values are positive somewhere."""
     field, ring = Field(found.given.parameters), found.parted.search.ring
-    plain = tuple(
-        _lifted(field, c, {}) for c in ring.coefficients(path.equation, path.at)
-    )
+    plain = tuple(_lifted(field, c, {}) for c in ring.coefficients(path.equation, path.at))
     for root in field.split(plain):
         values = _values(field, found, path.values, {path.at: root})
-        steps = field.needed(value for _, value in values)
-        yield ClosedForm(found.given.parameters, steps, values)
-
-
-Values = tuple[tuple[str, RationalFunction], ...]
+        yield ClosedForm(found.given.parameters, *field.written(values))
 
 
 def _values(
@@ -121,6 +115,4 @@ def _lifted(
     images = [field[n].num for n in field.parameters]
     names = len(polynomial.context().names())
     images += [known.get(i, zero).num for i in range(size, names)]
-    return RationalFunction(
-        polynomial.compose(*images, ctx=field.one.num.context()), field.one.num
-    )
+    return RationalFunction(polynomial.compose(*images, ctx=field.one.num.context()), field.one.num)

@@ -5,13 +5,15 @@ What is found is put in. Coefficients of both transfer functions, over the leadi
 at points drawn at random modulo a prime, with all choices of signs of the square roots. Written as
 sum c_S w_S, w_S the products of different square roots, a difference that is zero for all signs has
 c_S = 0 at the point: polynomials in the parameters, so that the bound of Schwartz and Zippel holds.
-Only points count at which all discriminants are squares: 1 of 2 for each root, which costs a bit.
+Only points count at which all discriminants are squares, 1 of 2 for each root: as many are drawn as
+that takes, and the bound is that for all which may be drawn.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import log2
+from typing import Any
 
 from flint import fmpz_mod_ctx, fmpz_mpoly
 from flint.utils.flint_exceptions import DomainError
@@ -25,10 +27,11 @@ from disting.errors import ContradictionError
 from disting.general.any_model import on_one_variable
 from disting.general.field import Step, letters
 from disting.general.matrix_model import AnyModel
-from disting.general.model import Model, Terms
+from disting.general.model import Terms
 
 POINTS = 2
-DRAWS = 2000  # of points, until all discriminants are squares
+DRAWS = 512  # of a point, until all discriminants are squares
+Residue = Any  # of a prime
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +50,9 @@ class ClosedForm:
     safety: int = 0
 
     @property
-    def certainty(self) -> str:
+    def checked(self) -> str:
         """How surely it is an identity, in words."""
-        return Certainty.BOUNDED.in_words(self.safety)
+        return f"identity checked, {Certainty.BOUNDED.in_words(self.safety)}"
 
     @property
     def length(self) -> int:
@@ -90,7 +93,7 @@ class ClosedForm:
         )
 
 
-def _step(step: Step, written, root) -> str:
+def _step(step: Step, written: Callable[[RationalFunction], str], root: Callable[..., str]) -> str:
     if not step.root:
         return written(step.value)
     _, b, a = step.root
@@ -110,15 +113,13 @@ def _latex_root(b: str, sign: str, discriminant: str, twice: str) -> str:
 def confirmed(form: ClosedForm, given: AnyModel, other: AnyModel) -> ClosedForm:
     """The same with its error bound; raises ContradictionError where it is wrong."""
     here, there = on_one_variable([given, other])
-    roots = sum(bool(s.root) and s.sign > 0 for s in form.steps)
-    size = _size(form, here, there)
+    once = _size(form, here, there)
+    size = Size(once.degree * DRAWS, once.bits)
     label = about("closed form", here.content, there.content)
-    points = enough(Size(size.degree << roots, size.bits), POINTS)
-    for number in range(points):
-        if not _agrees(form, here, there, f"{label}:{number}"):
-            raise ContradictionError(f"the formulas from {given.name} to {other.name} are wrong")
-    bits = safety(size, points) - points * roots
-    return replace(form, safety=bits)
+    points = enough(size, POINTS)
+    if not all(_agrees(form, here, there, f"{label}:{number}") for number in range(points)):
+        raise ContradictionError(f"the formulas from {given.name} to {other.name} are wrong")
+    return replace(form, safety=safety(size, points))
 
 
 def _agrees(form: ClosedForm, given: AnyModel, other: AnyModel, label: str) -> bool:
@@ -130,9 +131,7 @@ def _agrees(form: ClosedForm, given: AnyModel, other: AnyModel, label: str) -> b
         point = {n: field(x) for n, x in zip(form.given, drawn, strict=True)}
         try:
             found = list(_evaluated(form, point))
-        except ZeroDivisionError:
-            continue
-        except _NoSquareError:
+        except (ZeroDivisionError, _NoSquareError):
             continue
         asked = [point[n] for n in given.parameters]
         return all(
@@ -145,7 +144,7 @@ class _NoSquareError(Exception):
     """A discriminant is no square at a point."""
 
 
-def _evaluated(form: ClosedForm, point: Mapping[str, object]) -> Iterator[dict[str, object]]:
+def _evaluated(form: ClosedForm, point: Mapping[str, Residue]) -> Iterator[dict[str, Residue]]:
     """Yield the values at a point, for all signs of the square roots."""
     quadratics = [s.root for s in form.steps if s.root and s.sign > 0]
     for signs in product((1, -1), repeat=len(quadratics)):
@@ -161,18 +160,18 @@ def _evaluated(form: ClosedForm, point: Mapping[str, object]) -> Iterator[dict[s
         yield {name: _number(value, known) for name, value in form.values}
 
 
-def _square_root(number):
+def _square_root(number: Residue) -> Residue:
     try:
         return number.sqrt()
     except DomainError as none:
         raise _NoSquareError from none
 
 
-def _number(value: RationalFunction, at):
+def _number(value: RationalFunction, at: Mapping[str, Residue]) -> Residue:
     return _polynomial(value.num, at) / _polynomial(value.den, at)
 
 
-def _polynomial(polynomial: fmpz_mpoly, at):
+def _polynomial(polynomial: fmpz_mpoly, at: Mapping[str, Residue]) -> Residue:
     names = polynomial.context().names()
     zero = total = next(iter(at.values())) * 0
     for exponents, number in polynomial.to_dict().items():
@@ -184,11 +183,13 @@ def _polynomial(polynomial: fmpz_mpoly, at):
     return total
 
 
-def _same(given: AnyModel, other: AnyModel, p, q) -> bool:
+def _same(given: AnyModel, other: AnyModel, p: Sequence[Residue], q: Sequence[Residue]) -> bool:
     """Whether all coefficients over the leading one are the same, no leading one being zero."""
     for one, two in zip(given.entries, other.entries, strict=True):
-        here, there = ([_terms(t, at) for t in (*m.numerator_terms, *m.denominator_terms)]
-                       for m, at in ((one, p), (two, q)))
+        here, there = (
+            [_value_of(t, at) for t in (*m.numerator_terms, *m.denominator_terms)]
+            for m, at in ((one, p), (two, q))
+        )
         if len(here) != len(there) or not there[-1]:
             return False
         if any(a * there[-1] != b * here[-1] for a, b in zip(here, there, strict=True)):
@@ -196,7 +197,7 @@ def _same(given: AnyModel, other: AnyModel, p, q) -> bool:
     return True
 
 
-def _terms(terms: Terms, point):
+def _value_of(terms: Terms, point: Sequence[Residue]) -> Residue:
     zero = total = point[0] * 0
     for exponents, number in terms:
         term = zero + number
@@ -209,29 +210,27 @@ def _terms(terms: Terms, point):
 
 def _size(form: ClosedForm, given: AnyModel, other: AnyModel) -> Size:
     """Bounds of the polynomials c_S, of what is compared and of all denominators."""
-    known = {name: (1.0, 0.0) for name in form.given}
+    known = dict.fromkeys(form.given, (1.0, 0.0))
     for step in form.steps:
-        if step.root:
-            (d, b), (twice, more) = (_bounds(v, known) for v in step.root[1:])
-            e, c = _bounds(step.discriminant, known)
-            known[step.name] = (d + twice + e, b + more + c + 2)
-        else:
-            known[step.name] = _bounds(step.value, known)
+        parts = [_bounds(v, known) for v in step.made_of]
+        if step.root:  # (-b + w)/(2 a), w^2 the discriminant
+            parts = [*parts[1:], _bounds(step.discriminant, known), (0.0, 2.0)]
+        known[step.name] = sum(d for d, _ in parts), sum(b for _, b in parts)
     values = {name: _bounds(value, known) for name, value in form.values}
-    degree = bits = 0.0
+    parts = [*known.values(), *values.values()]
     for model, at in ((given, known), (other, values)):
         for entry in model.entries:
-            every = (*entry.numerator_terms, *entry.denominator_terms)
-            powers = [max((e[i] for t in every for e, _ in t), default=0) for i in range(len(entry.parameters))]
-            one = sum(abs(c) for t in every for _, c in t)
-            degree += 2 * sum(k * at[n][0] for k, n in zip(powers, entry.parameters, strict=True))
-            bits += 2 * log2(one) + 2 * sum(k * at[n][1] for k, n in zip(powers, entry.parameters, strict=True))
-    degree += sum(d for d, _ in (*known.values(), *values.values()))
-    bits += sum(b for _, b in (*known.values(), *values.values()))
-    return Size(int(degree) + 1, int(bits) + 1)
+            every = [t for c in (*entry.numerator_terms, *entry.denominator_terms) for t in c]
+            powers = [max(e[i] for e, _ in every) for i in range(len(entry.parameters))]
+            used = [(2 * k, *at[n]) for k, n in zip(powers, entry.parameters, strict=True)]
+            parts += [(0.0, 2 * log2(sum(abs(c) for _, c in every)))]
+            parts += [(k * d, k * b) for k, d, b in used]
+    return Size(int(sum(d for d, _ in parts)) + 1, int(sum(b for _, b in parts)) + 1)
 
 
-def _bounds(value: RationalFunction, known: Mapping[str, tuple[float, float]]) -> tuple[float, float]:
+def _bounds(
+    value: RationalFunction, known: Mapping[str, tuple[float, float]]
+) -> tuple[float, float]:
     """Degree, and bits of the sum of all coefficients' sizes, of numerator and denominator in the
     parameters once what has a name is put in.
     """

@@ -7,10 +7,10 @@ is zero cannot be seen from how it is written. Who builds values knows that from
 is built is put into what it is to solve (see `closed_form`).
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
-from operator import mul
 
 from flint import fmpz_mpoly
 
@@ -23,6 +23,8 @@ MOST_NAMES = 60
 LARGEST = 2000  # terms of a polynomial that is factored
 Poly = tuple[RationalFunction, ...]
 """Coefficients of x^0, x^1, .."""
+Values = tuple[tuple[str, RationalFunction], ...]
+"""By the names of parameters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +37,16 @@ class Step:
     value: RationalFunction
     root: Poly = ()
     sign: int = 1
+
+    @property
+    def made_of(self) -> tuple[RationalFunction, ...]:
+        """What it is written with."""
+        return self.root or (self.value,)
+
+    def renamed(self, name: str, by: Sequence[fmpz_mpoly]) -> "Step":
+        """The same in other names."""
+        root = tuple(composed(c, by) for c in self.root)
+        return Step(name, composed(self.value, by), root, self.sign)
 
     @property
     def discriminant(self) -> RationalFunction:
@@ -101,14 +113,42 @@ class Field:
         self.steps.append(Step(f"{start}{number}", value, root, sign))
         return self[f"{start}{number}"]
 
-    def needed(self, values: Iterable[RationalFunction]) -> tuple[Step, ...]:
-        """The steps that values are made of, in order."""
+    def written(self, values: Values) -> tuple[tuple[Step, ...], Values]:
+        """The steps that values are made of, numbered anew, and the values: one that is a name that
+        occurs nowhere else is written out.
+        """
+        steps = {s.name: s for s in self._needed(v for _, v in values)}
+        used = Counter(
+            name
+            for v in (*(v for _, v in values), *(x for s in steps.values() for x in s.made_of))
+            for name in names_in(v)
+        )
+        kept = dict(values)
+        for name, value in values:
+            symbol = next(iter(names_in(value)), "")
+            alone = symbol in steps and used[symbol] == 1 and value == self[symbol]
+            if alone and not steps[symbol].root:
+                kept[name] = steps.pop(symbol).value
+        numbers, images = Counter[str](), dict(self.ring)
+        for name in steps:
+            numbers[name[0]] += 1
+            images[name] = self.ring[f"{name[0]}{numbers[name[0]]}"]
+        by = list(images.values())
+        return (
+            tuple(s.renamed(str(images[s.name]), by) for s in steps.values()),
+            tuple((name, composed(v, by)) for name, v in kept.items()),
+        )
+
+    def _needed(self, values: Iterable[RationalFunction]) -> tuple[Step, ...]:
         wanted, kept = {n for v in values for n in names_in(v)}, list[Step]()
         for step in reversed(self.steps):
-            if step.name in wanted:
+            if step.name in wanted or (step.root and self._other_root(step) in wanted):
                 kept.append(step)
-                wanted |= {n for v in (step.value, *step.root) for n in names_in(v)}
+                wanted |= {n for v in step.made_of for n in names_in(v)}
         return tuple(reversed(kept))
+
+    def _other_root(self, step: Step) -> str:
+        return next(s.name for s in self.steps if s.root == step.root and s.sign != step.sign)
 
     def lifted(self, polynomial: fmpz_mpoly) -> RationalFunction:
         """A polynomial in the parameters."""
@@ -123,9 +163,7 @@ class Field:
         """
         common = reduce(_multiple, (c.den for c in polynomial))
         x = self.ring[" "]
-        whole = sum(
-            ((c.num * (common // c.den)) * x**i for i, c in enumerate(polynomial)), x - x
-        )
+        whole = sum(((c.num * (common // c.den)) * x**i for i, c in enumerate(polynomial)), x - x)
         if len(whole) > LARGEST:
             return [polynomial]
         return [
@@ -150,9 +188,12 @@ class Field:
         """one + factor other."""
         by = self.one if factor is None else factor
         size = max(len(one), len(other))
-        return tuple(self.short(a + by * b) for a, b in zip(*(
-            (*p, *[self.one - self.one] * (size - len(p))) for p in (one, other)
-        ), strict=True))
+        return tuple(
+            self.short(a + by * b)
+            for a, b in zip(
+                *((*p, *[self.one - self.one] * (size - len(p))) for p in (one, other)), strict=True
+            )
+        )
 
     def at(self, polynomial: Poly, x: RationalFunction) -> RationalFunction:
         """Its value."""
@@ -160,6 +201,12 @@ class Field:
         for c in reversed(polynomial):
             total = total * x + c
         return self.short(total)
+
+
+def composed(value: RationalFunction, by: Sequence[fmpz_mpoly]) -> RationalFunction:
+    """The value with other symbols in place of those of its ring."""
+    ring = value.num.context()
+    return RationalFunction(*(side.compose(*by, ctx=ring) for side in (value.num, value.den)))
 
 
 def letters(polynomial: fmpz_mpoly) -> int:

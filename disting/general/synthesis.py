@@ -102,7 +102,9 @@ def synthesized(
     _refuse_redundant(tree, shares)
     for parts in _parted(field, tree.inside, shares, top, bottom):
         found = [
-            [_value(field, t.element, view, *f)] if t.element else list(synthesized(field, t, *f, view))
+            [_value(field, t.element, view, *f)]
+            if t.element
+            else list(synthesized(field, t, *f, view))
             for t, f in zip(tree.inside, parts, strict=True)
         ]
         for chosen in product(*found):
@@ -119,7 +121,9 @@ def _share(part: Part, view: str, one: Power | None, other: Power | None) -> Sha
 def _refuse_redundant(tree: Tree, shares: Sequence[Share]) -> None:
     for has in ([s.constant for s in shares], [s.pole for s in shares]):
         if sum(has) > 1:
-            names = [e.value for t, h in zip(tree.inside, has, strict=True) if h for e in t.elements]
+            names = [
+                e.value for t, h in zip(tree.inside, has, strict=True) if h for e in t.elements
+            ]
             raise NoFormulas(
                 f"{' and '.join(sorted(names)[:2])} can share a part in any proportion: infinitely"
                 " many values do"
@@ -133,9 +137,7 @@ def _inverse(field: Field, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
     return bottom, (field.one - field.one, *top)
 
 
-def _value(
-    field: Field, element: Element, view: str, top: Poly, bottom: Poly
-) -> Values:
+def _value(field: Field, element: Element, view: str, top: Poly, bottom: Poly) -> Values:
     """Of a constant top/bottom, or a pole at 0."""
     known = top[0] / bottom[-1]
     is_inverse = (view == "S") is not element.kind.divides
@@ -162,8 +164,10 @@ def _parted(
         pole = field.short(top[0] / bottom[1])
         left = left[1:]
         rest = field.plus(rest, left, -pole)[1:]
-    for terms in [{alone: (rest, left)}] if alone is not None else _shared(
-        field, [(i, trees[i], shares[i].terms) for i in many], rest, left
+    for terms in (
+        [{alone: (rest, left)}]
+        if alone is not None
+        else _shared(field, [(i, trees[i], shares[i].terms) for i in many], rest, left)
     ):
         found = list[tuple[Poly, Poly]]()
         for i, share in enumerate(shares):
@@ -231,7 +235,9 @@ def _cuts(degrees: Sequence[int], wanted: Sequence[tuple[int, object]]) -> Itera
             yield cut
 
 
-def _every_cut(left: tuple[int, ...], degrees: Sequence[int], wanted: Sequence[int]) -> Iterator[Cut]:
+def _every_cut(
+    left: tuple[int, ...], degrees: Sequence[int], wanted: Sequence[int]
+) -> Iterator[Cut]:
     if not wanted:
         yield []
         return

@@ -38,9 +38,8 @@ Edges = dict[frozenset[int], Tree]
 
 
 def by_parts(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
-    """The values of another network, one form for each way to share terms among its branches, in
-    the letters of values without a name that are written shortest. Raises NoFormulas. Both models are
-    in powers of one variable.
+    """The values of another network, one form for each way to share terms among its branches, as
+    short as names of values make it. Raises NoFormulas. Both models are in powers of one variable.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
@@ -66,14 +65,15 @@ def _forms(given: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedFor
     ways = _of_one_port(field, given, other) or _of_edges(field, one, two)
     for values in ways:
         kept = tuple((name, values[name]) for name in other.parameters)
-        yield ClosedForm(given.parameters, field.needed(values.values()), kept)
+        yield ClosedForm(given.parameters, *field.written(kept))
 
 
 def _placed(model: AnyModel) -> Network:
-    if model.network is None:
-        raise NoFormulas("they are known of networks")
+    network = model.network
+    if network is None or network.is_directed or any(e.ratio for e in network.elements):
+        raise NoFormulas("they are not made of parts that replace each other")
     powers = next(iter(model.entries)).powers
-    return placed_network(model.network, powers).grounded
+    return placed_network(network, powers).grounded
 
 
 def _of_one_port(field: Field, given: AnyModel, other: AnyModel) -> Iterator[Values] | None:
