@@ -9,7 +9,6 @@ from disting.errors import InputError, shown
 from disting.general.alternatives import Alternatives, alternatives
 from disting.general.any_model import of_network
 from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
 from disting.model.presentation import Shown, summary
 from disting.network.element import as_number
 from disting.network.network import Network
@@ -73,8 +72,6 @@ def model_equivalents(
     ('indistinguishable', 'C1 = 2/9, R0 = 3, R1 = 3/2')
     """
     model = _as_model(given)
-    if values is not None and not isinstance(model, Model):
-        raise InputError("values are found of models with one input and one output")
     engine = Engine() if engine is None else engine
     exponents = model.network.exponents if model.network is not None else ()
     phases = {n: _phase(n, (values or {}).get(n, n)) for n in exponents}
@@ -86,9 +83,7 @@ def model_equivalents(
         verdict = compare(model, there, query=query, engine=engine)
         if verdict.relation is not Relation.DISTINGUISHABLE:
             mine, others_form = (s.subject for s in engine.general_subjects([model, there]))
-            at = None
-            if numbers is not None and isinstance(mine, Model) and isinstance(others_form, Model):
-                at = alternatives(mine, numbers, others_form)
+            at = None if numbers is None else alternatives(mine, numbers, others_form)
             named = zip(others_form.powers.exponents, mine.powers.exponents, strict=False)
             equal = tuple((name, phases[given_name]) for name, given_name in named)
             equivalents.append(ModelEquivalent(there, verdict, at, equal))

@@ -237,3 +237,30 @@ def test_special_values_are_left_aside_only_where_they_are() -> None:
         said = called("compare", *models).stdout
         (first,) = (line for line in said.splitlines() if line.startswith("For every "))
         assert ("special values aside" in first) == aside and "special    " in said
+
+
+VOIGT, LADDER = "R0-p(R1,C1)-p(R2,C2)-p(R3,C3)", "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"
+
+
+def test_formulas_in_three_languages():
+    said = called("equivalents", VOIGT, "--to", LADDER, "--formulas").stdout
+    assert said.startswith(f"{VOIGT}\n{LADDER}   (primed)\nidentity checked, probability of error")
+    assert "R0' = R0\n" in said
+    assert r"R_{0}' &= R_{0} " in called("equivalents", VOIGT, "--to", LADDER, "--latex").stdout
+    source = called("equivalents", VOIGT, "--to", LADDER, "--sympy").stdout
+    space = {}
+    exec(source, space)
+    assert sorted(space["equivalent"]) == ["C1", "C2", "C3", "R0", "R1", "R2", "R3"]
+
+
+def test_where_formulas_are_not_known_it_is_said():
+    done = called("equivalents", LADDER, "--to", VOIGT, "--formulas")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "no formulas: roots of a polynomial of degree 3 are needed" in done.stdout
+
+
+def test_values_of_several_sensors():
+    values = "m1=1,m2=2,m3=3,m4=1,k12=1,k23=5,k34=2"
+    one, two = "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"
+    done = called("equivalents", one, "--to", two, "--set", values)
+    assert "k12 = 1, k23 = 10/7, k24 = 25/7, m1 = 1, m2 = 2, m3 = 3/7, m4 = 25/7" in done.stdout
