@@ -119,6 +119,11 @@ def _formulas(
             yield f"{mark}{ways}{form.checked}"
             yield from (f"{mark}{name}' = {same}" for name, same in sorted(x.exponents))
             yield from (f"{mark}where {g} > 0" for g in form.where)
+            yield from (
+                f"{mark}{', '.join(names)} can share a part in any proportion; here they share"
+                " it equally"
+                for names in form.choices
+            )
             yield form.latex if options.latex else form.python if options.sympy else form.text
 
 

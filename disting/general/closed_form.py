@@ -37,7 +37,8 @@ Residue = Any  # of a prime
 @dataclass(frozen=True, slots=True)
 class ClosedForm:
     """`values` of the parameters of another model, in those of the given one and in `steps`, for
-    values at which all of `where` are positive.
+    values at which all of `where` are positive. `choices`: elements that share equally what could
+    be shared in infinitely many ways.
 
     They give the same transfer functions wherever no denominator is zero; a wrong formula would
     have passed with a probability of at most 2^-safety.
@@ -47,6 +48,7 @@ class ClosedForm:
     steps: tuple[Step, ...]
     values: tuple[tuple[str, RationalFunction], ...]
     where: tuple[fmpz_mpoly, ...] = ()
+    choices: tuple[tuple[str, ...], ...] = ()
     safety: int = 0
 
     @property

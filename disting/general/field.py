@@ -74,6 +74,7 @@ class Field:
     parameters: tuple[str, ...]
     letters: int = 40  # of a value without a name
     steps: list[Step] = field(default_factory=list)
+    choices: list[tuple[str, ...]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         free = [c for c in "uxyzwh" if not any(n.startswith(c) for n in self.parameters)]
@@ -93,6 +94,15 @@ class Field:
             return value
         known = next((s for s in self.steps if not s.root and s.value == value), None)
         return self[known.name] if known else self._named(0, value)
+
+    def number(self, value: int) -> RationalFunction:
+        """A constant."""
+        return RationalFunction(self.one.num * value, self.one.num)
+
+    def choose(self, names: Sequence[str]) -> None:
+        """Remember that only some sum of what these elements have is determined."""
+        if tuple(names) not in self.choices:
+            self.choices.append(tuple(names))
 
     def split(self, quadratic: Poly) -> tuple[RationalFunction, RationalFunction]:
         """Both roots of a polynomial of degree 2, by names."""

@@ -11,7 +11,6 @@ denominators have the factors that are needed; a factor of degree 2 gives its ro
 root.
 """
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
@@ -99,7 +98,7 @@ def synthesized(
         return
     one, other = (low, high) if view == "S" else (high, low)
     shares = [_share(t.part, view, one, other) for t in tree.inside]
-    _refuse_redundant(tree, shares)
+    _chosen(field, tree.inside, shares)
     for parts in _parted(field, tree.inside, shares, top, bottom):
         found = [
             [_value(field, t.element, view, *f)]
@@ -118,16 +117,12 @@ def _share(part: Part, view: str, one: Power | None, other: Power | None) -> Sha
     return Share(count, one in part.single, other in part.single)
 
 
-def _refuse_redundant(tree: Tree, shares: Sequence[Share]) -> None:
+def _chosen(field: Field, trees: Sequence[Tree], shares: Sequence[Share]) -> None:
+    """Note which branches share a part of which only the sum is determined."""
     for has in ([s.constant for s in shares], [s.pole for s in shares]):
+        sharing = [e.value for t, h in zip(trees, has, strict=True) if h for e in t.elements]
         if sum(has) > 1:
-            names = [
-                e.value for t, h in zip(tree.inside, has, strict=True) if h for e in t.elements
-            ]
-            raise NoFormulas(
-                f"{' and '.join(sorted(names)[:2])} can share a part in any proportion: infinitely"
-                " many values do"
-            )
+            field.choose(sharing)
 
 
 def _inverse(field: Field, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
@@ -150,32 +145,34 @@ def _parted(
     """Yield the functions of all branches, for every way to share the terms."""
     zero = field.one - field.one
     many = [i for i, s in enumerate(shares) if s.terms]
-    whole = Counter(has for s in shares for has in ("c" * s.constant + "z" * s.pole))
+    constants, poles = sum(s.constant for s in shares), sum(s.pole for s in shares)
     count = sum(s.terms for s in shares)
-    if len(bottom) - 1 != count + whole["z"] or len(top) != len(bottom) - 1 + whole["c"]:
+    if len(bottom) - 1 != count + bool(poles) or len(top) != len(bottom) - 1 + bool(constants):
         raise NoFormulas("both do not give functions of one set")
-    constant, pole = zero, zero
-    rest, left = top, bottom
-    alone = many[0] if len(many) == 1 else None
-    if whole["c"] and (alone is None or not shares[alone].constant):
+    alone = shares[many[0]] if len(many) == 1 else Share(0, False, False)
+    keeps = Share(0, alone.constant and constants == 1, alone.pole and poles == 1)
+    constant, pole, rest, left = zero, zero, top, bottom
+    if constants and not keeps.constant:
         constant = field.short(top[-1] / bottom[-1])
         rest = field.plus(rest, left, -constant)[:-1]
-    if whole["z"] and (alone is None or not shares[alone].pole):
+    if poles and not keeps.pole:
         pole = field.short(top[0] / bottom[1])
         left = left[1:]
         rest = field.plus(rest, left, -pole)[1:]
-    for terms in (
-        [{alone: (rest, left)}]
-        if alone is not None
+    ways = (
+        [{many[0]: (rest, left)}]
+        if len(many) == 1
         else _shared(field, [(i, trees[i], shares[i].terms) for i in many], rest, left)
-    ):
+    )
+    for terms in ways:
         found = list[tuple[Poly, Poly]]()
         for i, share in enumerate(shares):
             above, below = terms.get(i, ((), (field.one,)))
-            if i != alone and share.constant:
-                above = field.plus(above, below, constant)
-            if i != alone and share.pole:
-                above, below = field.plus((zero, *above), below, pole), (zero, *below)
+            if share.constant and not keeps.constant:
+                above = field.plus(above, below, constant / field.number(constants))
+            if share.pole and not keeps.pole:
+                part = pole / field.number(poles)
+                above, below = field.plus((zero, *above), below, part), (zero, *below)
             found.append((above, below))
         yield found
 

@@ -65,7 +65,8 @@ def _forms(given: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedFor
     ways = _of_one_port(field, given, other) or _of_edges(field, one, two)
     for values in ways:
         kept = tuple((name, values[name]) for name in other.parameters)
-        yield ClosedForm(given.parameters, *field.written(kept))
+        steps, written = field.written(kept)
+        yield ClosedForm(given.parameters, steps, written, choices=tuple(field.choices))
 
 
 def _placed(model: AnyModel) -> Network:

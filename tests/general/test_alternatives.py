@@ -21,6 +21,7 @@ from disting.fibres.synthesis.target import target as chain_target
 from disting.general.alternatives import AT_ONCE, alternatives
 from disting.general.any_model import of_network
 from disting.general.fibre import Extent
+from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
 from disting.general.target import fibre_equations, rational_values, target
 from disting.model.question import Domain
@@ -310,14 +311,12 @@ MULTIPORTS = (
 
 
 # at which the trees have rational values
-RATIONAL = dict(m1=1, m2=2, m3=3, m4=1, k12=1, k23=5, k34=2)
+RATIONAL = {"m1": 1, "m2": 2, "m3": 3, "m4": 1, "k12": 1, "k23": 5, "k34": 2}
 
 
 @pytest.mark.parametrize(("given_text", "other_text", "count"), MULTIPORTS)
 def test_several_ports(given_text, other_text, count):
-    """All positive sets: each gives every transfer function exactly, and they are those that every
-    single one of these has.
-    """
+    """All positive sets: each gives every transfer function exactly."""
     one, two = (of_network(network_of(text)) for text in (given_text, other_text))
     values = {n: RATIONAL.get(n, Fraction(i + 2, 5)) for i, n in enumerate(one.parameters)}
     found = alternatives(one, values, two)
@@ -328,11 +327,18 @@ def test_several_ports(given_text, other_text, count):
         for here, there in pairs:
             exact = {n: Fraction(v) for n, v in values.items()}
             assert target(here, list(exact.items())) == target(there, list(x.items()))
-    for here, there in pairs:
-        alone = alternatives(here, values, there)
-        assert all(x in [y.values for y in alone.equivalents] for x in sets) or (
-            alone.extent is Extent.FAMILY
-        )
+
+
+def test_several_ports_have_what_each_of_them_has():
+    """Two sensors are two conditions: the sets of values are those that serve for both."""
+    model = MatrixModel.from_transfer_functions([["1/((s + a)*(s + b))"], ["a/((s + a)*(s + b))"]])
+    both = alternatives(model, {"a": 2, "b": 3}, model).equivalents
+    alone = [
+        [x.values for x in alternatives(entry, {"a": 2, "b": 3}, entry).equivalents]
+        for entry in model.entries
+    ]
+    assert [x.values for x in both] == [x for x in alone[0] if x in alone[1]]
+    assert [len(both), *map(len, alone)] == [1, 2, 1]
 
 
 def test_other_ports_are_refused():

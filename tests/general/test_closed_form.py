@@ -106,10 +106,12 @@ def test_what_needs_more_than_square_roots_is_said():
         formulas(LADDER, VOIGT)
 
 
-def test_shared_values_are_named():
+def test_what_can_be_shared_is_shared_equally():
     one, two = models(VOIGT, "R0-p(C1,R1-R4-p(C2,R2-p(C3,R3)))")
-    with pytest.raises(NoFormulas, match="R1 and R4 can share a part in any proportion"):
-        by_parts(one, two)
+    (form,) = by_parts(one, two)
+    values = dict(form.values)
+    assert (form.choices, values["R1"] == values["R4"]) == ((("R1", "R4"),), True)
+    assert confirmed(form, one, two).safety >= 100
 
 
 def test_a_wrong_formula_is_refused():
