@@ -20,7 +20,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.notation import latex, latex_symbol, text
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.rational_function import RationalFunction, variables
 from disting.algebra.sampling import Size, about, enough, prime, residues, safety
 from disting.algebra.symbols import factored
 from disting.errors import ContradictionError
@@ -32,6 +32,7 @@ from disting.general.model import Terms
 POINTS = 2
 DRAWS = 512  # of a point, until all discriminants are squares
 Residue = Any  # of a prime
+Written = Callable[[RationalFunction], str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +70,7 @@ class ClosedForm:
         """One line a value, in Python's notation, those with a name first; a prime marks the
         parameters of the other model.
         """
-        lines = [(s.name, _step(s, text, _python_root)) for s in self.steps]
+        lines = list(self._named(text, _python_root))
         lines += [(f"{name}'", text(value)) for name, value in self.values]
         width = max(len(name) for name, _ in lines)
         return "\n".join(f"{name:{width}} = {of}" for name, of in lines)
@@ -77,7 +78,7 @@ class ClosedForm:
     @property
     def latex(self) -> str:
         """An align environment (amsmath)."""
-        lines = [(latex_symbol(s.name), _step(s, latex, _latex_root)) for s in self.steps]
+        lines = [(latex_symbol(name), of) for name, of in self._named(latex, _latex_root)]
         lines += [(f"{latex_symbol(name)}'", latex(value)) for name, value in self.values]
         rows = " \\\\\n".join(f"  {name} &= {of}" for name, of in lines)
         return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
@@ -87,29 +88,36 @@ class ClosedForm:
         """Python source: symbols for SymPy, positive ones, the steps and a dictionary of values."""
         names = ", ".join(self.given)
         comma = "," * (len(self.given) == 1)
-        steps = "".join(f"{s.name} = {_step(s, text, _python_root)}\n" for s in self.steps)
+        named = self._named(text, _python_root)
+        steps = "".join(f"{name} = {of}\n" for name, of in named)
         values = "".join(f'    "{name}": {text(value)},\n' for name, value in self.values)
         return (
             f'from sympy import sqrt, symbols\n\n{names}{comma} = symbols("{names}{comma}",'
             f" positive=True)\n{steps}equivalent = {{\n{values}}}"
         )
 
+    def _named(self, written: Written, root: Callable[..., str]) -> Iterator[tuple[str, str]]:
+        """Yield the steps: a value, a root, or as the other root what is left of -b/a."""
+        for step in self.steps:
+            if not step.root:
+                yield step.name, written(step.value)
+                continue
+            _, b, a = step.root
+            if step.sign > 0:
+                twice = RationalFunction(2 * a.num, a.den)
+                yield step.name, root(written(-b), written(step.discriminant), written(twice))
+            else:
+                first = next(s.name for s in self.steps if s.root == step.root and s.sign > 0)
+                (symbol,) = (v for v in variables([first]).values())
+                yield step.name, f"{written(-(b / a))} - {written(symbol)}"
 
-def _step(step: Step, written: Callable[[RationalFunction], str], root: Callable[..., str]) -> str:
-    if not step.root:
-        return written(step.value)
-    _, b, a = step.root
-    twice = RationalFunction(2 * a.num, a.den)
-    sign = "+" if step.sign > 0 else "-"
-    return root(written(-b), sign, written(step.discriminant), written(twice))
+
+def _python_root(b: str, discriminant: str, twice: str) -> str:
+    return f"({b} + sqrt({discriminant}))/({twice})"
 
 
-def _python_root(b: str, sign: str, discriminant: str, twice: str) -> str:
-    return f"({b} {sign} sqrt({discriminant}))/({twice})"
-
-
-def _latex_root(b: str, sign: str, discriminant: str, twice: str) -> str:
-    return rf"\frac{{{b} {sign} \sqrt{{{discriminant}}}}}{{{twice}}}"
+def _latex_root(b: str, discriminant: str, twice: str) -> str:
+    return rf"\frac{{{b} + \sqrt{{{discriminant}}}}}{{{twice}}}"
 
 
 def confirmed(form: ClosedForm, given: AnyModel, other: AnyModel) -> ClosedForm:
