@@ -16,6 +16,8 @@ from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import of_network
+from disting.general.balls import Synthesis
+from disting.general.equivalent import spelled
 from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
@@ -93,6 +95,24 @@ def _lines(given: str, count: int, other: str, found: list[ModelEquivalent]) -> 
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
             yield from (f"  {line}" for line in _values(x.values))
+        if x.synthesis is not None:
+            yield from (f"  {line}" for line in _synthesis(x.synthesis))
+
+
+LONGEST = 16  # signs of a fraction; longer ones are rounded, and exact with --json
+EXTENTS = {
+    "positive": "all positive ones, but for exchanges of branches that are alike",
+    "family": "and infinitely many more",
+    "unknown": "and perhaps more",
+}
+
+
+def _synthesis(found: Synthesis) -> Iterator[str]:
+    """Positive sets of values, and whether there are more."""
+    for values in found.sets:
+        exact = {n: x for n, x in values.items() if len(str(x)) <= LONGEST}
+        yield ", ".join(f"{n} = {spelled(exact.get(n, float(x)))}" for n, x in values.items())
+    yield EXTENTS[found.extent]
 
 
 def _formulas(

@@ -7,10 +7,12 @@ is zero cannot be seen from how it is written. Who builds values knows that from
 is built is put into what it is to solve (see `closed_form`).
 """
 
+from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
+from typing import Any
 
 from flint import fmpz_mpoly
 
@@ -21,7 +23,7 @@ from disting.general.orthant import TooMuch
 SHORT = 6
 MOST_NAMES = 60
 LARGEST = 2000  # terms of a polynomial that is factored
-Poly = tuple[RationalFunction, ...]
+Poly = tuple[Any, ...]
 """Coefficients of x^0, x^1, .."""
 Values = tuple[tuple[str, RationalFunction], ...]
 """By the names of parameters."""
@@ -52,7 +54,8 @@ class Step:
     def discriminant(self) -> RationalFunction:
         """b^2 - 4 a c."""
         c, b, a = self.root
-        return b * b - four(a * c)
+        found: RationalFunction = b * b - four(a * c)
+        return found
 
 
 def four(value: RationalFunction) -> RationalFunction:
@@ -60,8 +63,69 @@ def four(value: RationalFunction) -> RationalFunction:
     return RationalFunction(4 * value.num, value.den)
 
 
+class Arithmetic:
+    """Polynomials in x over a field, of which a subclass says what its values are."""
+
+    one: Any
+
+    @property
+    def zero(self) -> Any:
+        """Nothing."""
+        return self.one - self.one
+
+    def is_zero(self, value: Any) -> bool:
+        """Whether it is written as zero."""
+        return bool(value == self.zero)
+
+    def short(self, value: Any) -> Any:
+        """The value, or a name for it."""
+        return value
+
+    def times(self, *polynomials: Poly) -> Poly:
+        """Their product."""
+        return reduce(self._times, polynomials, (self.one,))
+
+    def _times(self, one: Poly, other: Poly) -> Poly:
+        found = [self.zero] * (len(one) + len(other) - 1)
+        for i, a in enumerate(one):
+            for j, b in enumerate(other):
+                found[i + j] += a * b
+        return tuple(map(self.short, found))
+
+    def plus(self, one: Poly, other: Poly, factor: Any = None) -> Poly:
+        """one + factor other."""
+        by = self.one if factor is None else factor
+        size = max(len(one), len(other))
+        a, b = ((*p, *[self.zero] * (size - len(p))) for p in (one, other))
+        return tuple(self.short(x + by * y) for x, y in zip(a, b, strict=True))
+
+    @abstractmethod
+    def number(self, value: int) -> Any:
+        """A constant."""
+
+    @abstractmethod
+    def lifted(self, polynomial: fmpz_mpoly) -> Any:
+        """A polynomial in the parameters."""
+
+    @abstractmethod
+    def __getitem__(self, name: str) -> Any:
+        """A parameter."""
+
+    @abstractmethod
+    def factors(self, polynomial: Poly) -> list[Poly]:
+        """Polynomials whose product it is, but for a factor without x."""
+
+    @abstractmethod
+    def split(self, quadratic: Poly) -> tuple[Any, Any]:
+        """Both roots of a polynomial of degree 2 that is no product."""
+
+    @abstractmethod
+    def choose(self, names: Sequence[str]) -> None:
+        """Remember that only some sum of what these elements have is determined."""
+
+
 @dataclass
-class Field:
+class Field(Arithmetic):
     """Fractions of some parameters and of values that get a name on the way; raises TooMuch where
     these are too many.
 
@@ -182,35 +246,6 @@ class Field:
             for _ in range(power)
             if f.degrees()[-1]
         ]
-
-    def times(self, *polynomials: Poly) -> Poly:
-        """Their product."""
-        return reduce(self._times, polynomials, (self.one,))
-
-    def _times(self, one: Poly, other: Poly) -> Poly:
-        found = [self.one - self.one] * (len(one) + len(other) - 1)
-        for i, a in enumerate(one):
-            for j, b in enumerate(other):
-                found[i + j] += a * b
-        return tuple(map(self.short, found))
-
-    def plus(self, one: Poly, other: Poly, factor: RationalFunction | None = None) -> Poly:
-        """one + factor other."""
-        by = self.one if factor is None else factor
-        size = max(len(one), len(other))
-        return tuple(
-            self.short(a + by * b)
-            for a, b in zip(
-                *((*p, *[self.one - self.one] * (size - len(p))) for p in (one, other)), strict=True
-            )
-        )
-
-    def at(self, polynomial: Poly, x: RationalFunction) -> RationalFunction:
-        """Its value."""
-        total = self.one - self.one
-        for c in reversed(polynomial):
-            total = total * x + c
-        return self.short(total)
 
 
 def composed(value: RationalFunction, by: Sequence[fmpz_mpoly]) -> RationalFunction:

@@ -15,16 +15,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 from math import prod
+from typing import Any
 
-from disting.algebra.rational_function import RationalFunction
-from disting.general.field import Field, Poly
+from disting.general.field import Arithmetic, Poly
 from disting.network.element import Element
 from disting.network.normal_form import Part, Power, in_parallel, in_series, turned
 
 QUADRATIC = 2
 Cut = list[tuple[int, ...]]
 """For each branch the positions of its factors."""
-Values = dict[str, RationalFunction]
+Values = dict[str, Any]
 
 
 class NoFormulas(Exception):
@@ -85,7 +85,7 @@ class Share:
 
 
 def synthesized(
-    field: Field, tree: Tree, top: Poly, bottom: Poly, view: str = "S"
+    field: Arithmetic, tree: Tree, top: Poly, bottom: Poly, view: str = "S"
 ) -> Iterator[Values]:
     """Yield the values at which the tree is top/bottom, one lot for each way to share the terms;
     `view`: "S" of F, "P" of 1/(x F). Raises NoFormulas.
@@ -117,7 +117,7 @@ def _share(part: Part, view: str, one: Power | None, other: Power | None) -> Sha
     return Share(count, one in part.single, other in part.single)
 
 
-def _chosen(field: Field, trees: Sequence[Tree], shares: Sequence[Share]) -> None:
+def _chosen(field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share]) -> None:
     """Note which branches share a part of which only the sum is determined."""
     for has in ([s.constant for s in shares], [s.pole for s in shares]):
         sharing = [e.value for t, h in zip(trees, has, strict=True) if h for e in t.elements]
@@ -125,14 +125,14 @@ def _chosen(field: Field, trees: Sequence[Tree], shares: Sequence[Share]) -> Non
             field.choose(sharing)
 
 
-def _inverse(field: Field, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
+def _inverse(field: Arithmetic, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
     """1/(x F); a pole of F at 0 is seen by its first coefficient."""
-    if bottom[0].num.is_zero():
+    if field.is_zero(bottom[0]):
         return bottom[1:], top
-    return bottom, (field.one - field.one, *top)
+    return bottom, (field.zero, *top)
 
 
-def _value(field: Field, element: Element, view: str, top: Poly, bottom: Poly) -> Values:
+def _value(field: Arithmetic, element: Element, view: str, top: Poly, bottom: Poly) -> Values:
     """Of a constant top/bottom, or a pole at 0."""
     known = top[0] / bottom[-1]
     is_inverse = (view == "S") is not element.kind.divides
@@ -140,10 +140,10 @@ def _value(field: Field, element: Element, view: str, top: Poly, bottom: Poly) -
 
 
 def _parted(
-    field: Field, trees: Sequence[Tree], shares: Sequence[Share], top: Poly, bottom: Poly
+    field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share], top: Poly, bottom: Poly
 ) -> Iterator[list[tuple[Poly, Poly]]]:
     """Yield the functions of all branches, for every way to share the terms."""
-    zero = field.one - field.one
+    zero = field.zero
     many = [i for i, s in enumerate(shares) if s.terms]
     constants, poles = sum(s.constant for s in shares), sum(s.pole for s in shares)
     count = sum(s.terms for s in shares)
@@ -178,7 +178,7 @@ def _parted(
 
 
 def _shared(
-    field: Field, branches: Sequence[tuple[int, Tree, int]], top: Poly, bottom: Poly
+    field: Arithmetic, branches: Sequence[tuple[int, Tree, int]], top: Poly, bottom: Poly
 ) -> Iterator[dict[int | None, tuple[Poly, Poly]]]:
     """Yield the terms of several branches, by their places."""
     if not branches:
@@ -198,7 +198,7 @@ def _shared(
 
 
 def _partitions(
-    field: Field, branches: Sequence[tuple[int, Tree, int]], bottom: Poly
+    field: Arithmetic, branches: Sequence[tuple[int, Tree, int]], bottom: Poly
 ) -> Iterator[tuple[list[Poly], Cut]]:
     """Yield factors of a denominator and which of them each branch has; quadratic ones are split
     where that is needed.
@@ -216,7 +216,7 @@ def _partitions(
         yield factors, cut
 
 
-def _linear(field: Field, factor: Poly) -> list[Poly]:
+def _linear(field: Arithmetic, factor: Poly) -> list[Poly]:
     if len(factor) - 1 != QUADRATIC:
         return [factor]
     return [(-root, field.one) for root in field.split(factor)]
@@ -245,7 +245,7 @@ def _every_cut(
                 yield from ([chosen, *cut] for cut in _every_cut(rest, degrees, wanted[1:]))
 
 
-def _partial(field: Field, factors: Sequence[Poly], top: Poly, bottom: Poly) -> list[Poly]:
+def _partial(field: Arithmetic, factors: Sequence[Poly], top: Poly, bottom: Poly) -> list[Poly]:
     """The numerators P_i of top/bottom = sum P_i/factor_i: P_i (bottom/factor_i) = top modulo
     factor_i.
     """
@@ -261,26 +261,26 @@ def _partial(field: Field, factors: Sequence[Poly], top: Poly, bottom: Poly) -> 
     return found
 
 
-def _modulo(field: Field, polynomial: Poly, by: Poly) -> Poly:
+def _modulo(field: Arithmetic, polynomial: Poly, by: Poly) -> Poly:
     """The remainder."""
     rest, degree = polynomial, len(by) - 1
     while len(rest) > degree:
         factor = field.short(rest[-1] / by[-1])
-        shifted = (*[field.one - field.one] * (len(rest) - len(by)), *by)
+        shifted = (*[field.zero] * (len(rest) - len(by)), *by)
         rest = field.plus(rest, shifted, -factor)[:-1]
     return rest
 
 
-def _quotient(field: Field, top: Poly, bottom: Poly, by: Poly) -> Poly:
+def _quotient(field: Arithmetic, top: Poly, bottom: Poly, by: Poly) -> Poly:
     """P with P bottom = top modulo a polynomial: linear equations for its coefficients."""
-    zero, degree = field.one - field.one, len(by) - 1
+    zero, degree = field.zero, len(by) - 1
     columns = [_modulo(field, (*[zero] * k, *bottom), by) for k in range(degree)]
     rows = [
         [*((*c, *[zero] * degree)[i] for c in columns), (*top, *[zero] * degree)[i]]
         for i in range(degree)
     ]
     for at in range(degree):
-        pivot = next((r for r in rows[at:] if not r[at].num.is_zero()), None)
+        pivot = next((r for r in rows[at:] if not field.is_zero(r[at])), None)
         if pivot is None:
             raise NoFormulas("two terms of the function have one pole")
         rows.remove(pivot)
@@ -288,7 +288,7 @@ def _quotient(field: Field, top: Poly, bottom: Poly, by: Poly) -> Poly:
         for r in rows[at + 1 :]:
             factor = field.short(r[at] / pivot[at])
             r[at:] = [field.short(a - factor * b) for a, b in zip(r[at:], pivot[at:], strict=True)]
-    found = list[RationalFunction]()
+    found = list[Any]()
     for r in reversed(rows):
         known = zip(r[degree - len(found) : degree], found, strict=True)
         total = sum((a * b for a, b in known), zero)

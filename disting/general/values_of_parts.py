@@ -12,7 +12,7 @@ from itertools import product
 from typing import Any
 
 from disting.general.closed_form import ClosedForm
-from disting.general.field import Field, Poly
+from disting.general.field import Arithmetic, Field, Poly
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.orthant import TooMuch
@@ -61,12 +61,16 @@ def by_parts(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
 
 
 def _forms(given: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedForm]:
-    one, two = (_placed(m) for m in (given, other))
-    ways = _of_one_port(field, given, other) or _of_edges(field, one, two)
-    for values in ways:
+    for values in values_over(field, given, other):
         kept = tuple((name, values[name]) for name in other.parameters)
         steps, written = field.written(kept)
         yield ClosedForm(given.parameters, steps, written, choices=tuple(field.choices))
+
+
+def values_over(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values]:
+    """Yield the values of the other network, for each way to share terms among its branches."""
+    ways = _of_one_port(field, given, other)
+    yield from _of_edges(field, _placed(given), _placed(other)) if ways is None else ways
 
 
 def _placed(model: AnyModel) -> Network:
@@ -77,7 +81,7 @@ def _placed(model: AnyModel) -> Network:
     return placed_network(network, powers).grounded
 
 
-def _of_one_port(field: Field, given: AnyModel, other: AnyModel) -> Iterator[Values] | None:
+def _of_one_port(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values] | None:
     """Of two one-ports of two kinds, None of others."""
     known = set_of(given)
     if known is None or known != set_of(other) or not isinstance(given, Model):
@@ -95,7 +99,7 @@ def _edges(plain: Network) -> Edges:
     return joined([(e.nodes, leaf(e)) for e in plain.elements], held, series, parallel)
 
 
-def function_of(field: Field, model: Model, low: Power, high: Power) -> tuple[Poly, Poly]:
+def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tuple[Poly, Poly]:
     """F(x) of a one-port of two kinds, as polynomials in x."""
     network = model.network
     if network is None:
@@ -107,14 +111,14 @@ def function_of(field: Field, model: Model, low: Power, high: Power) -> tuple[Po
         {(i + by - start) // step: field.lifted(c) for i, c in enumerate(side) if not c.is_zero()}
         for side, by in ((model.numerator, shift), (model.denominator, 0))
     ]
-    least, zero = min(i for side in sides for i in side), field.one - field.one
+    least, zero = min(i for side in sides for i in side), field.zero
     top, bottom = (
         tuple(side.get(i + least, zero) for i in range(max(side) - least + 1)) for side in sides
     )
     return (top if network.sign_of_one_port > 0 else tuple(-c for c in top)), bottom
 
 
-def _of_edges(field: Field, given: Network, other: Network) -> Iterator[Values]:
+def _of_edges(field: Arithmetic, given: Network, other: Network) -> Iterator[Values]:
     """Of networks that are one graph with parts at the edges."""
     one, two = _edges(given), _edges(other)
     for places in _matches(given, one, other, two):
@@ -161,7 +165,7 @@ def _drawn(edges: Edges, inputs: Sequence[Port], outputs: Sequence[Port]) -> Any
     return graph
 
 
-def _of_part(field: Field, given: Tree, other: Tree) -> list[Values]:
+def _of_part(field: Arithmetic, given: Tree, other: Tree) -> list[Values]:
     """The values of one part in those of another one of the same set."""
     if given.element and other.element:
         return [{other.element.value: field[given.element.value]}]
@@ -187,9 +191,9 @@ def _paired(given: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
     return pairs
 
 
-def _composed(field: Field, tree: Tree, low: Power) -> tuple[Poly, Poly]:
+def _composed(field: Arithmetic, tree: Tree, low: Power) -> tuple[Poly, Poly]:
     """F(x) of branches of two kinds, of which one has the power `low`."""
-    zero, one = field.one - field.one, field.one
+    zero, one = field.zero, field.one
     if tree.element is not None:
         value = field[tree.element.value]
         value = value if tree.element.kind.divides else one / value
@@ -204,10 +208,10 @@ def _inverse(top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
     return bottom, top
 
 
-def _sum(field: Field, one: tuple[Poly, Poly], other: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
+def _sum(field: Arithmetic, one: tuple[Poly, Poly], other: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
     """Of fractions without common factors but x."""
-    (a, b), (c, d), zero = one, other, field.one - field.one
-    if b[0].num.is_zero() and d[0].num.is_zero():
+    (a, b), (c, d), zero = one, other, field.zero
+    if field.is_zero(b[0]) and field.is_zero(d[0]):
         top, bottom = _sum(field, (a, b[1:]), (c, d[1:]))
         return top, (zero, *bottom)
     return field.plus(field.times(a, d), field.times(c, b)), field.times(b, d)

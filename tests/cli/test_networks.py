@@ -264,3 +264,15 @@ def test_values_of_several_sensors():
     one, two = "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"
     done = called("equivalents", one, "--to", two, "--set", values)
     assert "k12 = 1, k23 = 10/7, k24 = 25/7, m1 = 1, m2 = 2, m3 = 3/7, m4 = 25/7" in done.stdout
+
+
+def test_values_of_large_circuits_by_synthesis():
+    values = "R0=1,R1=2,R2=3,R3=1,C1=1,C2=1/2,C3=3"
+    done = called("equivalents", LADDER, "--to", VOIGT, "--set", values)
+    assert "R0 = 1, R1 = 5.56471, R2 = 0.35171, R3 = 0.0835808" in done.stdout
+    assert "all positive ones, but for exchanges of branches that are alike" in done.stdout
+    told = json.loads(
+        called("equivalents", LADDER, "--to", VOIGT, "--set", values, "--json").stdout
+    )
+    (found,) = told["equivalents"]
+    assert (found["extent"], found["values"][0]["domain"]) == ("positive", "positive")
