@@ -47,6 +47,8 @@ def run(options: argparse.Namespace) -> int:
     named = _named(options.to, options) if options.to else []
     others = [model for model in (*listed, *named) if model.name != given.name]
     keep_apart(model.name for model in (given, *others))
+    if named == [given]:  # which other values does it have
+        others = named
     values = assignments(options.values) if options.values else None
     formulas = options.formulas or options.latex or options.sympy
     if formulas and values is not None:
@@ -64,7 +66,8 @@ def run(options: argparse.Namespace) -> int:
         }
         emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
         return 0
-    other = "other network" if given.network else "other model"
+    other = "network" if given.network else "model"
+    other = other if others == [given] else f"other {other}"
     print("\n".join(_lines(given.name, len(others), other, found)))
     return 0
 

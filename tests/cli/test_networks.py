@@ -276,3 +276,11 @@ def test_values_of_large_circuits_by_synthesis():
     )
     (found,) = told["equivalents"]
     assert (found["extent"], found["values"][0]["domain"]) == ("positive", "positive")
+
+
+def test_other_values_of_the_same_network():
+    cell, values = "R0-p(R1,C1)-p(R2,C2)", "R0=1,R1=2,R2=3,C1=1,C2=1"
+    done = called("equivalents", cell, "--to", cell, "--set", values)
+    assert done.returncode == 0
+    assert "C1 = 1, C2 = 1, R0 = 1, R1 = 3, R2 = 2" in done.stdout
+    assert done.stdout.startswith(f"{cell}: of 1 network 1 can do the same")
