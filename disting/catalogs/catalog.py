@@ -6,7 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -159,6 +159,11 @@ class Catalog(Shown):
         Raises CatalogError where the verdicts contradict each other. Pairs that agree for some
         parameters only belong to no group for that (see `depending`).
         """
+        if view not in self._classes:
+            self._classes[view] = self._classes_of(view)
+        return self._classes[view]
+
+    def _classes_of(self, view: View) -> tuple[tuple[int, ...], ...]:
         pairs = self.records[1 + len(self.family) :]
         relations = {(r["left"], r["right"]): relation_of(self._deciding(r, view)) for r in pairs}
         names = [str(number) for number in range(1, 1 + len(self.family))]
@@ -262,6 +267,11 @@ class Catalog(Shown):
         )
 
     @cached_property
+    def _classes(self) -> dict[View, tuple[tuple[int, ...], ...]]:
+        """Groups that were asked for: the page of every model says its own."""
+        return {}
+
+    @cached_property
     def _known(self) -> dict[tuple[int, int, View], Verdict]:
         """Verdicts that were asked for; pages ask for each a few times."""
         return {}
@@ -313,9 +323,16 @@ def catalog(n_masses: int, *, damped: bool = True, folder: Path | None = None) -
             f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting"
             " catalog build'"
         )
-    return Catalog.from_records(
-        read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl")
-    )
+    return _shipped(n_masses, damped) if folder is None else _read(folder, n_masses, damped)
+
+
+@lru_cache(maxsize=2)  # a look-up asks for the verdict, then for what is known of each model
+def _shipped(n_masses: int, damped: bool) -> Catalog:
+    return _read(shipped_folder(), n_masses, damped)
+
+
+def _read(folder: Path, n_masses: int, damped: bool) -> Catalog:
+    return Catalog.from_records(read_records(folder / f"{name_of(n_masses, damped)}.jsonl"))
 
 
 _INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")

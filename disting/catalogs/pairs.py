@@ -5,7 +5,6 @@ Over positive parameters nothing is stored but the shares of both sides, from wh
 follows.
 """
 
-from dataclasses import replace
 from typing import Any
 
 from disting.algebra.certainty import Certainty
@@ -26,10 +25,35 @@ def stored_verdict(
     record: Record, view: View, names: tuple[str, str], premises: tuple[Premise, Premise]
 ) -> Verdict:
     """The verdict of a view with all that the record says of the pair, which it names so."""
-    found = replace(_plain(record, view, names), premises=premises)
+    (where, step), relations = deciding(record, view), _both_ways(record, view)
+    if not step:
+        return Verdict(
+            *names,
+            Relation.UNDECIDED,
+            domain=view.domain,
+            notes=_notes(record, view),
+            premises=premises,
+            **relations,
+        )
+    return Verdict(
+        *names,
+        relation_of(step),
+        step["decided_by"],
+        where,
+        Certainty(step["certainty"]),
+        step["safety"],
+        evidence_from(step["evidence"]),
+        view.domain,
+        premises=premises,
+        **relations,
+    )
+
+
+def _both_ways(record: Record, view: View) -> dict[str, Any]:
+    """What a verdict says of inclusions and shares, where its view looks at the parameters."""
     settled = relation_of(deciding(record, View.EXACT)[1])
     if Stage.FIBRE not in view.representations or settled is Relation.UNDECIDED:
-        return found
+        return {}
     here, there = _shares(record)
     if INCLUSIONS in record:
         both = inclusions_from_dict(record[INCLUSIONS])
@@ -39,14 +63,13 @@ def stored_verdict(
         image = closure = (
             Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
         )
-    return replace(
-        found,
-        left_positive=here,
-        right_positive=there,
-        image=image,
-        closure=closure,
-        inclusions=both,
-    )
+    return {
+        "left_positive": here,
+        "right_positive": there,
+        "image": image,
+        "closure": closure,
+        "inclusions": both,
+    }
 
 
 def deciding(record: Record, view: View) -> tuple[Stage, dict[str, Any]]:
@@ -72,23 +95,6 @@ def relation_of(step: dict[str, Any]) -> Relation:
         Relation.DISTINGUISHABLE
         if RULES[step["decided_by"]].role is Role.NECESSARY
         else Relation.INDISTINGUISHABLE
-    )
-
-
-def _plain(record: Record, view: View, names: tuple[str, str]) -> Verdict:
-    where, step = deciding(record, view)
-    if not step:
-        return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_notes(record, view))
-    certainty, evidence = Certainty(step["certainty"]), evidence_from(step["evidence"])
-    return Verdict(
-        *names,
-        relation_of(step),
-        step["decided_by"],
-        where,
-        certainty,
-        step["safety"],
-        evidence,
-        view.domain,
     )
 
 

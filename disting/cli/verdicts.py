@@ -146,8 +146,8 @@ def _summary(decided: Decisions) -> str:
     """
     pairs = list(combinations(range(len(decided.subjects)), 2))
     head = (
-        f"{len(decided.subjects)} models, {len(pairs)} pairs, over {decided.query.view.domain}"
-        " parameters"
+        f"{plural(len(decided.subjects), 'model')}, {plural(len(pairs), 'pair')}, over"
+        f" {decided.query.view.domain} parameters"
     )
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
     told = (

@@ -9,7 +9,7 @@ before one is a sum of products.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
@@ -17,6 +17,7 @@ from disting.model.constraints import Indices, violated
 from disting.model.presentation import Shown
 
 
+@cache  # asked for at every look-up of a pair
 def count(n: int) -> int:
     """How many models have n masses.
 

@@ -158,23 +158,38 @@ def write_report(
     together = [*across, *_across_beside(across, listed, out)]
     parts = guide(commands, _notebooks(out))
     site = Site(catalogs, dampers, across, parts, families(listed, damped, together))
-    files = [file for c in catalogs for file in _files(c, site.pages)]
-    files += [_damper_file(f, site.pages) for f in dampers]
-    files += [file for page in PAGES for file in page.files(site)]
-    here = {name for name, _ in files}
+    # each file is written when it is made: together they take more memory than all catalogues
+    names = [_write(out, file) for file in _pages(site)]
+    here = set(names)
     links = [p.link for p in PAGES if p.link[0] in here or (out / p.link[0]).is_file()]
     links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
     lists = list(lists_beside(out))
     links += [link for link, _ in lists]
     listed_models = [model for _, models in lists for model in models]
     script = search_script(parts, site.pages, [*links, *listed_models])
-    files.append((ADDRESS, script.encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
     start = index(listed, links, damped, together)
-    files += [(STYLE, style.encode()), ("index.html", start.encode())]
-    for folder in {(out / name).parent for name, _ in files}:
-        folder.mkdir(parents=True, exist_ok=True)
-    return [write_whole(out / name, content) for name, content in files]
+    for name, text in ((ADDRESS, script), (STYLE, style), ("index.html", start)):
+        names.append(_write(out, (name, text.encode())))
+    return [out / name for name in names]
+
+
+def _pages(site: Site) -> Iterator[File]:
+    """The pages of what a site is written from, with the files beside them."""
+    for c in site.catalogs:
+        yield from _files(c, site.pages)
+    for family in site.dampers:
+        yield _damper_file(family, site.pages)
+    for known in PAGES:
+        yield from known.files(site)
+
+
+def _write(out: Path, file: File) -> str:
+    """Write a file below the folder, and return its address there."""
+    name, content = file
+    (out / name).parent.mkdir(parents=True, exist_ok=True)
+    write_whole(out / name, content)
+    return name
 
 
 def _link(notebook: GuidePage) -> Link:
