@@ -45,7 +45,7 @@ class ModelEquivalent(Shown):
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; values rounded to 15 digits where they are irrational."""
-        extent, sets = self._sets
+        extent, sets = self.sets
         return {
             "name": self.model.name,
             "relation": self.verdict.relation.value,
@@ -59,7 +59,7 @@ class ModelEquivalent(Shown):
         }
 
     @property
-    def _sets(self) -> tuple[str, list[tuple[Domain, Mapping[str, object]]]]:
+    def sets(self) -> tuple[str, list[tuple[Domain, Mapping[str, object]]]]:
         """How many sets of values there are, and those that are known, each with its domain."""
         if self.synthesis is not None:
             return self.synthesis.extent, [(Domain.POSITIVE, x) for x in self.synthesis.sets]
