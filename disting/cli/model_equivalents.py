@@ -142,6 +142,8 @@ def _formulas(
             yield f"{mark}{ways}{form.checked}"
             yield from (f"{mark}{name}' = {same}" for name, same in sorted(x.exponents))
             yield from (f"{mark}where {g} > 0" for g in form.where)
+            if form.partial:
+                yield f"{mark}positive for some given values; for others --set may find more"
             yield from (
                 f"{mark}{', '.join(names)} can share a part in any proportion; here they share"
                 " it equally"

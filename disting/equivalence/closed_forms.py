@@ -2,22 +2,25 @@
 the theorems on chains, synthesis of parts, or sections of the equations.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
 
 from flint import fmpz_mpoly
 
 from disting.algebra.rational_function import RationalFunction
+from disting.algebra.sampling import residues
 from disting.algebra.symbols import symbols
 from disting.equivalence.maps import explicit_map
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import on_one_variable
-from disting.general.between import Path
+from disting.general.cases import numbered
 from disting.general.closed_form import ClosedForm, confirmed
 from disting.general.field import Field, Values
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.sections import Section
-from disting.general.synthesis import NoFormulas
+from disting.general.synthesis import NeedsRoots, NoFormulas
 from disting.general.values_of_parts import by_parts
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
@@ -25,6 +28,7 @@ from disting.verdict.result import Verdict
 
 MOST_SOLVED = 6  # parameters of models whose equations are solved as they are
 QUADRATIC = 2
+TRIALS = 40  # points at which positive values are looked for
 
 
 def closed_forms(given: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[ClosedForm, ...]:
@@ -37,9 +41,11 @@ def closed_forms(given: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
         try:
             found = by_parts(one, two)
         except NoFormulas as none:
-            if len(other.parameters) > MOST_SOLVED:
+            if len(other.parameters) > MOST_SOLVED or isinstance(none, NeedsRoots):
                 raise
-            found = _solved(one, two, none)
+            found = _solved(one, two)
+    if not found:
+        raise NoFormulas("none that is known is positive")
     return tuple(confirmed(form, one, two) for form in found)
 
 
@@ -64,19 +70,56 @@ def _of_chains(given: AnyModel, other: AnyModel) -> list[ClosedForm] | None:
     return [ClosedForm(given.parameters, (), tuple(sorted(found.formulas.items())))]
 
 
-def _solved(given: AnyModel, other: AnyModel, none: NoFormulas) -> list[ClosedForm]:
-    """Sections of the equations that hold for all generic positive values, or a root that does."""
+def _solved(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
+    """Sections of the equations that hold for all generic positive values, or a root that does;
+    else all that is known over complex values, of which some are positive somewhere.
+    """
     found = way(given, other, Domain.POSITIVE)
     if found is not None and found.covering:
         field = Field(given.parameters)
         return [_of_section(field, found, section) for section in found.covering]
     root = found.path() if found is not None else None
-    if found is None or root is None:
-        raise none
-    degree = int(root.equation.degrees()[root.at])
-    if degree > QUADRATIC:
-        raise NoFormulas(f"roots of a polynomial of degree {degree} are needed")
-    return list(_of_path(found, root))
+    if found is not None and root is not None:
+        degree = int(root.equation.degrees()[root.at])
+        if degree > QUADRATIC:
+            raise NoFormulas(f"roots of a polynomial of degree {degree} are needed")
+        forms = _of_root(found, root.at, root.equation, root.values)
+        return [f for f in forms if _positive(f) == TRIALS] or _somewhere(forms)
+    return _somewhere(_of_cases(given, other))
+
+
+def _of_cases(given: AnyModel, other: AnyModel) -> Iterator[ClosedForm]:
+    """Yield what the cases of the equations give over complex values; raises NoFormulas."""
+    found = way(given, other, Domain.COMPLEX)
+    if found is None:
+        raise NoFormulas("the equations grow too large")
+    for section in found.parted.sections:
+        yield _of_section(Field(given.parameters), found, section)
+    ring = found.parted.search.ring
+    for left in found.parted.others:
+        case = numbered(ring, left)
+        unknown = ring.occurring(case.equations)
+        degree = max(int(e.degrees()[i]) for e in case.equations for i in unknown)
+        if (len(case.equations), len(unknown)) != (1, 1) or degree > QUADRATIC:
+            raise NoFormulas(f"equations of degree {degree} in {len(unknown)} unknowns are left")
+        (at,) = unknown
+        known = {at: RationalFunction(ring.generators[at], ring.number(1)), **dict(case.solved)}
+        yield from _of_root(found, at, case.equations[0], [known[i] for i in ring.unknowns])
+
+
+def _somewhere(forms: Iterable[ClosedForm]) -> list[ClosedForm]:
+    """Those that are positive at some points that are tried."""
+    return [replace(form, partial=True) for form in forms if _positive(form)]
+
+
+def _positive(form: ClosedForm) -> int:
+    """At how many points all values are positive, in rounded numbers."""
+    count = 0
+    for k in range(TRIALS):
+        point = [x / 7 for x in residues(f"positive:{k}", len(form.given), 71)]
+        with suppress(ArithmeticError):
+            count += all(x.imag == 0 and x.real > 0 for x in form.at(point).values())
+    return count
 
 
 def _of_section(field: Field, found: Way, section: Section) -> ClosedForm:
@@ -85,19 +128,23 @@ def _of_section(field: Field, found: Way, section: Section) -> ClosedForm:
     return ClosedForm(found.given.parameters, (), values, where=where)
 
 
-def _of_path(found: Way, path: Path) -> Iterator[ClosedForm]:
-    """Both roots of the quadratic equation, those at which all values are positive somewhere."""
+def _of_root(
+    found: Way, at: int, equation: fmpz_mpoly, values: Sequence[RationalFunction]
+) -> list[ClosedForm]:
+    """Both roots of a quadratic equation for one unknown of which all others are fractions."""
     field, ring = Field(found.given.parameters), found.parted.search.ring
-    plain = tuple(_lifted(field, c, {}) for c in ring.coefficients(path.equation, path.at))
-    for root in field.split(plain):
-        values = _values(field, found, path.values, {path.at: root})
-        yield ClosedForm(found.given.parameters, *field.written(values))
+    quadratic = tuple(_lifted(field, c, {}) for c in ring.coefficients(equation, at))
+    forms = list[ClosedForm]()
+    for root in field.split(quadratic):
+        steps, written = field.written(_values(field, found, values, {at: root}))
+        forms.append(ClosedForm(found.given.parameters, steps, written))
+    return forms
 
 
 def _values(
     field: Field,
     found: Way,
-    values: tuple[RationalFunction, ...],
+    values: Sequence[RationalFunction],
     known: dict[int, RationalFunction],
 ) -> Values:
     return tuple(

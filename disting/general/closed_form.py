@@ -9,6 +9,7 @@ Only points count at which all discriminants are squares, 1 of 2 for each root: 
 that takes, and the bound is that for all which may be drawn.
 """
 
+import cmath
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -39,7 +40,8 @@ Written = Callable[[RationalFunction], str]
 class ClosedForm:
     """`values` of the parameters of another model, in those of the given one and in `steps`, for
     values at which all of `where` are positive. `choices`: elements that share equally what could
-    be shared in infinitely many ways.
+    be shared in infinitely many ways. `partial`: they are positive for some given values, and may
+    be negative for others.
 
     They give the same transfer functions wherever no denominator is zero; a wrong formula would
     have passed with a probability of at most 2^-safety.
@@ -50,6 +52,7 @@ class ClosedForm:
     values: tuple[tuple[str, RationalFunction], ...]
     where: tuple[fmpz_mpoly, ...] = ()
     choices: tuple[tuple[str, ...], ...] = ()
+    partial: bool = False
     safety: int = 0
 
     @property
@@ -64,6 +67,11 @@ class ClosedForm:
         every += [v for _, v in self.values]
         sides = (side for v in every for side in (v.num, v.den))
         return sum(letters(f) for side in sides for f, _ in factored(side)[1])
+
+    def at(self, point: Sequence[float]) -> dict[str, complex]:
+        """The values at rounded ones of the given parameters."""
+        known = {n: complex(x) for n, x in zip(self.given, point, strict=True)}
+        return next(_evaluated(self, known, cmath.sqrt))
 
     @property
     def text(self) -> str:
@@ -140,7 +148,7 @@ def _agrees(form: ClosedForm, given: AnyModel, other: AnyModel, label: str) -> b
         drawn = residues(f"{label}:{draw}", len(form.given), modulus)
         point = {n: field(x) for n, x in zip(form.given, drawn, strict=True)}
         try:
-            found = list(_evaluated(form, point))
+            found = list(_evaluated(form, point, _square_root))
         except (ZeroDivisionError, _NoSquareError):
             continue
         asked = [point[n] for n in given.parameters]
@@ -154,7 +162,9 @@ class _NoSquareError(Exception):
     """A discriminant is no square at a point."""
 
 
-def _evaluated(form: ClosedForm, point: Mapping[str, Residue]) -> Iterator[dict[str, Residue]]:
+def _evaluated(
+    form: ClosedForm, point: Mapping[str, Residue], square_root: Callable[[Residue], Residue]
+) -> Iterator[dict[str, Residue]]:
     """Yield the values at a point, for all signs of the square roots."""
     quadratics = [s.root for s in form.steps if s.root and s.sign > 0]
     for signs in product((1, -1), repeat=len(quadratics)):
@@ -163,7 +173,7 @@ def _evaluated(form: ClosedForm, point: Mapping[str, Residue]) -> Iterator[dict[
             if step.root:
                 _, b, a = step.root
                 way = step.sign * signs[quadratics.index(step.root)]
-                root = way * _square_root(_number(step.discriminant, known))
+                root = way * square_root(_number(step.discriminant, known))
                 known[step.name] = (root - _number(b, known)) / (2 * _number(a, known))
             else:
                 known[step.name] = _number(step.value, known)

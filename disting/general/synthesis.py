@@ -31,6 +31,10 @@ class NoFormulas(Exception):
     """Why values are not found as fractions and square roots."""
 
 
+class NeedsRoots(NoFormulas):
+    """They are roots of a polynomial of a higher degree."""
+
+
 @dataclass(frozen=True, slots=True)
 class Tree:
     """An element, or branches in series ("S") or parallel ("P"), and what it can be."""
@@ -211,7 +215,7 @@ def _partitions(
         cuts = list(_cuts([len(f) - 1 for f in factors], wanted))
     if not cuts:
         degree = max(len(f) - 1 for f in factors)
-        raise NoFormulas(f"roots of a polynomial of degree {degree} are needed")
+        raise NeedsRoots(f"roots of a polynomial of degree {degree} are needed")
     for cut in cuts:
         yield factors, cut
 
