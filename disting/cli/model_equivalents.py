@@ -55,9 +55,6 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("formulas are for any values: leave --set away, or ask for values alone")
     with engine_for(options) as (engine, _, _progress):
         found = model_equivalents(given, others, values, engine=engine)
-    if formulas:
-        print("\n".join(_formulas(given, found, options)))
-        return 0
     if options.json:
         whole = {
             "format": Format.NETWORK_EQUIVALENTS.value,
@@ -68,7 +65,9 @@ def run(options: argparse.Namespace) -> int:
         return 0
     other = "network" if given.network else "model"
     other = other if others == [given] else f"other {other}"
-    print("\n".join(_lines(given.name, len(others), other, found)))
+    head = _counted(given.name, plural(len(others), other), found)
+    lines = _formulas(given, found, options) if formulas else _lines(found)
+    print("\n".join([_mark(options) + head, *lines]))
     return 0
 
 
@@ -85,13 +84,18 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
     return [Model.from_chain(chain, name=name_of(chain))]
 
 
-def _lines(given: str, count: int, other: str, found: list[ModelEquivalent]) -> Iterator[str]:
+def _counted(given: str, others: str, found: list[ModelEquivalent]) -> str:
+    """How many of the others do the same."""
     same = [x for x in found if x.verdict.relation is Relation.INDISTINGUISHABLE]
-    yield (
-        f"{given}: of {plural(count, other)} {len(same)} can do the same for all positive"
-        f" values, {sum(x.verdict.relation is OPEN[1] for x in found)} for some,"
+    return (
+        f"{given}: of {others} {len(same)} can do the same for all positive values,"
+        f" {sum(x.verdict.relation is OPEN[1] for x in found)} for some,"
         f" {sum(x.verdict.relation is OPEN[0] for x in found)} undecided"
     )
+
+
+def _lines(found: list[ModelEquivalent]) -> Iterator[str]:
+    """Each with its verdict and, where values are given, its own."""
     for x in found:
         yield f"{x.model.name}  {x.verdict.told} ({x.verdict.rule or 'nothing settles it'})"
         if x.exponents:
@@ -100,6 +104,11 @@ def _lines(given: str, count: int, other: str, found: list[ModelEquivalent]) -> 
             yield from (f"  {line}" for line in _values(x.values))
         if x.synthesis is not None:
             yield from (f"  {line}" for line in _synthesis(x.synthesis))
+
+
+def _mark(options: argparse.Namespace) -> str:
+    """What a line of words begins with where formulas are source."""
+    return "% " if options.latex else "# " if options.sympy else ""
 
 
 LONGEST = 16  # signs of a fraction; longer ones are rounded, and exact with --json
@@ -124,13 +133,11 @@ def _formulas(
     """For each model that does the same for all positive values its values as formulas, or why
     none are known.
     """
-    mark = "% " if options.latex else "# " if options.sympy else ""
-    same = [x for x in found if x.verdict.relation is Relation.INDISTINGUISHABLE]
-    if not same:
-        yield f"{mark}{given.name}: nothing that was looked at does the same for all values"
-    for at, x in enumerate(same):
-        yield from [""] * bool(at)
-        yield f"{mark}{given.name}"
+    mark = _mark(options)
+    for x in found:
+        if x.verdict.relation is not Relation.INDISTINGUISHABLE:
+            continue
+        yield ""
         yield f"{mark}{x.model.name}   (primed)"
         try:
             forms = closed_forms(given, x.model, x.verdict)

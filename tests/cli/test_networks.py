@@ -244,7 +244,8 @@ VOIGT, LADDER = "R0-p(R1,C1)-p(R2,C2)-p(R3,C3)", "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"
 
 def test_formulas_in_three_languages():
     said = called("equivalents", VOIGT, "--to", LADDER, "--formulas").stdout
-    assert said.startswith(f"{VOIGT}\n{LADDER}   (primed)\nidentity checked, probability of error")
+    assert said.startswith(f"{VOIGT}: of 1 other network 1 can do the same for all positive values")
+    assert f"\n\n{LADDER}   (primed)\nidentity checked, probability of error" in said
     assert "R0' = R0\n" in said
     assert r"R_{0}' &= R_{0} " in called("equivalents", VOIGT, "--to", LADDER, "--latex").stdout
     source = called("equivalents", VOIGT, "--to", LADDER, "--sympy").stdout
