@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import fmpz_mpoly
 
-from disting.general.cases import Case
+from disting.general.elimination import Case
 from disting.general.expression import polynomial_text
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Effort

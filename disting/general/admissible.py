@@ -12,9 +12,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice, repeat
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import Certainty, residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
-from disting.algebra.sampling import residues
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError

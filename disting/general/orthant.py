@@ -19,8 +19,7 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import factored
+from disting.algebra.symbols import RationalFunction, factored
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.question import Domain

@@ -12,8 +12,9 @@ from fractions import Fraction
 from itertools import islice
 
 from disting.general.between import Path, by_count, odd_path, path, without_equations
-from disting.general.cases import Case, orders, searched
+from disting.general.cases import orders, searched
 from disting.general.counts import at_roots, number_of_roots
+from disting.general.elimination import Case
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import THOROUGH, Effort, Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases

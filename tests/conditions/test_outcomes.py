@@ -31,8 +31,7 @@ from disting.conditions.necessary import (
     condition_5,
 )
 from disting.conditions.rule import INVARIANTS
-from disting.conditions.structural import condition_8, condition_9
-from disting.conditions.sufficient import condition_6, condition_7
+from disting.conditions.sufficient import condition_6, condition_7, condition_8, condition_9
 from disting.evidence.conditions import Counts, Forms, Ranks
 from tests.conditions.handmade import handmade, markov
 

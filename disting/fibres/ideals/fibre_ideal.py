@@ -20,7 +20,7 @@ from functools import lru_cache
 
 from flint import nmod_mat
 
-from disting.algebra.sampling import about, prime, residues
+from disting.algebra.certainty import about, prime, residues
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
