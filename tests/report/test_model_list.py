@@ -332,3 +332,27 @@ def test_what_lies_beside_and_is_no_list_is_passed_over(tmp_path: Path) -> None:
         ("models/list-two-more/2.html", "p(R0,R1-C1)"),
     ]
     assert models["list-broken.html"] == []
+
+
+def test_a_page_says_which_part_of_a_model_another_one_reaches(tmp_path):
+    """a12 > a20, and both ways; on the panel in words."""
+    texts = ["1>0, 1>2, 2>0; in 1; out 2", "1>0, 1>2, 2>1; in 2; out 1"]
+    matrix, *_ = write_family(texts, "Two ways out", tmp_path)
+    page = (tmp_path / "models/list-two-ways-out/1.html").read_text("utf-8")
+    assert "Of A1, exactly the part with a positive equivalent A2, special values aside:" in page
+    assert "Every A2 with positive parameters has a positive equivalent A1." in page
+    plain = re.sub(r"<[^>]+>", "", page)
+    assert "a12&gt;a20" in plain
+    said = "{L} has a positive equivalent {R} exactly where a12 \\u003e a20, special values aside."
+    assert said in matrix.read_text("utf-8")
+
+
+def test_a_page_says_where_a_model_gives_more_than_its_twin(tmp_path):
+    """Foster's form has one pole where both its parts have the same time constant, Cauer's none."""
+    texts = ["p(R1,C1)-p(R2,C2)", "p(C1,R1-p(R2,C2))"]
+    write_family(texts, "Two forms", tmp_path)
+    for number in (1, 2):
+        page = (tmp_path / f"models/list-two-forms/{number}.html").read_text("utf-8")
+        plain = re.sub(r"<[^>]+>", "", page)
+        assert "For all positive values of A2, A1 can give the same (proven)" in plain
+        assert "A1 has fewer poles where C1R1=C2R2." in plain
