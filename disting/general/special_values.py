@@ -18,6 +18,7 @@ values included (`disting.network.normal_form`).
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 from flint import fmpz_mpoly
 
@@ -27,6 +28,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.network.exact import within
 
+REMEMBERED = 512
 MOST_PARAMETERS = 7  # resultants of more take long
 
 
@@ -41,6 +43,7 @@ class Special:
     zeros: bool
 
 
+@lru_cache(maxsize=REMEMBERED)
 def lower_degree(model: Model) -> tuple[Special, ...] | None:
     """Where the transfer function has a lower degree; nowhere if it never has; None if that is not
     known.
@@ -102,13 +105,13 @@ def _is_solved(factor: fmpz_mpoly, at: int) -> bool:
 @dataclass(frozen=True, slots=True)
 class SpecialValues:
     """Of two models: whether each gives all transfer functions that the other one gives, special
-    values included (None: not known), and where each has a lower degree.
+    values included (None: not known), and where one that is known to give more than the other one
+    has a lower degree, as far as that is known.
     """
 
     left_in_right: bool | None
     right_in_left: bool | None
-    left: tuple[Special, ...] | None
-    right: tuple[Special, ...] | None
+    lower: tuple[Special, ...] = ()
 
     @property
     def is_same(self) -> bool:
@@ -119,12 +122,6 @@ class SpecialValues:
     def is_known(self) -> bool:
         """Whether one of them is known to give all that the other one gives."""
         return bool(self.left_in_right or self.right_in_left)
-
-    @property
-    def lower(self) -> tuple[Special, ...]:
-        """Where the one that is known to give more than the other one has a lower degree."""
-        special = self.right if self.left_in_right else self.left
-        return special or () if False in (self.left_in_right, self.right_in_left) else ()
 
     def in_short(self, left: str, right: str) -> str:
         """Both in words; "" where neither is known to give all that the other one gives."""
@@ -142,7 +139,7 @@ class SpecialValues:
         """The same, and where the one that gives more has fewer poles."""
         where = listed(f"{s.polynomial} = 0" for s in self.lower)
         outer = right if self.left_in_right else left
-        few = f" {outer} has fewer poles where {where}." if where and self.is_known else ""
+        few = f" {outer} has fewer poles where {where}." if where else ""
         return f"{self.in_short(left, right)}{few}"
 
 
@@ -160,9 +157,11 @@ def special_values(left: AnyModel, right: AnyModel) -> SpecialValues:
     """
     one, other = left.network, right.network
     if one is None or other is None:
-        return SpecialValues(None, None, None, None)
-    found = [
-        lower_degree(m) if isinstance(m, Model) and len(m.parameters) <= MOST_PARAMETERS else None
-        for m in (left, right)
-    ]
-    return SpecialValues(within(one, other), within(other, one), *found)
+        return SpecialValues(None, None)
+    inside = within(one, other), within(other, one)
+    if set(inside) != {True, False}:
+        return SpecialValues(*inside)
+    outer = right if inside[0] else left
+    if not isinstance(outer, Model) or len(outer.parameters) > MOST_PARAMETERS:
+        return SpecialValues(*inside)
+    return SpecialValues(*inside, lower_degree(outer) or ())

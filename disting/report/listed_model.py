@@ -150,7 +150,7 @@ def _special(shown: Listing, number: int, other: int) -> tuple[str, tuple[Markup
     if found is None:
         return "", ()
     names = shown.label(number), shown.label(other)
-    equations = tuple(typeset(s.polynomial) for s in found.lower) if found.is_known else ()
+    equations = tuple(typeset(s.polynomial) for s in found.lower)
     outer = names[1] if found.left_in_right else names[0]
     few = f" {outer} has fewer poles where" if equations else ""
     return f"{found.in_short(*names)}{few}", equations
