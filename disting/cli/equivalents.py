@@ -72,7 +72,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form.add_argument(
         "--formulas",
         action="store_true",
-        help="print formulas, where they are rational, for any values",
+        help="print formulas for any values: rational ones, of networks also by square roots",
     )
     form.add_argument("--latex", action="store_true", help="print formulas in LaTeX")
     form.add_argument(
