@@ -8,7 +8,7 @@ common zeros.
 
 from collections.abc import Iterable, Mapping
 
-from flint import nmod_mat
+from disting.algebra.groebner.modular import matrix as modular_matrix
 
 Polynomial = Mapping[tuple[int, ...], int]
 
@@ -49,7 +49,8 @@ def _echelon(
 ) -> list[dict[tuple[int, ...], int]]:
     columns = sorted({e for row in rows for e in row}, key=_rank, reverse=True)
     table = [row.get(e, 0) % modulus for row in rows for e in columns]
-    matrix, rank = nmod_mat(len(rows), len(columns), table, modulus).rref()
+    matrix, rank = modular_matrix(len(rows), len(columns), table, modulus).rref()
     return [
-        {e: int(matrix[i, j]) for j, e in enumerate(columns) if matrix[i, j]} for i in range(rank)
+        {e: int(matrix[i, j]) for j, e in enumerate(columns) if int(matrix[i, j])}
+        for i in range(rank)
     ]

@@ -61,11 +61,12 @@ from dataclasses import dataclass
 from math import log, log2, prod
 
 from disting.algebra.sampling import Size
-from disting.fibres.ideals.fibre_ideal import BITS
+from disting.fibres.ideals.fibre_ideal import BITS, LONG_BITS
 from disting.fibres.ideals.relations import Bounded, Relation, relation
 from disting.fibres.ideals.system import PolynomialMap, Terms
 
 VARIABLE = Bounded(1, 0.0)
+LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +97,11 @@ def safety_of_empty(
         Size(n * size.weight + 2 * minor, int(n * size.bits + 2 * minor_bits) + 1),
         bits,
     )
+
+
+def bits_of(given: PolynomialMap, other: PolynomialMap, equal_rank: bool) -> int:
+    """Of the primes modulo which a fibre is looked at: words, unless one run says nothing then."""
+    return BITS if safety_of_empty(given, other, equal_rank) >= LEAST else LONG_BITS
 
 
 def safety_of_member(given: PolynomialMap, other: PolynomialMap, bits: int = BITS) -> int:

@@ -11,7 +11,7 @@ from flint import fmpz_mpoly, nmod_poly
 
 from disting.algebra.groebner.macaulay import reaches_one
 from disting.evidence.ideals import Refuted, Solved
-from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
+from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
@@ -88,7 +88,8 @@ def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: Pol
             len(q) == len(other.parameters) and agree(given, point, other, q, modulus)
             for (modulus, point), q in ((drawn(given, label), q) for label, q in runs)
         )
-    ideals = (fibre_ideal(given, other, label, evidence.tangent) for label in evidence.labels)
+    bits = bits_of(given, other, evidence.tangent)
+    ideals = (fibre_ideal(given, other, label, evidence.tangent, bits) for label in evidence.labels)
     return bool(evidence.labels) and all(
         reaches_one(i.generators, len(i.unknowns), i.modulus, evidence.degree) for i in ideals
     )
@@ -111,7 +112,9 @@ def safety_of(
         return 0
     if isinstance(evidence, Solved):
         return safety_of_member(given, other) * count - 1
-    return safety_of_empty(given, other, True) * count - 1 if evidence.tangent else 0
+    if not evidence.tangent:
+        return 0
+    return safety_of_empty(given, other, True, bits_of(given, other, True)) * count - 1
 
 
 def _agree(
