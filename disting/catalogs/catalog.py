@@ -22,11 +22,11 @@ from disting.catalogs.files import (
 from disting.catalogs.pairs import deciding, relation_of, stored_verdict
 from disting.conditions.rule import RULES
 from disting.errors import CatalogError, ContradictionError, InputError, of_type
+from disting.files import Format
 from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.presentation import Shown, plural, summary
 from disting.questions.identifiability import Identifiability
-from disting.schemas import Format
 from disting.verdict.buckets import classes_of
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict

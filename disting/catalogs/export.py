@@ -8,10 +8,10 @@ from collections.abc import Iterable, Sequence
 
 from disting.algebra.certainty import Certainty
 from disting.evidence.positive import PositiveFinding
+from disting.files import Format
 from disting.model.chain import Premise
 from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, Sense
-from disting.schemas import Format
 from disting.verdict.decisions import Decisions
 from disting.verdict.joint import family_safety
 from disting.verdict.result import Relation, error_bound

@@ -20,12 +20,11 @@ from disting.equivalence import (
     among,
     assignments,
     chains_of,
+    equivalents as find,
     explicit_map,
 )
-from disting.equivalence import equivalents as find
 from disting.errors import InputError
-from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
+from disting.model.chain import Chain, text_drawing
 from disting.model.kinds import EXAMPLES
 from disting.model.names import chains_named, name_of
 from disting.network.notation import notations_of

@@ -8,12 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from disting.cli.arguments import parted
-from disting.cli.output import emitted
-from disting.cli.plain import keep_apart
+from disting.cli.output import emitted, keep_apart
 from disting.cli.workers import engine_for
 from disting.equivalence import assignments
 from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
+from disting.files import Format
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import of_network
 from disting.general.balls import Synthesis
@@ -28,7 +28,6 @@ from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.families import family_of
 from disting.network.notation import network_of, notations_of
-from disting.schemas import Format
 from disting.verdict.model_equivalents import ModelEquivalent, model_equivalents
 from disting.verdict.result import Relation
 

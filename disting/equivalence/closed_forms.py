@@ -8,14 +8,13 @@ from dataclasses import replace
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.sampling import residues
-from disting.algebra.symbols import symbols
+from disting.algebra.certainty import residues
+from disting.algebra.symbols import RationalFunction, symbols
 from disting.equivalence.maps import explicit_map
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import on_one_variable
-from disting.general.cases import numbered
 from disting.general.closed_form import ClosedForm, confirmed
+from disting.general.elimination import numbered
 from disting.general.field import Field, Values
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model

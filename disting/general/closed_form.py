@@ -19,11 +19,9 @@ from typing import Any
 from flint import fmpz_mod_ctx, fmpz_mpoly
 from flint.utils.flint_exceptions import DomainError
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import Certainty, Size, about, enough, prime, residues, safety
 from disting.algebra.notation import latex, latex_symbol, text
-from disting.algebra.rational_function import RationalFunction, variables
-from disting.algebra.sampling import Size, about, enough, prime, residues, safety
-from disting.algebra.symbols import factored
+from disting.algebra.symbols import RationalFunction, factored, variables
 from disting.errors import ContradictionError
 from disting.general.any_model import on_one_variable
 from disting.general.field import Step, letters

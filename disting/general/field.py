@@ -16,8 +16,7 @@ from typing import Any
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import coefficients, factored, symbols
+from disting.algebra.symbols import RationalFunction, coefficients, factored, symbols
 from disting.general.orthant import TooMuch
 
 SHORT = 6

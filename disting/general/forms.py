@@ -19,12 +19,13 @@ from disting.conditions.finding import Finding, Outcome
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses
-from disting.evidence.seen import seen
+from disting.evidence.kind import seen
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import confirms_models
 from disting.general.network_model import behaviour_of
+from disting.general.orthant import THOROUGH, Effort
 from disting.general.replacement import simplest_network
 from disting.model.question import Domain
 from disting.network.inverse import at_inverse
@@ -47,7 +48,9 @@ class Forms:
         return Replaced(left, right, *self.larger, inner)
 
 
-def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
+def by_forms(
+    left: AnyModel, right: AnyModel, seed: str, effort: Effort = THOROUGH
+) -> Finding | None:
     """What the simplest networks tell over positive parameters, ABANDONED if they leave it open;
     None where nothing is replaced.
     """
@@ -56,7 +59,7 @@ def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
         forms = forms_of(left, right, larger)
         if forms is None:
             continue
-        found = _answered(*forms.models, seed)
+        found = _answered(*forms.models, seed, effort)
         if larger and found.outcome is not Outcome.FAILS:
             continue
         if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem):
@@ -65,14 +68,16 @@ def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
     return told
 
 
-def by_inverse(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
+def by_inverse(
+    left: AnyModel, right: AnyModel, seed: str, effort: Effort = THOROUGH
+) -> Finding | None:
     """What the same networks tell with 1/s for s, over positive parameters; None if nothing."""
     models = inverse_of(left, right)
     if models is None:
         return None
-    found = by_forms(*models, seed)
+    found = by_forms(*models, seed, effort)
     if found is None:
-        found = _answered(*models, seed)
+        found = _answered(*models, seed, effort)
     if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem | Replaced):
         evidence = AtInverse(models[0].name, models[1].name, found.evidence)
         return replace(found, evidence=evidence)
@@ -94,8 +99,8 @@ def inverse_of(left: AnyModel, right: AnyModel) -> tuple[AnyModel, AnyModel] | N
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _answered(left: AnyModel, right: AnyModel, seed: str) -> Finding:
-    return admissible_finding(left, right, Domain.POSITIVE, seed)
+def _answered(left: AnyModel, right: AnyModel, seed: str, effort: Effort) -> Finding:
+    return admissible_finding(left, right, Domain.POSITIVE, seed, effort)
 
 
 def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:

@@ -8,12 +8,10 @@ from disting.conditions.finding import Finding
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import Refuted, Solved
-from disting.evidence.kind import Kind
+from disting.evidence.kind import Kind, SeenPair, seen
 from disting.evidence.kinds import Evidence
-from disting.evidence.seen import SeenPair, seen
 from disting.fibres.ideals import Limits, seen_again
-from disting.general.admissible import are_one_ports
-from disting.general.admissible import confirms as confirms_points
+from disting.general.admissible import are_one_ports, confirms as confirms_points
 from disting.general.any_model import is_renamed, maps_of
 from disting.general.formulas import is_explicit, is_without
 from disting.general.matrix_model import AnyModel

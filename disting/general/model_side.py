@@ -40,6 +40,7 @@ from disting.general.model_inclusions import (
     numberings,
 )
 from disting.general.network_model import NetworkModel, behaviour_of
+from disting.general.orthant import BRIEF, THOROUGH, Effort
 from disting.general.readings import readings, told
 from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
@@ -49,6 +50,7 @@ from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
+WAS_BRIEF = "the search was brief, disting compare of the two alone goes on for longer"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
 NETWORKS = {REPLACEMENT: replaceable, INTERLACING: interlace}
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
@@ -58,14 +60,24 @@ def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     return admissible_finding(left, right, Domain.REAL, settings.seed)
 
 
-def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
-    found = by_forms(left, right, settings.seed)
+def over_positive(
+    left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
+) -> Finding:
+    """The finding over positive values, as far as this effort goes."""
+    found = by_forms(left, right, settings.seed, effort)
     if found is None:
-        found = admissible_finding(left, right, Domain.POSITIVE, settings.seed)
+        found = admissible_finding(left, right, Domain.POSITIVE, settings.seed, effort)
     if found.outcome is not Outcome.ABANDONED:
         return found
-    turned = by_inverse(left, right, settings.seed)
+    turned = by_inverse(left, right, settings.seed, effort)
     return found if turned is None else turned
+
+
+def _in_brief(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    found = over_positive(left, right, settings, BRIEF)
+    if found.outcome is not Outcome.ABANDONED:
+        return found
+    return replace(found, note=f"{found.note}; {WAS_BRIEF}")
 
 
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
@@ -76,11 +88,18 @@ ADMISSIBLY = {
     ),
     Domain.POSITIVE: Question(
         "positive equivalents of general models",
-        _over_positive,
+        over_positive,
         Finding.to_json,
         _admissible_from_json,
     ),
 }
+BRIEFLY = Question(
+    "positive equivalents of general models, in brief",
+    _in_brief,
+    Finding.to_json,
+    _admissible_from_json,
+)
+"""What is found within small bounds: of the pairs of a large family."""
 Pair = tuple["ComparedModel", "ComparedModel"]
 
 

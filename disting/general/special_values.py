@@ -13,7 +13,7 @@ left of either; whoever compares numerators and denominators as they stand, with
 in them, sees a double pole or a double zero.
 
 `special_values` says of two networks which of them gives all that the other one gives, special
-values included (`disting.network.exact`).
+values included (`disting.network.normal_form`).
 """
 
 from collections.abc import Iterable

@@ -13,8 +13,8 @@ from functools import cache, cached_property
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.constraints import Indices, violated
 from disting.model.presentation import Shown
+from disting.model.structure import Indices, violated
 
 
 @cache  # asked for at every look-up of a pair

@@ -14,10 +14,10 @@ from functools import cache
 from markupsafe import Markup
 
 from disting.algebra.notation import Sum, latex, latex_symbol
-from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import (
     Content,
     Polynomial,
+    RationalFunction,
     coefficients,
     content,
     factors,
@@ -27,11 +27,10 @@ from disting.algebra.symbols import (
 )
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
-from disting.equivalence.images import images
+from disting.equivalence.theorems import images
 from disting.evidence.general import Formula
 from disting.general.expansion import Expansion
-from disting.general.expression import names as symbols_of
-from disting.general.expression import tree
+from disting.general.expression import names as symbols_of, tree
 from disting.general.model import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination

@@ -18,8 +18,7 @@ from disting.evidence.conditions import capital
 from disting.evidence.positive import Share
 from disting.model.question import Domain
 from disting.report.domains import Over
-from disting.report.words import SAID as RELATIONS_SAID
-from disting.report.words import VIEW_TITLES, Decided, raised
+from disting.report.words import SAID as RELATIONS_SAID, VIEW_TITLES, Decided, raised
 from disting.verdict.meaning import RESPONSE, shown
 from disting.verdict.query import View
 from disting.verdict.result import Verdict

@@ -9,13 +9,14 @@ from itertools import product
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
-from disting.catalogs.damper_files import damper_catalog
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import (
+    SHIPPED_SIZES as DAMPER_SIZES,
+    DamperFamily,
+    damper_catalog,
+    damper_name,
+)
 from disting.catalogs.files import SHIPPED_SIZES, name_of
-from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
-from disting.catalogs.sizes_files import name_of as sizes_name
+from disting.catalogs.sizes_files import SizesCatalog, name_of as sizes_name, sizes_catalog
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
@@ -28,9 +29,8 @@ from disting.report.matrix import figure, figure_png, has_slides, slide_name, sl
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.model_list import lists_beside
 from disting.report.motion import motion_page
-from disting.report.next_page import next_page
 from disting.report.next_steps import found_for, page_of
-from disting.report.page import page
+from disting.report.page import next_page, page
 from disting.report.search import ADDRESS, search_script
 from disting.report.sizes import sizes_page
 from disting.report.svg import svg

@@ -44,11 +44,14 @@ def test_what_is_looked_up_is_what_is_decided(name):
             assert looked_up.verdict(i, j).to_dict() == decided.verdict(i, j).to_dict()
 
 
-def test_circuits_of_four_elements_are_all_decided():
-    text = (shipped_folder() / f"{name_of('circuits-4')}.jsonl").read_text(encoding="utf-8")
+@pytest.mark.parametrize(
+    ("name", "count"), [("circuits-4", 96), ("circuits-5", 1590), ("cells-4", 142), ("cells-5", 62)]
+)
+def test_circuits_are_all_decided(name, count):
+    text = (shipped_folder() / f"{name_of(name)}.jsonl").read_text(encoding="utf-8")
     header, *records = map(json.loads, text.splitlines())
     pairs = [r["positive"]["relation"] for r in records[header["models"] :]]
-    assert len(pairs) == 96
+    assert len(pairs) == count
     assert Relation.UNDECIDED.value not in pairs
 
 

@@ -9,15 +9,13 @@ from itertools import product
 import pytest
 import sympy as sp
 from flint import fmpq
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from disting import Family, InputError
 from disting.algebra.groebner.rational import TooLarge, basis
 from disting.conditions.finding import Outcome
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target as chain_target
+from disting.fibres.synthesis.task import Answer, Status, target as chain_target
 from disting.general.alternatives import AT_ONCE, alternatives
 from disting.general.any_model import of_network
 from disting.general.fibre import Extent

@@ -5,6 +5,7 @@ folder with the pages.
 import re
 import shutil
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -27,27 +28,50 @@ def browser() -> Iterator[object]:
         chromium.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def window(browser) -> Iterator[object]:  # type: ignore[no-untyped-def]
-    """Where the tests of a module open a tab each: a window for each test costs a second more.
-    An empty tab keeps it open. The pages keep nothing between visits: no cookies, no storage.
+    """The one tab of a process: another one for each test costs as much as a page. The pages keep
+    nothing between visits: no cookies, no storage.
     """
     context = browser.new_context(viewport={"width": 1280, "height": 800})
-    context.new_page()
-    yield context
+    yield context.new_page()
     assert context.storage_state() == {"cookies": [], "origins": []}
     context.close()
 
 
 @pytest.fixture
-def visit(window, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
+def tab(window) -> object:  # type: ignore[no-untyped-def]
+    """The tab as it was when it was opened: empty, light, on a desk."""
+    window.goto("about:blank")
+    window.set_viewport_size({"width": 1280, "height": 800})
+    window.emulate_media(media="null", color_scheme="null", reduced_motion="null")
+    window.mouse.move(0, 0)
+    return window
+
+
+@contextmanager
+def heard(tab) -> Iterator[tuple[list[str], list[str]]]:  # type: ignore[no-untyped-def]
+    """Messages on the console, and addresses that are asked for, in the meantime."""
+    troubles, requests = list[str](), list[str]()
+    listeners = {
+        "console": lambda message: troubles.append(message.text),
+        "pageerror": lambda error: troubles.append(str(error)),
+        "request": lambda request: requests.append(request.url),
+    }
+    for event, listener in listeners.items():
+        tab.on(event, listener)
+    try:
+        yield troubles, requests
+    finally:
+        for event, listener in listeners.items():
+            tab.remove_listener(event, listener)
+
+
+@pytest.fixture
+def visit(tab, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
     """Open a page of the site; at the end of the test: no message on the console, no request
     but for the site's files.
     """
-    tab, troubles, requests = window.new_page(), [], []
-    tab.on("console", lambda message: troubles.append(message.text))
-    tab.on("pageerror", lambda error: troubles.append(str(error)))
-    tab.on("request", lambda request: requests.append(request.url.split("#")[0]))
 
     def go(path: str, width: int = 1280, scheme: str = "light") -> object:
         tab.set_viewport_size({"width": width, "height": 844 if width < 500 else 800})
@@ -55,14 +79,15 @@ def visit(window, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-de
         tab.goto(f"{site.as_uri()}/{path}")
         return tab
 
-    yield go
-    tab.close()
+    with heard(tab) as (troubles, requests):
+        yield go
+        tab.goto("about:blank")  # what is said at the end is heard too
     assert troubles == []
     assert all(
         re.fullmatch(
             re.escape(site.as_uri())
             + r"/(search\.js|[\w-]+\.html|(?:models|guide)/style\.css|guide/[\w-]+\.html|models/[\w-]+/\d+\.html)",
-            r,
+            request.split("#")[0],
         )
-        for r in requests
+        for request in requests
     )

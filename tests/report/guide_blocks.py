@@ -1,6 +1,7 @@
 """The texts of guide and README, and what their blocks show."""
 
 import re
+from functools import cache
 from pathlib import Path
 
 from markdown_it import MarkdownIt
@@ -13,6 +14,7 @@ TEXTS = {
 }
 
 
+@cache
 def blocks(text: str) -> list[tuple[str, str]]:
     """Kind and content of every block of code."""
     found = MarkdownIt("commonmark").parse(text)

@@ -13,6 +13,7 @@ import pytest
 
 from disting.files import __version__
 from tests.report.barriers import barriers
+from tests.report.conftest import heard
 from tests.report.links import dead_links, is_there, outline
 from tests.report.page_kinds import REPORTS, SCHEMES, SHIPPED, SIGHTS, kinds, write_all
 from tests.report.sight import out_of_sight
@@ -55,12 +56,15 @@ def largest(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def look(window, address: str, views: Sequence[View]) -> list[object]:  # type: ignore[no-untyped-def]
+def look(tab, address: str, views: Sequence[View]) -> list[object]:  # type: ignore[no-untyped-def]
     """What is wrong with a page as it is shown in one window after the other."""
-    tab, wrong = window.new_page(), list[object]()
-    tab.on("console", lambda message: wrong.append(message.text))
-    tab.on("pageerror", lambda error: wrong.append(str(error)))
-    tab.on("request", lambda r: wrong.append(r.url) if not r.url.startswith("file:") else None)
+    with heard(tab) as (troubles, requests):
+        wrong = _seen(tab, address, views)
+    return [*wrong, *troubles, *(url for url in requests if not url.startswith("file:"))]
+
+
+def _seen(tab, address: str, views: Sequence[View]) -> list[object]:  # type: ignore[no-untyped-def]
+    wrong = list[object]()
     for view in views:
         tab.set_viewport_size(dict(zip(("width", "height"), view.sight, strict=True)))
         tab.emulate_media(color_scheme=view.scheme, reduced_motion="reduce")
@@ -75,16 +79,14 @@ def look(window, address: str, views: Sequence[View]) -> list[object]:  # type: 
         wrong += [(view, one) for one in barriers(tab)] if view.axe else []
     here = Path(tab.evaluate("decodeURIComponent(location.pathname)"))
     links = tab.eval_on_selector_all("a[href]", "all => all.map((a) => a.getAttribute('href'))")
-    wrong += [link for link in set(links) if not is_there(here, link)]
-    tab.close()
-    return wrong
+    return [*wrong, *(link for link in set(links) if not is_there(here, link))]
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_all_can_be_seen_and_reached(window, site: Path, kind: str) -> None:  # type: ignore[no-untyped-def]
+def test_all_can_be_seen_and_reached(tab, site: Path, kind: str) -> None:  # type: ignore[no-untyped-def]
     turn = list(KINDS).index(kind) % 2 if kind in JUDGED else None
     views = [View(SIGHTS[0], "light", turn == 0), View(SIGHTS[-1], "dark", turn == 1)]
-    assert look(window, f"{site.as_uri()}/{KINDS[kind]}", views) == []
+    assert look(tab, f"{site.as_uri()}/{KINDS[kind]}", views) == []
 
 
 @pytest.mark.slow
@@ -92,52 +94,45 @@ def test_all_can_be_seen_and_reached(window, site: Path, kind: str) -> None:  # 
 @pytest.mark.parametrize("sight", SIGHTS, ids=str)
 @pytest.mark.parametrize("kind", LARGEST)
 def test_all_can_be_seen_and_reached_everywhere(
-    window, largest: Path, kind: str, sight, scheme: str
+    tab, largest: Path, kind: str, sight, scheme: str
 ) -> None:  # type: ignore[no-untyped-def]
-    assert look(window, f"{largest.as_uri()}/{LARGEST[kind]}", [View(sight, scheme)]) == []
+    assert look(tab, f"{largest.as_uri()}/{LARGEST[kind]}", [View(sight, scheme)]) == []
 
 
-def test_no_page_scrolls_sideways_on_a_phone(window, site: Path) -> None:  # type: ignore[no-untyped-def]
-    tab = window.new_page()
+def test_no_page_scrolls_sideways_on_a_phone(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
     tab.set_viewport_size({"width": 320, "height": 640})
     wide = []
     for page in (*site.glob("guide/*.html"), *sorted(site.glob("models/*/*.html"))[::3]):
         tab.goto(page.as_uri())
         wide += [(page.name, one) for one in out_of_sight(tab)]
-    tab.close()
     assert wide == []
 
 
-def heights(window, pages: Sequence[Path]) -> dict[str, int]:  # type: ignore[no-untyped-def]
+def heights(tab, pages: Sequence[Path]) -> dict[str, int]:  # type: ignore[no-untyped-def]
     """How tall pages are, in pixels, on a desk."""
-    tab = window.new_page()
-    tab.set_viewport_size({"width": 1280, "height": 800})
     found = {}
     for page in pages:
         tab.goto(page.as_uri())
         found[f"{page.parent.name}/{page.name}"] = tab.evaluate(
             "document.documentElement.scrollHeight"
         )
-    tab.close()
     return found
 
 
-def test_no_page_is_endless(window, site: Path) -> None:  # type: ignore[no-untyped-def]
+def test_no_page_is_endless(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
     written = [page for page in site.rglob("*.html") if page.parent.name not in SHIPPED]
     pages = sorted(written, key=lambda page: page.stat().st_size)[-12:]
-    assert {name: high for name, high in heights(window, pages).items() if high > TALL} == {}
+    assert {name: high for name, high in heights(tab, pages).items() if high > TALL} == {}
 
 
 @pytest.mark.slow
-def test_no_shipped_page_is_endless(window) -> None:  # type: ignore[no-untyped-def]
-    found = heights(window, sorted(REPORTS.rglob("*.html")))
+def test_no_shipped_page_is_endless(tab) -> None:  # type: ignore[no-untyped-def]
+    found = heights(tab, sorted(REPORTS.rglob("*.html")))
     assert len(found) > 150
     assert {name: high for name, high in found.items() if high > TALL} == {}
 
 
-def test_what_is_folded_opens_where_an_address_names_it_and_on_paper(window, site: Path) -> None:  # type: ignore[no-untyped-def]
-    tab = window.new_page()
-    tab.set_viewport_size({"width": 1280, "height": 800})
+def test_what_is_folded_opens_where_an_address_names_it_and_on_paper(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
     for address in (
         "guide/python-disting.html#Chain.parameters",
         "guide/commands.html#disting-fit--masses",
@@ -151,10 +146,9 @@ def test_what_is_folded_opens_where_an_address_names_it_and_on_paper(window, sit
     tab.goto(f"{site.as_uri()}/paper/index.html")
     tab.locator("#differing a").first.click()
     assert tab.locator(".claim:target").is_visible()
-    tab.close()
 
 
-def test_what_is_wrong_would_be_found(window, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+def test_what_is_wrong_would_be_found(tab, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
     wrong = {
         "a button": ("<button></button>", "button-name"),
         "words": ('<p style="width: 4em; overflow: hidden">incomprehensibilities</p>', "cut off"),
@@ -182,7 +176,7 @@ def test_what_is_wrong_would_be_found(window, tmp_path: Path) -> None:  # type: 
         f'<!doctype html><html lang="en"><title>t</title><main><h1>t</h1>{bodies}</main></html>',
         encoding="utf-8",
     )
-    found = list(map(str, look(window, page.as_uri(), [View((320, 640), "light")])))
+    found = list(map(str, look(tab, page.as_uri(), [View((320, 640), "light")])))
     assert [
         name for name, (_, said) in wrong.items() if not any(said in one for one in found)
     ] == []

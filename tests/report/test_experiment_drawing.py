@@ -14,8 +14,8 @@ from disting.model.kinds import FORCE, KINDS, LOCK, SENSOR
 from disting.report import model_page
 from disting.report.drawing import draw
 from disting.report.experiment_drawing import added, definitions, sketch, state
-from disting.report.next_page import next_page
 from disting.report.next_steps import advice, found_for, sketches_for_pairs
+from disting.report.page import next_page
 from disting.report.scene import Text, extent
 from tests.report.shapes import meet
 

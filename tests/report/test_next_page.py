@@ -7,8 +7,8 @@ import pytest
 from disting.catalogs import catalog
 from disting.catalogs.next_files import next_catalog
 from disting.report import model_page, write_report
-from disting.report.next_page import next_page
 from disting.report.next_steps import advice, for_pairs, found_for
+from disting.report.page import next_page
 
 DAMPED = catalog(3, damped=True)
 
@@ -71,20 +71,18 @@ def test_a_link_to_a_structure_opens_its_group_and_lands_there(visit):
     assert page.locator("#A2").is_visible() and not page.locator("#A11").is_visible()
 
 
-def test_the_page_of_the_largest_catalogue_is_short_and_its_tables_fit(window, tmp_path: Path):
+def test_the_page_of_the_largest_catalogue_is_short_and_its_tables_fit(tab, tmp_path: Path):
     large = catalog(5, damped=False)
     (tmp_path / "next.html").write_text(next_page(large, next_catalog(5, damped=False)), "utf-8")
-    page = window.new_page()
     for width in (1280, 390):
-        page.set_viewport_size({"width": width, "height": 800})
-        page.goto((tmp_path / "next.html").as_uri())
-        assert page.evaluate("document.documentElement.scrollHeight") < 12_000
-    page.set_viewport_size({"width": 1280, "height": 800})
-    page.goto((tmp_path / "next.html").as_uri() + "#A7")
-    page.reload()
-    table = page.locator("#A7 .scroll")
+        tab.set_viewport_size({"width": width, "height": 800})
+        tab.goto((tmp_path / "next.html").as_uri())
+        assert tab.evaluate("document.documentElement.scrollHeight") < 12_000
+    tab.set_viewport_size({"width": 1280, "height": 800})
+    tab.goto((tmp_path / "next.html").as_uri() + "#A7")
+    tab.reload()
+    table = tab.locator("#A7 .scroll")
     assert table.evaluate("(box) => box.scrollWidth <= box.clientWidth")
-    page.close()
 
 
 @pytest.mark.parametrize("width", [1280, 390])

@@ -18,8 +18,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
+from disting.algebra.certainty import about, prime, residues
 from disting.algebra.groebner.modular import Matrix, matrix, null_space
-from disting.algebra.sampling import about, prime, residues
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue

@@ -20,9 +20,9 @@ from dataclasses import dataclass
 from math import ceil
 from time import process_time
 
+from disting.algebra.certainty import about, residues
 from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.algebra.groebner.points import free_variable, solution
-from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.decision import Decision
@@ -40,6 +40,7 @@ from disting.model.question import Membership
 # draws for one solution modulo the prime: each square root that it needs halves the chance that
 # there is one
 SPARE = 32
+TWO_ANSWERS = "one random point refutes, another does not"
 NO_BOUND = "primes of 64 bits give no useful bound for models of this size"
 
 
@@ -59,6 +60,10 @@ class Limits:
 
 
 Told = Decision[Solved | Refuted]
+
+
+def _unknown(reason: str) -> Told:
+    return Decision(Membership.UNKNOWN, reason=reason)
 
 
 class _GivenUp(Exception):
@@ -128,7 +133,7 @@ def decide(
     one.
     """
     if given.degrees[1] != other.degrees[1]:
-        return Decision(Membership.UNKNOWN, reason="the numbers of poles differ")
+        return _unknown("the numbers of poles differ")
     return decide_matched(
         *matched(given, other), equal_rank=equal_rank, seed=seed, limits=limits, members=members
     )
@@ -151,24 +156,18 @@ def decide_matched(
     bits = bits_of(left, right, equal_rank)
     too_long = bits > BITS and not limits.long
     if too_long or safety_of_empty(left, right, equal_rank, bits) < LEAST:
-        return Decision(Membership.UNKNOWN, reason=NO_BOUND)
-    question = _Question(
-        left=left,
-        right=right,
-        equal_rank=equal_rank,
-        limits=limits,
-        deadline=process_time() + limits.seconds,
-    )
+        return _unknown(NO_BOUND)
+    question = _Question(left, right, equal_rank, limits, process_time() + limits.seconds)
     try:
         ways = (True, False) if equal_rank else (True,)
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
         if basis.is_one:
             return _excluded(question, run, basis, seed)
         if not members or run.ideal.modulus.bit_length() > BITS:
-            return Decision(Membership.UNKNOWN, reason="a random point has solutions")
+            return _unknown("a random point has solutions")
         return _member(question, run, basis, seed)
     except _GivenUp as why:
-        return Decision(Membership.UNKNOWN, reason=str(why))
+        return _unknown(str(why))
 
 
 def is_empty(
@@ -178,13 +177,7 @@ def is_empty(
     one run, in this direction. Raises NotSeenError where the limits end it.
     """
     _refuse(given, other, equal_rank, "verify")
-    question = _Question(
-        left=given,
-        right=other,
-        equal_rank=equal_rank,
-        limits=limits,
-        deadline=process_time() + limits.seconds,
-    )
+    question = _Question(given, other, equal_rank, limits, process_time() + limits.seconds)
     if safety_of_empty(given, other, equal_rank, bits_of(given, other, equal_rank)) < LEAST:
         raise NotSeenError(NO_BOUND)
     try:
@@ -245,9 +238,7 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
                 question, [question.run(run.left_given, _label(seed, len(labels)))]
             )
             if not found.is_one:
-                return Decision(
-                    Membership.UNKNOWN, reason="one random point refutes, another does not"
-                )
+                return _unknown(TWO_ANSWERS)
             labels.append(again.label)
             degree = max(degree, found.degree)
     except _GivenUp as why:
@@ -262,9 +253,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     try:
         for number in range(1, SPARE * wanted + 1):
             if basis.is_one:
-                return Decision(
-                    Membership.UNKNOWN, reason="one random point refutes, another does not"
-                )
+                return _unknown(TWO_ANSWERS)
             solved = _solution(question, run, basis)
             found |= {run.label: solved} if solved else {}
             if len(found) == wanted:
@@ -273,10 +262,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     except _GivenUp as why:
         reason = str(why)
     if not found:
-        return Decision(
-            Membership.UNKNOWN,
-            reason=reason or "no solution with coordinates modulo the prime was found",
-        )
+        return _unknown(reason or "no solution with coordinates modulo the prime was found")
     evidence = Solved(run.left_given, tuple(found), tuple(found.values()))
     return Decision(Membership.MEMBER, each * len(found) - question.price, evidence, reason)
 

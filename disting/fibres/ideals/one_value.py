@@ -39,9 +39,8 @@ from dataclasses import dataclass
 from math import ceil, log2
 from time import process_time
 
-from disting.algebra.certainty import LEAST_SAFETY
+from disting.algebra.certainty import LEAST_SAFETY, about
 from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
-from disting.algebra.sampling import about
 from disting.errors import ContradictionError
 from disting.fibres.ideals.bounds import LEAST, safety_of_one_value, safety_of_other_values
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal

@@ -15,15 +15,22 @@ import numpy as np
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.modes import Result
-from disting.fit.results.confidence import Confidence, confidence, response_of
+from disting.fit.results.selection import Confidence, confidence, response_of
 from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.report.fit.axes import degrees, logarithmic, spread
-from disting.report.fit.distorted import beneath
-from disting.report.fit.series import Series, band, bars, points, series_of
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.series import Series, band, bars, beneath, points, series_of
+from disting.report.fit.style import (
+    Drawn,
+    Tone,
+    degrees,
+    drawn,
+    heading,
+    is_narrow,
+    logarithmic,
+    spread,
+)
 from disting.report.fit.words import name, readable, response_unit, result_unit
 
 if TYPE_CHECKING:
@@ -208,15 +215,7 @@ def _amplitude(
     wide = np.exp(QUANTILE * np.minimum(line.sure.amplitude, WIDEST))
     band(panel, hertz, np.abs(line.G) / wide, np.abs(line.G) * wide)
     for (label, values), dashes in zip(inertias, ((0, (6, 3)), (0, (1.5, 2))), strict=False):
-        panel.semilogy(
-            hertz,
-            values,
-            color=Tone.MUTED,
-            linestyle=dashes,
-            linewidth=1.2,
-            label=label,
-            zorder=1.5,
-        )
+        panel.semilogy(hertz, values, color=Tone.MUTED, ls=dashes, lw=1.2, label=label, zorder=1.5)
     shown = np.concatenate([np.abs(line.G), *(np.abs(s.measured.G) for s in series)])
     low, high = shown.min() / 1.4, shown.max() * 1.4
     panel.set_ylim(low, high)

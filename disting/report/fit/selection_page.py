@@ -14,15 +14,13 @@ from disting.fit.judge.reading import read_in_words
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
-from disting.report.fit.answer import answer
+from disting.report.fit.answer import answer, parameter_rows, result_row, shown_set
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
-from disting.report.fit.not_excluded import shown_set
 from disting.report.fit.onward import Site, next_steps
 from disting.report.fit.responses import drawing, seen_together, shown_responses
 from disting.report.fit.sentences import first_lines, suspicions
 from disting.report.fit.style import Drawn
-from disting.report.fit.table_rows import parameter_rows, result_row
 from disting.report.fit.words import (
     cost_in_words,
     name,

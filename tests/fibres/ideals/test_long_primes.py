@@ -5,11 +5,11 @@ that words give none.
 import pytest
 
 from disting import compare
+from disting.algebra.certainty import prime
 from disting.algebra.groebner.elimination import Basis, basis_steps
-from disting.algebra.groebner.macaulay import reaches_one
-from disting.algebra.sampling import prime
 from disting.fibres.ideals import Limits, normalised
 from disting.fibres.ideals.bounds import LEAST, bits_of, safety_of_empty
+from disting.fibres.ideals.confirm import reaches_one
 from disting.fibres.ideals.fibre_ideal import BITS, LONG_BITS, fibre_ideal
 from disting.fibres.ideals.membership import NO_BOUND, decide_matched
 from disting.general.any_model import maps_of, of_network

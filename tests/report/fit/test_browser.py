@@ -15,6 +15,7 @@ from disting.model.chain import Chain
 from disting.report.fit import fit_page
 from disting.report.fit.onward import Site, next_steps
 from disting.report.fit.style import Drawn
+from tests.report.conftest import heard
 from tests.report.links import follow_link
 
 REPORTS = Path(__file__).parents[3] / "reports"
@@ -33,63 +34,62 @@ def page(
 
 
 @pytest.fixture
-def tab(window, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
+def opened(tab, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
     """The page; at the end of the test: no message on the console, no request but for the file."""
-    opened, troubles, requests = window.new_page(), [], []
-    opened.on("console", lambda message: troubles.append(message.text))
-    opened.on("pageerror", lambda error: troubles.append(str(error)))
-    opened.on("request", lambda request: requests.append(request.url))
-    opened.goto(page.as_uri())
-    yield opened
-    opened.close()
+    with heard(tab) as (troubles, requests):
+        tab.goto(page.as_uri())
+        yield tab
     assert troubles == []
     assert requests == [page.as_uri()]
 
 
-def test_columns_sort_both_ways_infinite_numbers_last(tab, selection: Selection) -> None:  # type: ignore[no-untyped-def]
+def test_columns_sort_both_ways_infinite_numbers_last(opened, selection: Selection) -> None:  # type: ignore[no-untyped-def]
     def column(n: int) -> list[float]:
-        cells = tab.locator(f".candidates tbody tr td:nth-child({n})").all()
+        cells = opened.locator(f".candidates tbody tr td:nth-child({n})").all()
         return [float(cell.get_attribute("data-value") or cell.inner_text()) for cell in cells]
 
     for n, head in ((3, "J cross-validated"), (5, "J train"), (6, "Parameters"), (8, "PII ratio")):
         before = column(n)
-        tab.get_by_role("button", name=head).click()
+        opened.get_by_role("button", name=head).click()
         assert column(n) == sorted(before)
-        assert tab.locator('th[aria-sort="ascending"]').inner_text().count(head) == 1
-        tab.get_by_role("button", name=head).click()
+        assert opened.locator('th[aria-sort="ascending"]').inner_text().count(head) == 1
+        opened.get_by_role("button", name=head).click()
         assert column(n) == sorted(before, reverse=True)
-    tab.get_by_role("button", name="Rank").click()
+    opened.get_by_role("button", name="Rank").click()
     assert column(1) == list(range(1, len(selection.candidates) + 1))
 
 
-def test_figures_follow_light_and_dark(tab) -> None:  # type: ignore[no-untyped-def]
+def test_figures_follow_light_and_dark(opened) -> None:  # type: ignore[no-untyped-def]
     def paper() -> str:
-        return str(tab.evaluate("getComputedStyle(document.querySelector('.plot path')).fill"))
+        return str(opened.evaluate("getComputedStyle(document.querySelector('.plot path')).fill"))
 
     light = paper()
-    tab.emulate_media(color_scheme="dark")
+    opened.emulate_media(color_scheme="dark")
     assert (light, paper()) == ("rgb(255, 255, 255)", "rgb(26, 33, 41)")
 
 
-def test_reasons_open_on_demand(tab) -> None:  # type: ignore[no-untyped-def]
-    reasons = tab.locator(".candidates details").first
+def test_reasons_open_on_demand(opened) -> None:  # type: ignore[no-untyped-def]
+    reasons = opened.locator(".candidates details").first
     assert not reasons.locator("span").first.is_visible()
     reasons.locator("summary").click()
     assert "exceeds" in reasons.locator("span").first.inner_text()
 
 
-def test_a_command_is_copied_whole(tab, selection: Selection) -> None:  # type: ignore[no-untyped-def]
-    tab.context.grant_permissions(["clipboard-read", "clipboard-write"])
-    button = tab.locator("#next .command button").first
+def test_a_command_is_copied_whole(opened, selection: Selection) -> None:  # type: ignore[no-untyped-def]
+    opened.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    button = opened.locator("#next .command button").first
     button.click()
-    tab.wait_for_function("document.querySelector('#next .command button').textContent !== 'Copy'")
-    assert tab.evaluate("getSelection().toString()") == next_steps(selection)[0].command
+    opened.wait_for_function(
+        "document.querySelector('#next .command button').textContent !== 'Copy'"
+    )
+    assert opened.evaluate("getSelection().toString()") == next_steps(selection)[0].command
+    opened.context.clear_permissions()
 
 
-def test_commands_break_between_their_words(tab) -> None:  # type: ignore[no-untyped-def]
+def test_commands_break_between_their_words(opened) -> None:  # type: ignore[no-untyped-def]
     """On a phone --damped stays one word, and the command is read to its end."""
-    tab.set_viewport_size({"width": 390, "height": 844})
-    code = tab.locator("#next .command code").first
+    opened.set_viewport_size({"width": 390, "height": 844})
+    code = opened.locator("#next .command code").first
     heights = code.evaluate(
         "(e) => [...e.children].slice(0, 4).map((word) => word.getClientRects().length)"
     )
@@ -98,7 +98,7 @@ def test_commands_break_between_their_words(tab) -> None:  # type: ignore[no-unt
 
 
 def test_structures_lead_to_the_catalogue(
-    window,  # type: ignore[no-untyped-def]
+    tab,  # type: ignore[no-untyped-def]
     selection: Selection,
     train: FrequencyResponse,
     starts: Drawn,
@@ -110,10 +110,8 @@ def test_structures_lead_to_the_catalogue(
     found = replace(selection, members=(replace(first, twins=(loaded,)),))
     text = fit_page(found, [], [starts], train, site=Site(REPORTS, tmp_path))
     (tmp_path / "fit.html").write_text(text, encoding="utf-8")
-    opened = window.new_page()
     for link, title in ((".member h3 a", "Model A1"), (".same a", "1+b2")):
-        opened.goto((tmp_path / "fit.html").as_uri())
-        follow_link(opened, link)
-        opened.wait_for_selector(f"h1:has-text('{title}'), #detail h3:has-text('{title}')")
-    assert opened.url.endswith("dampers-3-damped.html#1+b2")
-    opened.close()
+        tab.goto((tmp_path / "fit.html").as_uri())
+        follow_link(tab, link)
+        tab.wait_for_selector(f"h1:has-text('{title}'), #detail h3:has-text('{title}')")
+    assert tab.url.endswith("dampers-3-damped.html#1+b2")

@@ -26,11 +26,10 @@ from disting.report.fit import (
     waterfall,
     write_fit_report,
 )
-from disting.report.fit.criteria import limits, nearest, weakest
+from disting.report.fit.criteria import limits, nearest, parameters_by_threshold, weakest
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.selection_page import reasoning
 from disting.report.fit.style import Drawn
-from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name, readable
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline

@@ -1,4 +1,4 @@
-"""Ball arithmetic for branches: what a ball proves, and roots as sharp as the coefficients allow.
+"""Branches of a search in ball arithmetic: what a ball proves, and what the end of a branch can be.
 
 A ball holds a number that is not known exactly. It proves that a number is not zero by leaving
 zero out; it never proves that a number is zero. So a branch is killed by a ball, and never
@@ -8,12 +8,14 @@ either way and call for more bits.
 The receptance of a row that is to be realised, as balls.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+import itertools
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from enum import StrEnum
 from itertools import combinations
 from typing import Any
 
-from flint import acb, acb_poly, arb, ctx
+from flint import acb, acb_poly, arb, ctx, fmpq
 
 from disting.model.row import Row
 
@@ -176,3 +178,95 @@ class Receptance:
         return Receptance(
             acb_poly(self.numerator.coeffs()[::2]), acb_poly(self.denominator.coeffs()[::2])
         )
+
+
+class Reason(StrEnum):
+    """Why a branch ends without a solution; only NONZERO is a proof that it holds none."""
+
+    NONZERO = "a ball leaves out a zero that every solution has"
+    BOUNDARY = "an element or leading coefficient cannot be told from zero"
+    OPEN = "this type of chain is not covered"
+
+
+@dataclass(frozen=True, slots=True)
+class Dead:
+    """A branch without a solution."""
+
+    reason: Reason
+
+
+@dataclass(frozen=True, slots=True)
+class RowValues:
+    """Numbers for the masses and springs of a row, from the left, or of masses beside a port, from
+    the port outwards; k(s) = c + d s (undamped: c). `gauges`: how many free choices were made.
+
+    `dampers`: from each mass to the ground, 0 where there is none; empty where no mass has one.
+    """
+
+    masses: tuple[Ball, ...] = ()
+    springs: tuple[Poly, ...] = ()
+    gauges: int = 0
+    dampers: tuple[Ball, ...] = ()
+
+    @property
+    def all_dampers(self) -> tuple[Ball, ...]:
+        """One for every mass."""
+        return self.dampers or (acb(0),) * len(self.masses)
+
+
+Leaf = RowValues | Dead
+NONZERO, BOUNDARY, OPEN = (Dead(reason) for reason in Reason)
+
+
+def mirrored(leaf: Leaf) -> Leaf:
+    """The same numbers read from right to left."""
+    if not isinstance(leaf, RowValues):
+        return leaf
+    return replace(
+        leaf, masses=leaf.masses[::-1], springs=leaf.springs[::-1], dampers=leaf.dampers[::-1]
+    )
+
+
+def combined(
+    left: Iterable[Leaf],
+    right: Callable[[], Iterable[Leaf]],
+    join: Callable[[RowValues, RowValues], Leaf],
+) -> Iterator[Leaf]:
+    """All pairs, then what is left open; nothing but proofs if one side is proven impossible.
+
+    `right` is asked only if the left side is not refuted.
+    """
+    first = list(left)
+    second = [] if _refuted(first) else list(right())
+    for side in (first, second):
+        if _refuted(side):
+            yield from side
+            return
+    for a, b in itertools.product(first, second):
+        if isinstance(a, RowValues) and isinstance(b, RowValues):
+            yield join(a, b)
+    yield from (leaf for leaf in (*first, *second) if isinstance(leaf, Dead))
+
+
+def _refuted(leaves: list[Leaf]) -> bool:
+    return bool(leaves) and all(leaf == NONZERO for leaf in leaves)
+
+
+def circle(degree: int, radius: float) -> list[Ball]:
+    """As many points on a circle as a polynomial of this degree has coefficients."""
+    return [radius * u for u in _unit(degree + 1)]
+
+
+def through(values: list[Ball], radius: float) -> Poly:
+    """The polynomial with these values on the `circle`."""
+    count, unit = len(values), _unit(len(values))
+    sums = [
+        sum((v * unit[-i * k % count] for k, v in enumerate(values)), acb(0)) / count
+        for i in range(count)
+    ]
+    return poly([c / acb(radius) ** i for i, c in enumerate(sums)])
+
+
+def _unit(count: int) -> list[Ball]:
+    """The roots of unity."""
+    return [acb.exp_pi_i(acb(fmpq(2 * j, count))) for j in range(count)]

@@ -1,5 +1,4 @@
-"""Undamped chains seen from one end: masses and springs are rational functions of those of other
-chains.
+"""Equivalents that theorems give: symmetries, duality, and Cauer's continued fraction.
 
 In x = s^2 the receptance N/D of a row of masses at its end obeys D/N = m x + 1/(1/k + N'/D'),
 N'/D' that of the rest (Cauer's continued fraction): m is the ratio of leading coefficients, k the
@@ -15,6 +14,12 @@ With K the stiffness matrix and D = tau K, A(s) = M s^2 + (1 + tau s) K = (1 + t
 s^2/(1 + tau s). So the receptance is H(s) = H0(u)/(1 + tau s), with u in place of s^2 in H0, the
 receptance without dampers: two undamped chains have the same receptance exactly if they have with
 D = tau K, for every tau. Equivalents of other damping are not found this way.
+
+Symmetries (`disting.model.symmetry`) rename parameters; the duality theorem
+(`disting.fibres.synthesis.theorems`) applies where both ports sit at the two sides of the gap. All
+are exact in any field, numbers or rational functions, and keep positive parameters positive.
+Symmetries, duality, symmetries again: more duality leads back, as only the mirrored form leaves
+the gap.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -24,17 +29,19 @@ from typing import Any
 
 from flint import fmpq
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import coefficients, symbols
+from disting.algebra.symbols import RationalFunction, coefficients, symbols
 from disting.behaviour.transfer import plain_receptance
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Solution
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Solution, target
+from disting.fibres.synthesis.theorems import are_dual, dual
 from disting.model.chain import Chain
 from disting.model.structure import Ports, Structure
+from disting.model.symmetry import forms
 
 Number = Any  # an element of a field
 Outwards = tuple[list[Number], list[Number]]  # masses and springs from the port outwards
+Values = Mapping[str, Number]
+DUALITY = "duality of chains with both ports at the gap"
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,3 +163,54 @@ def _with_dampers(chain: Chain, values: dict[str, Any], tau: Any) -> dict[str, A
         name: values[f"k{name[1:]}"] * tau if name[0] == "d" else values[name]
         for name in chain.parameters
     }
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """A chain with the same transfer function, its parameters, and the theorems that lead to it
+    (none: the chain itself).
+    """
+
+    chain: Chain
+    values: Values
+    steps: tuple[str, ...]
+
+
+def images(chain: Chain, values: Values) -> tuple[Image, ...]:
+    """All of them, the chain itself first, those by fewer theorems before the others, none twice.
+
+    >>> two = Chain(2, damped=False)
+    >>> [str(i.chain) for i in images(two, {"m1": 1.0, "m2": 2.0, "k12": 3.0})][1]
+    '2 masses, gap 0, force 2-0, sensor 2-0'
+    """
+    found: list[Image] = []
+    for image in (*_moved(Image(chain, values, ())), *_duals(Image(chain, values, ()))):
+        if not any(image.chain == known.chain and image.values == known.values for known in found):
+            found.append(image)
+    return tuple(sorted(found, key=lambda image: len(image.steps)))
+
+
+def dual_chain(chain: Chain) -> Chain | None:
+    """The chain that the duality theorem leads to, if it applies.
+
+    >>> dual_chain(Chain(3, damped=True)) == Chain(3, 2, 2, 3, 2, 3, damped=True)
+    True
+    """
+    h = chain.n_masses - 1 - chain.gap
+    other = replace(chain, gap=h, act_minus=h, act_plus=h + 1, meas_minus=h, meas_plus=h + 1)
+    return other if are_dual(chain, other) else None
+
+
+def _moved(image: Image) -> Iterator[Image]:
+    """The forms of a chain by symmetries."""
+    for form in forms(image.chain):
+        values = {form.renaming[name]: value for name, value in image.values.items()}
+        ordered = {name: values[name] for name in form.chain.parameters}
+        yield Image(form.chain, ordered, (*image.steps, *(s.value for s in form.symmetries)))
+
+
+def _duals(image: Image) -> Iterator[Image]:
+    for form in _moved(image):
+        other = dual_chain(form.chain)
+        if other is not None:
+            yield from _moved(Image(other, dual(form.chain, form.values), (*form.steps, DUALITY)))
