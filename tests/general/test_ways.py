@@ -24,7 +24,7 @@ from disting.general.elimination import Case
 from disting.general.formulas import fit, is_explicit
 from disting.general.model import Model
 from disting.general.model_evidence import confirms
-from disting.general.orthant import Orthant, value_at
+from disting.general.orthant import Effort, Orthant, value_at
 from disting.general.robust import Parted
 from disting.general.sections import held, sections
 from disting.general.which_models import Way, way
@@ -429,3 +429,14 @@ def test_a_path_too_large_to_be_looked_at_is_found_by_counting():
             search = Search(replace(ring, degree=degree), (1, 2))
             parted = Parted(search, (), (Case((equation,)),), ring.number(1))
             assert bool(Way(model, model, parted, ()).path()) is found
+
+
+def test_a_small_effort_ends_a_search_and_says_nothing():
+    """With as many terms as it takes it finds what it finds without end."""
+    left, right = tf("n", "(s + n + x)*(s + y)"), tf("n", "(s + n + y)*(s + x)")
+    every = way(left, right, Domain.POSITIVE)
+    assert every.covering or every.path() or every.parted.sections
+    assert way(left, right, Domain.POSITIVE, Effort(terms=3)) is None
+    assert way(left, right, Domain.POSITIVE, Effort(orders=0)) is None
+    enough = way(left, right, Domain.POSITIVE, Effort(terms=100_000))
+    assert (enough.covering, enough.parted.sections) == (every.covering, every.parted.sections)
