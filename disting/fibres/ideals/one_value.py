@@ -66,9 +66,7 @@ class _GivenUp(Exception):
     pass
 
 
-def one_value(
-    model: PolynomialMap, names: Iterable[str], *, seed: str, limits: Limits = LIMITS
-) -> Values:
+def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Values:
     """Which of these parameters, each locally identifiable, have one value.
 
     >>> from disting.fibres.ideals.system import coefficient_map
@@ -84,14 +82,14 @@ def one_value(
     each = min(safety_of_one_value(model), safety_of_other_values(model))
     if each < LEAST:
         return Values(reason="primes of 64 bits give no useful bound for models of this size")
-    runs = ceil((limits.safety + ceil(log2(len(wanted) + 1))) / each)
-    deadline = process_time() + limits.seconds
+    runs = ceil((LIMITS.safety + ceil(log2(len(wanted) + 1))) / each)
+    deadline = process_time() + LIMITS.seconds
     label = about(f"one value:{seed}", model.content)
     found: dict[str, bool] = {}
     try:
         for run in range(runs):
             asked = wanted if not run else list(found)
-            for name, is_one in _at_point(model, asked, f"{label}:{run}", limits, deadline):
+            for name, is_one in _at_point(model, asked, f"{label}:{run}", deadline):
                 if found.setdefault(name, is_one) != is_one:
                     return Values(reason="one random point contradicts another")
     except _GivenUp as why:
@@ -101,11 +99,11 @@ def one_value(
 
 
 def _at_point(
-    model: PolynomialMap, names: Iterable[str], label: str, limits: Limits, deadline: float
+    model: PolynomialMap, names: Iterable[str], label: str, deadline: float
 ) -> Iterator[tuple[str, bool]]:
     """Yield whether each parameter has no other value in the fibre of one random point."""
     ideal = fibre_ideal(model, model, label, equal_rank=True)
-    basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, limits, deadline)
+    basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, deadline)
     if basis.is_one:
         raise ContradictionError("a point does not lie in its own fibre")
     known = dict(zip(model.parameters, ideal.point, strict=True))
@@ -116,7 +114,7 @@ def _at_point(
     for name in names:
         at, value = ideal.unknowns.index(name), known[name]
         given = _is_given(rows, at, value, ideal.modulus)
-        yield name, given or _has_no_other(ideal, rows, at, value, limits, deadline)
+        yield name, given or _has_no_other(ideal, rows, at, value, deadline)
 
 
 def _is_given(rows: Iterable[Sparse], at: int, value: int, modulus: int) -> bool:
@@ -138,7 +136,6 @@ def _has_no_other(
     rows: Iterable[Sparse],
     at: int,
     value: int,
-    limits: Limits,
     deadline: float,
 ) -> bool:
     """Whether no solution has another value than p0: 1 is in the ideal with t (q - p0) - 1."""
@@ -146,21 +143,19 @@ def _has_no_other(
     t, zero = _power(size, size - 1), (0,) * size
     inverse = {(*_power(size - 1, at), 1): 1, t: -value, zero: -1}
     lifted = [{(*e, 0): c for e, c in row.items()} for row in rows]
-    return _basis([*lifted, inverse], size, ideal.modulus, limits, deadline).is_one
+    return _basis([*lifted, inverse], size, ideal.modulus, deadline).is_one
 
 
-def _basis(
-    generators: Iterable[Sparse], size: int, modulus: int, limits: Limits, deadline: float
-) -> Basis:
+def _basis(generators: Iterable[Sparse], size: int, modulus: int, deadline: float) -> Basis:
     """The Gröbner basis; raises _GivenUp."""
     try:
         for step in basis_steps(generators, size, modulus):
             if isinstance(step, Basis):
                 return step
-            if step > limits.entries:
+            if step > LIMITS.entries:
                 raise _GivenUp(f"too large: a matrix of {step} entries")
             if process_time() > deadline:
-                raise _GivenUp(f"out of time ({limits.seconds:g} s)")
+                raise _GivenUp(f"out of time ({LIMITS.seconds:g} s)")
     except TooLarge as error:
         raise _GivenUp(f"too large: {error}") from None
     raise AssertionError("a Gröbner basis ends with a basis")
