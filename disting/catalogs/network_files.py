@@ -40,6 +40,7 @@ COMMAND = "disting catalog families"
 SHIPPED = (
     "machines-2",
     "machines-2-damped",
+    "machines-3",
     "circuits-4",
     "circuits-5",
     "cells-4",

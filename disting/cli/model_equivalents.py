@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
     named = _named(options.to, options) if options.to else []
     others = [model for model in (*listed, *named) if model.name != given.name]
     keep_apart(model.name for model in (given, *others))
-    if named == [given]:  # which other values does it have
+    if [model.name for model in named] == [given.name]:  # which other values does it have
         others = named
     values = assignments(options.values) if options.values else None
     formulas = options.formulas or options.latex or options.sympy
@@ -134,9 +134,10 @@ def _formulas(
     """
     mark = _mark(options)
     for x in found:
-        if x.verdict.relation is not Relation.INDISTINGUISHABLE:
-            continue
         yield ""
+        if x.verdict.relation is not Relation.INDISTINGUISHABLE:
+            yield f"{mark}{x.model.name}: {x.verdict.told} (no formulas; --set gives values)"
+            continue
         yield f"{mark}{x.model.name}   (primed)"
         try:
             forms = closed_forms(given, x.model, x.verdict)

@@ -19,7 +19,7 @@ sets of invariants, one by one; where those are too many, or where it is silent 
 coordinates are others, these few are asked in no time.
 
 A rank seen at a point modulo a prime is a lower bound. So the larger one is proven, and the smaller
-one is wrong only where a minor that is not zero vanishes at all points (`algebra.sampling`). A
+one is wrong only where a minor that is not zero vanishes at all points (`algebra.certainty`). A
 minor of k rows has a degree of at most the sum of those of the coordinates, less one each; its
 coefficients sum to at most k! times the product of the largest sums of a gradient's entry.
 

@@ -26,7 +26,7 @@ from disting.network.element import Sort
 from disting.network.network import Network
 from disting.questions.same.exact import SAFETY, decided
 
-LIMITS = Limits(safety=SAFETY)
+LIMITS = Limits(safety=SAFETY, long=True)
 M = TypeVar("M", Model, AnyModel)
 
 

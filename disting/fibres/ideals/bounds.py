@@ -125,7 +125,7 @@ from dataclasses import dataclass
 from math import lgamma, log, log2, prod
 
 from disting.algebra.certainty import Size
-from disting.fibres.ideals.fibre_ideal import BITS
+from disting.fibres.ideals.fibre_ideal import BITS, LONG_BITS
 from disting.fibres.ideals.system import PolynomialMap, Terms
 
 ROUNDING = 1 + 2.0**-40  # of a sum of logarithms in floating point
@@ -168,6 +168,7 @@ def _log_sum(norm: float) -> float:
 
 
 VARIABLE = Bounded(1, 0.0)
+LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,6 +199,11 @@ def safety_of_empty(
         Size(n * size.weight + 2 * minor, int(n * size.bits + 2 * minor_bits) + 1),
         bits,
     )
+
+
+def bits_of(given: PolynomialMap, other: PolynomialMap, equal_rank: bool) -> int:
+    """Of the primes modulo which a fibre is looked at: words, unless one run says nothing then."""
+    return BITS if safety_of_empty(given, other, equal_rank) >= LEAST else LONG_BITS
 
 
 def safety_of_member(given: PolynomialMap, other: PolynomialMap, bits: int = BITS) -> int:

@@ -14,10 +14,11 @@ common zeros.
 from collections.abc import Iterable, Mapping, Sequence
 from math import comb
 
-from flint import fmpz_mpoly, nmod_mat, nmod_poly
+from flint import fmpz_mpoly, nmod_poly
 
+from disting.algebra.groebner.modular import matrix as modular_matrix
 from disting.evidence.ideals import Refuted, Solved
-from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
+from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
@@ -63,9 +64,10 @@ def _echelon(
 ) -> list[dict[tuple[int, ...], int]]:
     columns = sorted({e for row in rows for e in row}, key=_rank, reverse=True)
     table = [row.get(e, 0) % modulus for row in rows for e in columns]
-    matrix, rank = nmod_mat(len(rows), len(columns), table, modulus).rref()
+    matrix, rank = modular_matrix(len(rows), len(columns), table, modulus).rref()
     return [
-        {e: int(matrix[i, j]) for j, e in enumerate(columns) if matrix[i, j]} for i in range(rank)
+        {e: int(matrix[i, j]) for j, e in enumerate(columns) if int(matrix[i, j])}
+        for i in range(rank)
     ]
 
 
@@ -137,7 +139,8 @@ def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: Pol
             len(q) == len(other.parameters) and agree(given, point, other, q, modulus)
             for (modulus, point), q in ((drawn(given, label), q) for label, q in runs)
         )
-    ideals = (fibre_ideal(given, other, label, evidence.tangent) for label in evidence.labels)
+    bits = bits_of(given, other, evidence.tangent)
+    ideals = (fibre_ideal(given, other, label, evidence.tangent, bits) for label in evidence.labels)
     return bool(evidence.labels) and all(
         reaches_one(i.generators, len(i.unknowns), i.modulus, evidence.degree) for i in ideals
     )
@@ -160,7 +163,9 @@ def safety_of(
         return 0
     if isinstance(evidence, Solved):
         return safety_of_member(given, other) * count - 1
-    return safety_of_empty(given, other, True) * count - 1 if evidence.tangent else 0
+    if not evidence.tangent:
+        return 0
+    return safety_of_empty(given, other, True, bits_of(given, other, True)) * count - 1
 
 
 def _agree(

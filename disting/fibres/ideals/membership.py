@@ -26,12 +26,17 @@ from disting.algebra.groebner.points import free_variable, solution
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.decision import Decision
-from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
-from disting.fibres.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
+from disting.fibres.ideals.bounds import LEAST, bits_of, safety_of_empty, safety_of_member
+from disting.fibres.ideals.fibre_ideal import (
+    BITS,
+    FibreIdeal,
+    agree,
+    fibre_ideal,
+    generic_rank,
+)
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
 from disting.model.question import Membership
 
-LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 # draws for one solution modulo the prime: each square root that it needs halves the chance that
 # there is one
 SPARE = 32
@@ -44,12 +49,14 @@ class Limits:
     """`entries` of one matrix (about 1 microsecond each), `safety` wanted bits, `seconds` for the
     whole decision.
 
-    The seconds are those of this process, whatever else the machine does.
+    The seconds are those of this process, whatever else the machine does. `long`: whether primes
+    longer than a word are taken where words give no useful bound; a run takes ten times as long.
     """
 
     seconds: float = 60.0
     entries: int = 20_000_000
     safety: int = 100
+    long: bool = False
 
 
 Told = Decision[Solved | Refuted]
@@ -97,7 +104,9 @@ class _Question:
         """The Gröbner basis of the fibre in this direction, at the point of this label, ready
         to be computed step by step.
         """
-        ideal = fibre_ideal(*self.sides(left_given), label, self.equal_rank)
+        sides = self.sides(left_given)
+        bits = bits_of(*sides, self.equal_rank)
+        ideal = fibre_ideal(*sides, label, self.equal_rank, bits)
         return _Run(
             left_given,
             label,
@@ -144,7 +153,9 @@ def decide_matched(
     """
     _refuse(left, right, equal_rank, seed)
     seed = _of_maps(seed, left, right)
-    if safety_of_empty(left, right, equal_rank) < LEAST:
+    bits = bits_of(left, right, equal_rank)
+    too_long = bits > BITS and not limits.long
+    if too_long or safety_of_empty(left, right, equal_rank, bits) < LEAST:
         return _unknown(NO_BOUND)
     question = _Question(left, right, equal_rank, limits, process_time() + limits.seconds)
     try:
@@ -152,7 +163,7 @@ def decide_matched(
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
         if basis.is_one:
             return _excluded(question, run, basis, seed)
-        if not members:
+        if not members or run.ideal.modulus.bit_length() > BITS:
             return _unknown("a random point has solutions")
         return _member(question, run, basis, seed)
     except _GivenUp as why:
@@ -167,7 +178,7 @@ def is_empty(
     """
     _refuse(given, other, equal_rank, "verify")
     question = _Question(given, other, equal_rank, limits, process_time() + limits.seconds)
-    if safety_of_empty(given, other, equal_rank) < LEAST:
+    if safety_of_empty(given, other, equal_rank, bits_of(given, other, equal_rank)) < LEAST:
         raise NotSeenError(NO_BOUND)
     try:
         return _race(question, [question.run(True, label)])[1].is_one
@@ -218,7 +229,8 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
 
 
 def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
-    each = safety_of_empty(*question.sides(run.left_given), question.equal_rank)
+    bits = run.ideal.modulus.bit_length()
+    each = safety_of_empty(*question.sides(run.left_given), question.equal_rank, bits)
     labels, degree, reason = [run.label], basis.degree, ""
     try:
         while len(labels) < _needed(question, each):

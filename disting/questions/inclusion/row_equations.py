@@ -8,7 +8,7 @@ monomials of a block as columns and random models as rows, the kernel of the mat
 equations of this block modulo the prime, reduced from equations over the integers, if the matrix
 has its generic rank: if one minor, a polynomial with integer coefficients in the parameters of all
 these models, does not vanish. The probability that it does is bounded by
-`algebra.sampling.safety`.
+`algebra.certainty.safety`.
 """
 
 from collections import defaultdict
