@@ -44,7 +44,7 @@ from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_
 from disting.errors import ContradictionError
 from disting.fibres.ideals.bounds import LEAST, safety_of_one_value, safety_of_other_values
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
-from disting.fibres.ideals.membership import Limits
+from disting.fibres.ideals.membership import NO_BOUND, GivenUp, Limits
 from disting.fibres.ideals.system import PolynomialMap
 
 LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
@@ -62,10 +62,6 @@ class Values:
     reason: str = ""
 
 
-class _GivenUp(Exception):
-    pass
-
-
 def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Values:
     """Which of these parameters, each locally identifiable, have one value.
 
@@ -81,7 +77,7 @@ def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Value
         return Values()
     each = min(safety_of_one_value(model), safety_of_other_values(model))
     if each < LEAST:
-        return Values(reason="primes of 64 bits give no useful bound for models of this size")
+        return Values(reason=NO_BOUND)
     runs = ceil((LIMITS.safety + ceil(log2(len(wanted) + 1))) / each)
     deadline = process_time() + LIMITS.seconds
     label = about(f"one value:{seed}", model.content)
@@ -92,7 +88,7 @@ def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Value
             for name, is_one in _at_point(model, asked, f"{label}:{run}", deadline):
                 if found.setdefault(name, is_one) != is_one:
                     return Values(reason="one random point contradicts another")
-    except _GivenUp as why:
+    except GivenUp as why:
         return Values(reason=str(why))
     one, several = (tuple(n for n in wanted if found[n] is kind) for kind in (True, False))
     return Values(one, several, each * runs - ceil(log2(len(wanted) + 1)))
@@ -147,15 +143,15 @@ def _has_no_other(
 
 
 def _basis(generators: Iterable[Sparse], size: int, modulus: int, deadline: float) -> Basis:
-    """The Gröbner basis; raises _GivenUp."""
+    """The Gröbner basis; raises GivenUp."""
     try:
         for step in basis_steps(generators, size, modulus):
             if isinstance(step, Basis):
                 return step
             if step > LIMITS.entries:
-                raise _GivenUp(f"too large: a matrix of {step} entries")
+                raise GivenUp(f"too large: a matrix of {step} entries")
             if process_time() > deadline:
-                raise _GivenUp(f"out of time ({LIMITS.seconds:g} s)")
+                raise GivenUp(f"out of time ({LIMITS.seconds:g} s)")
     except TooLarge as error:
-        raise _GivenUp(f"too large: {error}") from None
+        raise GivenUp(f"too large: {error}") from None
     raise AssertionError("a Gröbner basis ends with a basis")
