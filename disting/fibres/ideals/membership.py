@@ -25,7 +25,7 @@ from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_
 from disting.algebra.groebner.points import free_variable, solution
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
-from disting.fibres.decision import Decision
+from disting.evidence.kinds import Decision
 from disting.fibres.ideals.bounds import LEAST, bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import (
     BITS,
