@@ -33,7 +33,7 @@ from disting.model.chain import Chain
 from disting.model.names import damping_option
 from disting.network.element import Sort
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
-from disting.report.fit.plan_write import write_plan
+from disting.report.fit.write import write_plan
 
 AnyNamed = Named | NamedNetworks
 LINES = 120

@@ -30,7 +30,17 @@ from disting.model.presentation import summary
 
 
 @dataclass(frozen=True, slots=True)
-class Necessary:
+class Condition:
+    """A row of the table: a rule, and how it is asked."""
+
+    rule: Rule
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Necessary(Condition):
     """A condition on a property of profiles.
 
     `key` is the property of one model that must agree, `grade` the certainty of a failure, `check`
@@ -38,39 +48,27 @@ class Necessary:
     parameters do not have.
     """
 
-    rule: Rule
     key: Callable[[Profile], Hashable]
     grade: Callable[[Profile, Profile], Grade]
     check: Callable[[Profile, Profile], Finding]
     of_degrees: bool = False
     of_dependences: bool = False
 
-    def __repr__(self) -> str:
-        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
 
-
-@dataclass(frozen=True, slots=True)
-class Sufficient:
+@dataclass(frozen=True, slots=True, repr=False)
+class Sufficient(Condition):
     """A condition on the exhaustive summaries of two sides, in a representation, with so
     many Markov parameters.
     """
 
-    rule: Rule
     check: Callable[[AnySide, AnySide, Representation, int], Finding]
 
-    def __repr__(self) -> str:
-        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
 
-
-@dataclass(frozen=True, slots=True)
-class Structural:
+@dataclass(frozen=True, slots=True, repr=False)
+class Structural(Condition):
     """A sufficient condition on the model structure, in no representation."""
 
-    rule: Rule
     check: Callable[[AnySide, AnySide], Finding]
-
-    def __repr__(self) -> str:
-        return summary(self, f"{self.rule.in_words()}, {self.rule.title}")
 
 
 def _renaming(left: AnySide, right: AnySide, representation: Representation, count: int) -> Finding:

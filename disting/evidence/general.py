@@ -2,12 +2,12 @@
 and without one; constants.
 """
 
-from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import ClassVar
 
 from disting.errors import listed
 from disting.evidence.decision import Theorem
-from disting.evidence.kind import Carrier, Claim, Kind, Labels, plain_fields, read
+from disting.evidence.kind import Carrier, Claim, Kind, Labels
 from disting.model.question import Domain, Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
@@ -182,12 +182,6 @@ class Replaced(Kind):
         return Relation.UNDECIDED if larger and found is not Relation.DISTINGUISHABLE else found
 
     @property
-    def turned(self) -> "Replaced":
-        """The same of the pair in the other order."""
-        larger = self.right_larger, self.left_larger
-        return Replaced(self.right, self.left, *larger, self.inner.turned)
-
-    @property
     def title(self) -> str:
         """What the inner one is called."""
         return self.inner.title
@@ -205,17 +199,6 @@ class Replaced(Kind):
     def formula(self) -> str:
         """That of the inner one."""
         return self.inner.formula
-
-    @classmethod
-    def from_dict(cls, data: dict[str, Any]) -> "Replaced":
-        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
-        inner = read(data["inner"], (Explicit, NoEquivalent, Witnesses, Theorem))
-        return cls(**plain_fields(data) | {"inner": inner})
-
-    def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        told = {f.name: getattr(self, f.name) for f in fields(self)}
-        return {"kind": self.kind, **told, "inner": self.inner.to_dict()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,11 +218,6 @@ class AtInverse(Kind):
         return self.inner.shows(domain) if domain is Domain.POSITIVE else Relation.UNDECIDED
 
     @property
-    def turned(self) -> "AtInverse":
-        """The same of the pair in the other order."""
-        return AtInverse(self.right, self.left, self.inner.turned)
-
-    @property
     def title(self) -> str:
         """What the inner one is called."""
         return self.inner.title
@@ -255,21 +233,6 @@ class AtInverse(Kind):
     def formula(self) -> str:
         """That of the inner one."""
         return self.inner.formula
-
-    @classmethod
-    def from_dict(cls, data: dict[str, Any]) -> "AtInverse":
-        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
-        inner = read(data["inner"], (Explicit, NoEquivalent, Witnesses, Theorem, Replaced))
-        return cls(**plain_fields(data) | {"inner": inner})
-
-    def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        return {
-            "kind": self.kind,
-            "left": self.left,
-            "right": self.right,
-            "inner": self.inner.to_dict(),
-        }
 
 
 OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced | AtInverse

@@ -21,10 +21,9 @@ from disting.model.question import Domain, Relation
 Labels = tuple[str, ...]
 POINTS = 3
 MOST_MARKOV = 1000  # of a file that somebody else wrote: each costs a row
-GONE = {
-    "program": "an external program, which decides nothing now",
-    "row": "an answer about rows of masses that is shipped no more",
-}  # kinds that older versions wrote, each with what it rested on
+# kinds that older versions wrote, each with what it rested on
+OUTSIDE = "an external program, which decides nothing now"
+GONE = {"program": OUTSIDE, "row": "an answer about rows of masses that is shipped no more"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,9 +48,9 @@ class Seen:
 
     def free(self, representation: str, rows: Labels) -> set[str]:
         """Those of them that vary."""
-        seen = self._samples(representation, rows)
-        labels = enumerate(seen[0].labels)
-        return {label for i, label in labels if any(any(s.rows[i]) for s in seen)}
+        first, *more = self._samples(representation, rows)
+        labels = enumerate(first.labels)
+        return {label for i, label in labels if any(any(s.rows[i]) for s in (first, *more))}
 
     def _samples(self, representation: str, rows: Labels) -> tuple[Sample, ...]:
         return self.draw(Representation(representation), markov_count(rows))
@@ -93,8 +92,8 @@ def markov_count(labels: Labels) -> int:
     """Markov parameters needed to have all these labels, such as G3 or G3[2]; raises ValueError for
     more than are looked at.
     """
-    found = [re.fullmatch(r"G(\d{1,9})(?:\[\d+\])?", label) for label in labels]
-    most = max((int(x[1]) for x in found if x), default=0)
+    matches = (re.fullmatch(r"G(\d{1,9})(?:\[\d+\])?", label) for label in labels)
+    most = max((int(x[1]) for x in matches if x), default=0)
     if most > MOST_MARKOV:
         raise ValueError(f"G{most} is beyond the first {MOST_MARKOV} Markov parameters")
     return most
@@ -106,12 +105,10 @@ def spelled(labels: Labels) -> str:
     >>> spelled(("b0", "b1", "b2", "a1")), spelled(("b0[2]", "b1[2]"))
     ('b0–b2, a1', 'b0[2]–b1[2]')
     """
-    found = [re.fullmatch(r"([A-Za-z]+)(\d+)(.*)", label) for label in labels]
-    numbered = [(m[1] + m[3], int(m[2])) if m else ("", -1) for m in found]
-    runs = [
-        list(run)
-        for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))
-    ]
+    matches = [re.fullmatch(r"([A-Za-z]+)(\d+)(.*)", label) for label in labels]
+    numbered = enumerate((m[1] + m[3], int(m[2])) if m else ("", -1) for m in matches)
+    groups = groupby(numbered, key=lambda x: (x[1][0], x[1][1] - x[0]))
+    runs = [list(run) for _, run in groups]
     ends = [(labels[run[0][0]], labels[run[-1][0]]) for run in runs]
     return ", ".join(a if a == b else f"{a}–{b}" for a, b in ends)
 
@@ -220,21 +217,34 @@ class Kind:
     @property
     def turned(self) -> Self:
         """The same of the pair in the other order, where fields tell left from right."""
-        told = {f.name: getattr(self, f.name) for f in fields(self)}
-        sides = {name: name.replace("left", "right") for name in told if "left" in name}
-        twins = {name: twin for name, twin in sides.items() if twin in told}
-        flipped = {name: not told[name] for name in sides.keys() - twins.keys()}
-        swapped = {a: told[b] for pair in twins.items() for a, b in (pair, pair[::-1])}
-        return replace(self, **flipped, **swapped)
+        values = {f.name: getattr(self, f.name) for f in fields(self)}
+        inner = {name: value.turned for name, value in values.items() if isinstance(value, Kind)}
+        sides = {name: name.replace("left", "right") for name in values if "left" in name}
+        twins = {name: twin for name, twin in sides.items() if twin in values}
+        flipped = {name: not values[name] for name in sides.keys() - twins.keys()}
+        swapped = {a: values[b] for pair in twins.items() for a, b in (pair, pair[::-1])}
+        return replace(self, **inner, **flipped, **swapped)
 
     def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        return {"kind": self.kind, **asdict(self)}
+        """Plain data, ready for JSON; evidence inside it in its own form."""
+        values = ((f.name, getattr(self, f.name)) for f in fields(self))
+        inner = {name: value.to_dict() for name, value in values if hasattr(value, "to_dict")}
+        return {"kind": self.kind, **asdict(self), **inner}
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Self:
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
-        return cls(**plain_fields(data))
+        kind: Any = cls
+        hints = _hints(kind)
+        return cls(**{x: _field(value, hints.get(x)) for x, value in data.items() if x != "kind"})
+
+
+def _field(value: Any, hint: Any) -> Any:
+    """The value of a field: evidence by its kind, what reads itself, or plain data."""
+    kinds = [k for k in get_args(hint) or (hint,) if isinstance(k, type) and issubclass(k, Kind)]
+    if kinds:
+        return read(value, kinds)
+    return hint.from_dict(value) if hasattr(hint, "from_dict") else tupled(value)
 
 
 def read(data: dict[str, Any], kinds: Iterable[type[Any]]) -> Any:
@@ -261,15 +271,16 @@ def is_well_typed(evidence: Any) -> bool:
     """Whether every field of evidence, however deep, is of the type that its class says: what a
     file holds may be anything. None is no evidence.
     """
-    return evidence is None or all(
-        _is_of(getattr(evidence, name), hint) for name, hint in _hints(type(evidence)).items()
-    )
+    kind: Any = type(evidence)
+    known = {} if evidence is None else _hints(kind)
+    return all(_is_of(getattr(evidence, name), hint) for name, hint in known.items())
 
 
-def _hints(kind: type[Any]) -> dict[str, Any]:
+@cache
+def _hints(kind: Any) -> dict[str, Any]:
     """Types of the fields of a dataclass or a named tuple."""
-    found = get_type_hints(kind)
-    return {name: hint for name, hint in found.items() if get_origin(hint) is not ClassVar}
+    hints = get_type_hints(kind)
+    return {name: hint for name, hint in hints.items() if get_origin(hint) is not ClassVar}
 
 
 def _is_of(value: Any, hint: Any) -> bool:

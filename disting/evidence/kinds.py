@@ -1,9 +1,12 @@
 """Every kind of evidence that verdicts and inclusions rest on, by what it is evidence of; those of
 findings on positive parameters are `positive.PositiveEvidence`. A kind that is not named in one of
 these unions is read by nothing.
+
+What fibres tell of two models: the one answer of both engines, synthesis and ideals.
 """
 
-from typing import Any, get_args
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar, get_args
 
 from disting.evidence.across_sizes import AcrossSizes
 from disting.evidence.conditions import ByConditions, Counts
@@ -21,7 +24,9 @@ from disting.evidence.limits import (
     RowsInside,
 )
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
+from disting.model.question import Membership
 
+E = TypeVar("E", bound=FibreAt | Solved | Refuted | ByRows, covariant=True)
 ByDecision = Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | Refuted | Shared
 Evidence = (
     ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
@@ -42,6 +47,21 @@ InclusionEvidence = (
     | Solved
     | Refuted
 )
+
+
+@dataclass(frozen=True, slots=True)
+class Decision(Generic[E]):
+    """`membership` with its evidence; the probability of error is at most 2**-safety. `reason`
+    says why not, or not more. A refutation row by row with `safety` 0 is proven.
+    """
+
+    membership: Membership
+    safety: int = 0
+    evidence: E | None = None
+    reason: str = ""
+
+    def __bool__(self) -> bool:
+        raise TypeError("a decision is not true or false; look at its membership")
 
 
 def evidence_from(data: dict[str, Any]) -> Evidence:

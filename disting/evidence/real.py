@@ -2,8 +2,8 @@
 odd numbers of equivalents.
 """
 
-from dataclasses import asdict, dataclass
-from typing import Any, ClassVar, Self
+from dataclasses import dataclass
+from typing import ClassVar
 
 from disting.evidence.decision import Theorem
 from disting.evidence.kind import Carrier, Claim, Kind
@@ -66,19 +66,6 @@ class RealWitnesses(Kind):
             " poles and zeros cannot be shared out among the rows without parting two conjugates."
         )
 
-    def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        return {"kind": self.kind, **asdict(self), "with_one": self.with_one.to_dict()}
-
-    @classmethod
-    def from_dict(cls, data: dict[str, Any]) -> Self:
-        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
-        without = tuple((str(name), str(value)) for name, value in data["without"])
-        with_one = PositiveFinding.from_dict(data["with_one"])
-        return cls(
-            bool(data["without_left_given"]), without, bool(data["with_left_given"]), with_one
-        )
-
 
 def _rounded(value: str) -> str:
     numerator, _, denominator = value.partition("/")
@@ -137,15 +124,6 @@ class BothWays(Kind):
         """Of both ways, each once."""
         ways = (way.evidence.title for way in (self.left, self.right) if way.evidence)
         return " and ".join(dict.fromkeys(filter(None, ways)))
-
-    def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        return {"kind": self.kind, "left": self.left.to_dict(), "right": self.right.to_dict()}
-
-    @classmethod
-    def from_dict(cls, data: dict[str, Any]) -> Self:
-        """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
-        return cls(*(PositiveFinding.from_dict(data[side]) for side in ("left", "right")))
 
 
 @dataclass(frozen=True, slots=True)

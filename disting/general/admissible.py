@@ -72,16 +72,10 @@ def of_ways(
     """The finding from what is known each way; raises ContradictionError where that cannot all
     be true.
     """
-    for left_given, one in zip((True, False), ways, strict=True):
-        if one and one.never:
-            _refuse_equivalents(ways, domain, seed)
-            closed = tuple(dict.fromkeys(one.parted.search.closed))
-            return Finding(
-                ADMISSIBLE,
-                Outcome.FAILS,
-                Certainty.PROVEN,
-                evidence=NoEquivalent(domain.value, left_given, closed),
-            )
+    never = next((i for i, one in enumerate(ways) if one and one.never), None)
+    if never is not None:
+        _refuse_equivalents(ways, domain, seed)
+        return _never(ways, never, domain)
     if all(one and one.covering for one in ways):
         return _always(explicit(ways, left, right, domain, effort), left, right)
     if domain is Domain.POSITIVE and are_one_ports(left, right):
@@ -140,6 +134,14 @@ def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fra
         )
         yield dict(zip(model.parameters, signed, strict=True))
         k += 1
+
+
+def _never(ways: Ways, at: int, domain: Domain) -> Finding:
+    """No generic parameters have an equivalent, as the way at this place shows."""
+    one = ways[at]
+    closed = tuple(dict.fromkeys(one.parted.search.closed)) if one else ()
+    evidence = NoEquivalent(domain.value, at == 0, closed)
+    return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
 
 
 def _refuse_equivalents(ways: Ways, domain: Domain, seed: str) -> None:

@@ -17,7 +17,6 @@ from disting.model.chain import Chain
 from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
 from disting.report.drawing import draw
 from disting.report.environment import render
-from disting.report.families import Families, families
 from disting.report.page import decides
 from disting.report.page_drawing import (
     Drawing,
@@ -27,6 +26,7 @@ from disting.report.page_drawing import (
     height_with_dampers,
     shared,
 )
+from disting.report.search import Families, families
 from disting.report.words import plural
 from disting.verdict.result import Relation
 

@@ -12,12 +12,12 @@ from disting.catalogs.sizes_files import SizesCatalog
 from disting.report.damper_page import family_title
 from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
-from disting.report.families import families
 from disting.report.matrix import thumbnail
 from disting.report.model import model_of, motion_of
 from disting.report.page_drawing import Drawing, definitions
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene
+from disting.report.search import families
 from disting.report.svg import body, number
 from disting.report.words import plural, short_title, totals
 from disting.verdict.result import Relation

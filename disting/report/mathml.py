@@ -16,7 +16,7 @@ from markupsafe import Markup
 
 from disting.algebra.notation import split_name
 from disting.algebra.symbols import Polynomial, RationalFunction, Term, factors, terms
-from disting.questions.identifiability.formula import Formula
+from disting.questions.identifiability.parts import Formula
 
 
 def math(inner: str) -> Markup:

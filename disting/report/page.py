@@ -23,7 +23,6 @@ from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
-from disting.report.families import Families, families
 from disting.report.matrix import has_slides, slide_name
 from disting.report.model import folder_of, model_of, motion_of
 from disting.report.motion import start_values
@@ -39,6 +38,7 @@ from disting.report.next_steps import (
 )
 from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
+from disting.report.search import Families, families
 from disting.report.words import (
     VIEW_TITLES,
     headline,

@@ -17,9 +17,9 @@ from disting.files import __version__
 from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.report.domains import VIEWS, over
 from disting.report.environment import render
-from disting.report.families import Families, families
 from disting.report.page_drawing import SharedDrawing, definitions, shared
 from disting.report.payload import packed, payload
+from disting.report.search import Families, families
 from disting.report.words import VIEW_TITLES, plural, raised
 from disting.verdict.query import View
 from disting.verdict.result import Verdict

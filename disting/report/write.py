@@ -20,7 +20,6 @@ from disting.catalogs.sizes_files import SizesCatalog, name_of as sizes_name, si
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
-from disting.report.families import Families, families
 from disting.report.guide import PREFIX, Part, guide, guide_files
 from disting.report.index import Link, index
 from disting.report.ladenheim import ADDRESS as LADENHEIM
@@ -31,7 +30,7 @@ from disting.report.model_list import lists_beside
 from disting.report.motion import motion_page
 from disting.report.next_steps import found_for, page_of
 from disting.report.page import next_page, page
-from disting.report.search import ADDRESS, search_script
+from disting.report.search import ADDRESS, Families, families, search_script
 from disting.report.sizes import sizes_page
 from disting.report.svg import svg
 from disting.report.words import VIEW_TITLES

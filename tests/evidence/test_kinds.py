@@ -10,6 +10,7 @@ import pytest
 import disting.evidence
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import Theorem
+from disting.evidence.general import AtInverse, NoEquivalent, Replaced
 from disting.evidence.ideals import ByRows, RowStep, Solved, Vanishing
 from disting.evidence.kind import read
 from disting.evidence.kinds import (
@@ -117,3 +118,14 @@ def test_a_name_that_no_theorem_has_is_refused():
     assert evidence_from(Solved(True, ("a",), ((1, 2),)).to_dict()) == Solved(
         True, ("a",), ((1, 2),)
     )
+
+
+def test_evidence_inside_evidence_is_written_read_and_turned_with_it():
+    inner = NoEquivalent("positive", True, ("p0 < 0",))
+    outer = AtInverse("a", "b", Replaced("c", "d", True, False, inner))
+    replaced = {"kind": "replaced", "left": "c", "right": "d"}
+    larger = {"left_larger": True, "right_larger": False, "inner": inner.to_dict()}
+    plain = {"kind": "at-inverse", "left": "a", "right": "b", "inner": replaced | larger}
+    assert outer.to_dict() == plain and AtInverse.from_dict(plain) == outer
+    turned = Replaced("d", "c", False, True, NoEquivalent("positive", False, ("p0 < 0",)))
+    assert outer.turned == AtInverse("b", "a", turned)

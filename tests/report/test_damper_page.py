@@ -17,10 +17,10 @@ from disting.report import damper_page
 from disting.report.damper_page import counts
 from disting.report.damper_payload import bits, mirror, numbered, payload
 from disting.report.drawing import draw
-from disting.report.families import families
 from disting.report.index import runs
 from disting.report.page_drawing import ground_dampers, shared
 from disting.report.scene import Ink
+from disting.report.search import families
 from disting.verdict.result import Relation
 
 

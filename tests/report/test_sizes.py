@@ -17,7 +17,7 @@ from disting.catalogs import catalog
 from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
 from disting.questions.inclusion import Inclusion
 from disting.report import write_report
-from disting.report.families import families
+from disting.report.search import families
 from disting.report.sizes import (
     LEFT_INSIDE,
     NO_LIMIT,

@@ -5,7 +5,7 @@ For any two models that are given as coefficient maps, not only chains; chains w
 apart first (`by_two_rows`). Independent of `disting.fibres.synthesis`.
 """
 
-from disting.fibres.decision import Decision as Decision
+from disting.evidence.kinds import Decision as Decision
 from disting.fibres.ideals.by_shares import chains_told_apart as chains_told_apart
 from disting.fibres.ideals.by_two_rows import (
     confirms_by_rows as confirms_by_rows,

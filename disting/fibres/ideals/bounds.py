@@ -221,7 +221,7 @@ def safety_of_member(given: PolynomialMap, other: PolynomialMap, bits: int = BIT
     return _safety(Size(delta * first.degrees[0], int(size.bits + put_in) + 1), bits)
 
 
-def safety_of_one_value(model: PolynomialMap, bits: int = BITS) -> int:
+def safety_of_one_value(model: PolynomialMap) -> int:
     """Bits of error probability of "a parameter has one value in generic fibres" from one empty
     fibre of other values (see `one_value`): that of an empty fibre of the model in itself, with one
     relation more.
@@ -234,10 +234,10 @@ def safety_of_one_value(model: PolynomialMap, bits: int = BITS) -> int:
     minor = sum(degrees)
     minor_bits = n * (shape.norm + log2(shape.degrees[0] * max(n, 1)))
     size = Size((n + 1) * found.weight + 2 * minor, int((n + 1) * found.bits + 2 * minor_bits) + 1)
-    return _safety(size, bits)
+    return _safety(size, BITS)
 
 
-def safety_of_other_values(model: PolynomialMap, bits: int = BITS) -> int:
+def safety_of_other_values(model: PolynomialMap) -> int:
     """Bits of error probability of "a parameter has several values in generic fibres" from one
     fibre of other values that is not empty (see `one_value`).
 
@@ -249,7 +249,7 @@ def safety_of_other_values(model: PolynomialMap, bits: int = BITS) -> int:
     norm = shape.norm + _mixing(prod(forms) ** 2, len(shape.degrees) + 1)
     found = relation([Bounded(d, norm) for d in forms] + [VARIABLE] * (n + 2 - len(forms)))
     put_in = found.weight * norm + (len(forms) + 1) * log2(found.weight + 1)
-    return _safety(Size(found.weight, int(found.bits + put_in) + 1), bits)
+    return _safety(Size(found.weight, int(found.bits + put_in) + 1), BITS)
 
 
 def _related(shape: _Shape, equations: int, combined: bool, variables: int) -> Relation:

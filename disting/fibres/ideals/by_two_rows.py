@@ -20,7 +20,7 @@ from dataclasses import replace
 from flint import fmpz_mpoly
 
 from disting.evidence.ideals import ByRows, RowStep, Shown, Solved, Vanishing
-from disting.fibres.decision import Decision
+from disting.evidence.kinds import Decision
 from disting.fibres.ideals.confirm import confirms
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.membership import Limits, decide

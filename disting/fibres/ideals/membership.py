@@ -25,7 +25,7 @@ from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_
 from disting.algebra.groebner.points import free_variable, solution
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
-from disting.fibres.decision import Decision
+from disting.evidence.kinds import Decision
 from disting.fibres.ideals.bounds import LEAST, bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import (
     BITS,
@@ -66,8 +66,8 @@ def _unknown(reason: str) -> Told:
     return Decision(Membership.UNKNOWN, reason=reason)
 
 
-class _GivenUp(Exception):
-    pass
+class GivenUp(Exception):
+    """What ends a search at its limits, in words."""
 
 
 @dataclass(slots=True)
@@ -107,12 +107,8 @@ class _Question:
         sides = self.sides(left_given)
         bits = bits_of(*sides, self.equal_rank)
         ideal = fibre_ideal(*sides, label, self.equal_rank, bits)
-        return _Run(
-            left_given,
-            label,
-            ideal,
-            basis_steps(ideal.generators, len(ideal.unknowns), ideal.modulus),
-        )
+        steps = basis_steps(ideal.generators, len(ideal.unknowns), ideal.modulus)
+        return _Run(left_given, label, ideal, steps)
 
 
 def decide(
@@ -166,7 +162,7 @@ def decide_matched(
         if not members or run.ideal.modulus.bit_length() > BITS:
             return _unknown("a random point has solutions")
         return _member(question, run, basis, seed)
-    except _GivenUp as why:
+    except GivenUp as why:
         return _unknown(str(why))
 
 
@@ -182,7 +178,7 @@ def is_empty(
         raise NotSeenError(NO_BOUND)
     try:
         return _race(question, [question.run(True, label)])[1].is_one
-    except _GivenUp as why:
+    except GivenUp as why:
         raise NotSeenError(f"the contradiction was not found again ({why})") from None
 
 
@@ -208,12 +204,12 @@ def _label(seed: str, number: int) -> str:
 
 def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
     """The first basis that is found, always doing the step with the least total work; raises
-    _GivenUp.
+    GivenUp.
     """
     why = "no direction"
     while runs:
         if process_time() > question.deadline:
-            raise _GivenUp(f"out of time ({question.limits.seconds:g} s)")
+            raise GivenUp(f"out of time ({question.limits.seconds:g} s)")
         run = min(runs, key=lambda r: r.work)
         try:
             step = next(run.steps)
@@ -225,7 +221,7 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
         if step > question.limits.entries:
             why = why if why != "no direction" else f"a matrix of {step} entries"
             runs.remove(run)
-    raise _GivenUp(f"too large: {why}")
+    raise GivenUp(f"too large: {why}")
 
 
 def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
@@ -241,7 +237,7 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
                 return _unknown(TWO_ANSWERS)
             labels.append(again.label)
             degree = max(degree, found.degree)
-    except _GivenUp as why:
+    except GivenUp as why:
         reason = str(why)
     evidence = Refuted(run.left_given, tuple(labels), degree, question.equal_rank)
     return Decision(Membership.EXCLUDED, each * len(labels) - question.price, evidence, reason)
@@ -259,7 +255,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
             if len(found) == wanted:
                 break
             run, basis = _race(question, [question.run(run.left_given, _label(seed, number))])
-    except _GivenUp as why:
+    except GivenUp as why:
         reason = str(why)
     if not found:
         return _unknown(reason or "no solution with coordinates modulo the prime was found")
@@ -269,7 +265,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
 
 def _needed(question: _Question, each: int) -> int:
     if each <= question.price:
-        raise _GivenUp("primes of 64 bits give no bound for models of this size")
+        raise GivenUp("primes of 64 bits give no bound for models of this size")
     return ceil((question.limits.safety + question.price) / each)
 
 
@@ -288,8 +284,7 @@ def _solution(question: _Question, run: _Run, basis: Basis) -> tuple[int, ...] |
         _, basis = _race(question, [_Run(run.left_given, run.label, ideal, steps)])
         if basis.is_one:
             return None
-    found = solution(basis, run.label)
-    if found is None:
+    if (found := solution(basis, run.label)) is None:
         return None
     given, other = question.sides(run.left_given)
     named = ideal.fixed | dict(zip(ideal.unknowns, found, strict=True))

@@ -44,7 +44,7 @@ from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_
 from disting.errors import ContradictionError
 from disting.fibres.ideals.bounds import LEAST, safety_of_one_value, safety_of_other_values
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
-from disting.fibres.ideals.membership import Limits
+from disting.fibres.ideals.membership import NO_BOUND, GivenUp, Limits
 from disting.fibres.ideals.system import PolynomialMap
 
 LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
@@ -62,13 +62,7 @@ class Values:
     reason: str = ""
 
 
-class _GivenUp(Exception):
-    pass
-
-
-def one_value(
-    model: PolynomialMap, names: Iterable[str], *, seed: str, limits: Limits = LIMITS
-) -> Values:
+def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Values:
     """Which of these parameters, each locally identifiable, have one value.
 
     >>> from disting.fibres.ideals.system import coefficient_map
@@ -83,29 +77,29 @@ def one_value(
         return Values()
     each = min(safety_of_one_value(model), safety_of_other_values(model))
     if each < LEAST:
-        return Values(reason="primes of 64 bits give no useful bound for models of this size")
-    runs = ceil((limits.safety + ceil(log2(len(wanted) + 1))) / each)
-    deadline = process_time() + limits.seconds
+        return Values(reason=NO_BOUND)
+    runs = ceil((LIMITS.safety + ceil(log2(len(wanted) + 1))) / each)
+    deadline = process_time() + LIMITS.seconds
     label = about(f"one value:{seed}", model.content)
     found: dict[str, bool] = {}
     try:
         for run in range(runs):
             asked = wanted if not run else list(found)
-            for name, is_one in _at_point(model, asked, f"{label}:{run}", limits, deadline):
+            for name, is_one in _at_point(model, asked, f"{label}:{run}", deadline):
                 if found.setdefault(name, is_one) != is_one:
                     return Values(reason="one random point contradicts another")
-    except _GivenUp as why:
+    except GivenUp as why:
         return Values(reason=str(why))
     one, several = (tuple(n for n in wanted if found[n] is kind) for kind in (True, False))
     return Values(one, several, each * runs - ceil(log2(len(wanted) + 1)))
 
 
 def _at_point(
-    model: PolynomialMap, names: Iterable[str], label: str, limits: Limits, deadline: float
+    model: PolynomialMap, names: Iterable[str], label: str, deadline: float
 ) -> Iterator[tuple[str, bool]]:
     """Yield whether each parameter has no other value in the fibre of one random point."""
     ideal = fibre_ideal(model, model, label, equal_rank=True)
-    basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, limits, deadline)
+    basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, deadline)
     if basis.is_one:
         raise ContradictionError("a point does not lie in its own fibre")
     known = dict(zip(model.parameters, ideal.point, strict=True))
@@ -116,7 +110,7 @@ def _at_point(
     for name in names:
         at, value = ideal.unknowns.index(name), known[name]
         given = _is_given(rows, at, value, ideal.modulus)
-        yield name, given or _has_no_other(ideal, rows, at, value, limits, deadline)
+        yield name, given or _has_no_other(ideal, rows, at, value, deadline)
 
 
 def _is_given(rows: Iterable[Sparse], at: int, value: int, modulus: int) -> bool:
@@ -138,7 +132,6 @@ def _has_no_other(
     rows: Iterable[Sparse],
     at: int,
     value: int,
-    limits: Limits,
     deadline: float,
 ) -> bool:
     """Whether no solution has another value than p0: 1 is in the ideal with t (q - p0) - 1."""
@@ -146,21 +139,19 @@ def _has_no_other(
     t, zero = _power(size, size - 1), (0,) * size
     inverse = {(*_power(size - 1, at), 1): 1, t: -value, zero: -1}
     lifted = [{(*e, 0): c for e, c in row.items()} for row in rows]
-    return _basis([*lifted, inverse], size, ideal.modulus, limits, deadline).is_one
+    return _basis([*lifted, inverse], size, ideal.modulus, deadline).is_one
 
 
-def _basis(
-    generators: Iterable[Sparse], size: int, modulus: int, limits: Limits, deadline: float
-) -> Basis:
-    """The Gröbner basis; raises _GivenUp."""
+def _basis(generators: Iterable[Sparse], size: int, modulus: int, deadline: float) -> Basis:
+    """The Gröbner basis; raises GivenUp."""
     try:
         for step in basis_steps(generators, size, modulus):
             if isinstance(step, Basis):
                 return step
-            if step > limits.entries:
-                raise _GivenUp(f"too large: a matrix of {step} entries")
+            if step > LIMITS.entries:
+                raise GivenUp(f"too large: a matrix of {step} entries")
             if process_time() > deadline:
-                raise _GivenUp(f"out of time ({limits.seconds:g} s)")
+                raise GivenUp(f"out of time ({LIMITS.seconds:g} s)")
     except TooLarge as error:
-        raise _GivenUp(f"too large: {error}") from None
+        raise GivenUp(f"too large: {error}") from None
     raise AssertionError("a Gröbner basis ends with a basis")

@@ -20,7 +20,7 @@ from flint import fmpq
 from disting.algebra.certainty import about, residues
 from disting.errors import ContradictionError, InputError
 from disting.evidence.decision import FibreAt
-from disting.fibres.decision import Decision
+from disting.evidence.kinds import Decision
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import cost
 from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Status, target

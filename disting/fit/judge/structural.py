@@ -20,8 +20,8 @@ from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import measured_chain
 from disting.model.chain import Chain
 from disting.model.question import Settings
-from disting.questions.identifiability.formula import Formula
 from disting.questions.identifiability.functions import basis
+from disting.questions.identifiability.parts import Formula
 from disting.questions.identifiability.tangent import proof_tangents
 
 MOST_TERMS = 3  # of a combination that is written out
@@ -75,7 +75,7 @@ def _told(chain: Chain, found: Practical, settings: Settings) -> Practical:
 def in_words(determined: Sequence[Formula]) -> str:
     """What is determinable at most; combinations that are long to read are counted.
 
-    >>> from disting.questions.identifiability.formula import monomial
+    >>> from disting.questions.identifiability.parts import monomial
     >>> in_words([monomial(k12=1, d12=-1), monomial(k12=1, m1=-1, m2=-1)])
     'not identifiable: no data determine more than k12/d12, k12/(m1*m2)'
     """

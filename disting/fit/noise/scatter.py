@@ -53,6 +53,7 @@ DISTORTED = 0.05
 # gain in the logarithm of the likelihood of a line from which on jumps are those of sources: where
 # distortion would do, and where it would be too large
 BETTER, GOOD = 1.0, 0.5
+MOST_TAU = 2.0  # that is looked for
 COMMON = 8  # lines that two measurements must share
 SAME = 1e-6  # relative distance of two frequencies that count as one
 LEAST = 1e-5  # scatter below this is the rounding of a file
@@ -225,9 +226,9 @@ def _excess(seen: Contrasts, variance: Real) -> float:
     return float(ratio[kept].mean()) / kept_mean(LARGEST_LEFT_OUT) - 1
 
 
-def _balanced(excess: Callable[[float], float], most: float = 2.0) -> float:
+def _balanced(excess: Callable[[float], float]) -> float:
     """The tau at which a falling excess is zero."""
-    return most if excess(most) > 0 else float(brentq(excess, 0.0, most, xtol=1e-6))
+    return MOST_TAU if excess(MOST_TAU) > 0 else float(brentq(excess, 0.0, MOST_TAU, xtol=1e-6))
 
 
 def changed(

@@ -174,7 +174,6 @@ def fitted_rival(
     omega: Real,
     rho: Real,
     *,
-    seed: str = "disting",
     store: Store | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
@@ -190,9 +189,7 @@ def fitted_rival(
     _check_ports(model, rival)
     responses = responses_of(model, values, omega)
     cost = _cost([FrequencyResponse(omega, g, sensor=sensor) for g in responses], 1.0 / rho)
-    found = search(
-        model, values, rival, cost, seed=seed, store=store, executor=executor, progress=progress
-    )
+    found = search(model, values, rival, cost, store=store, executor=executor, progress=progress)
     own = found.own * float(np.mean(rho**2)) / len(omega)
     return Rival(model, values, rho, rival, found.best, own < ROUNDING**2, cost, found)
 

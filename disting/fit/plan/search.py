@@ -97,7 +97,6 @@ def search(
     rival: AnyStructure,
     cost: AnyCost,
     *,
-    seed: str = "disting",
     store: Store | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
@@ -106,7 +105,7 @@ def search(
     InputError for a chain beside a network.
     """
     if isinstance(model, Chain) and isinstance(rival, Chain):
-        task = Task(cost, seed=seed)
+        task = Task(cost)
         known = estimates([model, rival], task, store=store, executor=executor, progress=progress)
         return _of_chains(model, values, rival, cost, task, known)
     if isinstance(model, Network) and isinstance(rival, Network):

@@ -14,7 +14,7 @@ Cauer continued fraction, which is unique. It exists where force and sensor are 
 chain. Frequencies: those at which the smaller fit misses the data most, and a grid.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import inf
 
@@ -65,9 +65,7 @@ def neighbours(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, lag=chain.dead_time, dead_time=chain.lag)
 
 
-def carried(
-    chain: Chain, fit: Values, size: Scale, factors: Iterable[float] = ADDED
-) -> Iterator[Values]:
+def carried(chain: Chain, fit: Values, size: Scale) -> Iterator[Values]:
     """Starts from the fit of another candidate: what it has too much hands its value over to an
     element of its kind that is missing, or is left out; what is missing then is added.
     """
@@ -80,7 +78,7 @@ def carried(
     if len(values) == len(chain.parameters):
         yield {name: values[name] for name in chain.parameters}
     else:
-        yield from extended(chain, values, size, factors)
+        yield from extended(chain, values, size, ADDED)
 
 
 def paired(

@@ -42,10 +42,10 @@ from disting.questions.identifiability.by_parameter import (
     local as local,
 )
 from disting.questions.identifiability.check import confirms as confirms
-from disting.questions.identifiability.formula import Formula as Formula
 from disting.questions.identifiability.parts import (
     Alternative as Alternative,
     Combination as Combination,
+    Formula as Formula,
     Level as Level,
     Origin as Origin,
     Renaming as Renaming,

@@ -24,9 +24,16 @@ from disting.model.question import Question, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.formula import Formula, monomial
 from disting.questions.identifiability.functions import Basis, Candidate, basis, scalings
-from disting.questions.identifiability.parts import Combination, Level, Origin, Renaming, Scaling
+from disting.questions.identifiability.parts import (
+    Combination,
+    Formula,
+    Level,
+    Origin,
+    Renaming,
+    Scaling,
+    monomial,
+)
 from disting.questions.identifiability.solutions import (
     Listing,
     Member,

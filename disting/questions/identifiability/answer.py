@@ -11,10 +11,10 @@ from typing import Any
 from disting.algebra.certainty import Certainty, Grade
 from disting.fibres.synthesis.task import Answer
 from disting.model.presentation import Shown, summary
-from disting.questions.identifiability.formula import Formula
 from disting.questions.identifiability.parts import (
     Alternative,
     Combination,
+    Formula,
     Level,
     Origin,
     Renaming,

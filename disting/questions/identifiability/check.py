@@ -10,7 +10,7 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import fraction, target
 from disting.model.chain import Chain
 from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.formula import monomial
+from disting.questions.identifiability.parts import monomial
 from disting.questions.identifiability.solutions import MOST_LISTED, foster_count
 from disting.questions.identifiability.tangent import Tangent, proof_tangents
 

@@ -35,8 +35,7 @@ from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import expanded
 from disting.model.structure import Structure
-from disting.questions.identifiability.formula import Exponents, Formula, monomial
-from disting.questions.identifiability.parts import Scaling
+from disting.questions.identifiability.parts import Exponents, Formula, Scaling, monomial
 from disting.questions.identifiability.tangent import (
     Tangent,
     combinations,

@@ -22,7 +22,7 @@ from disting.algebra.quotient import matrix, rational
 from disting.behaviour.chain_model import ChainModel, powers
 from disting.behaviour.sample import Drawn, Representation, at_point, drawn, seen_at
 from disting.model.structure import Structure
-from disting.questions.identifiability.formula import Formula
+from disting.questions.identifiability.parts import Formula
 
 COEFFICIENT_LIMIT = 60  # larger numbers are artefacts of the reconstruction, or not readable
 

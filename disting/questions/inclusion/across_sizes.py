@@ -17,15 +17,19 @@ zeros cancel. What settles a pair first is kept:
 
 The larger chain, with more poles, never lies in the smaller one: its generic model does not have
 as few.
+
+What inclusion asks of a chain that is compared.
 """
 
 from collections.abc import Iterator
 from dataclasses import astuple
 from functools import lru_cache
 from itertools import permutations, product
+from typing import Protocol
 
 from disting.algebra.certainty import Certainty, about
 from disting.behaviour.chain_model import degrees
+from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.across_sizes import (
@@ -39,17 +43,43 @@ from disting.evidence.across_sizes import (
 from disting.evidence.conditions import Counts
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.question import Settings
+from disting.model.question import Answerer, Settings
 from disting.model.row import Row, canonical_rows
-from disting.model.symmetry import canonical
+from disting.model.symmetry import Form, canonical
 from disting.questions.inclusion.limit_fibre import contained
 from disting.questions.inclusion.limits import follows, reached, room
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
 from disting.questions.inclusion.profiles import by_elements, exceed, ordered
-from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part, theorem
 
 REMEMBERED = 1024  # chains whose twins are kept
+
+
+class ChainSide(Protocol):
+    """A chain with its canonical form, its rank, its profiles, and who answers about it."""
+
+    @property
+    def chain(self) -> Chain:
+        """The chain as given."""
+
+    @property
+    def canonical(self) -> Form:
+        """Its canonical form under the symmetries of the class."""
+
+    @property
+    def rank(self) -> int:
+        """Number of determinable parameters."""
+
+    @property
+    def settings(self) -> Settings:
+        """How many points are drawn, and by which seed."""
+
+    @property
+    def answerer(self) -> Answerer:
+        """Who computes, or looks up."""
+
+    def profile(self, representation: Representation, count: int) -> Profile:
+        """What it reveals in a representation, with so many Markov parameters."""
 
 
 def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:

@@ -33,13 +33,18 @@ from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
 from disting.model.structure import Structure
-from disting.questions.inclusion.across_sizes import degrees_of, exceeds, fewer_poles, twins
+from disting.questions.inclusion.across_sizes import (
+    ChainSide,
+    degrees_of,
+    exceeds,
+    fewer_poles,
+    twins,
+)
 from disting.questions.inclusion.closures import confirms_rows
 from disting.questions.inclusion.limit_fibre import contains
 from disting.questions.inclusion.limits import Room, follows, room
 from disting.questions.inclusion.pole_sharing import excludes
 from disting.questions.inclusion.profiles import confirms_missing, exceed, ordered
-from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part
 

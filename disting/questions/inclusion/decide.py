@@ -44,11 +44,10 @@ from disting.fibres.ideals import (
 )
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question, Settings
-from disting.questions.inclusion.across_sizes import by_computing, by_sizes
+from disting.questions.inclusion.across_sizes import ChainSide, by_computing, by_sizes
 from disting.questions.inclusion.closures import of_closure
 from disting.questions.inclusion.image import of_image
 from disting.questions.inclusion.profiles import by_elements, by_profiles
-from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
 
 # of one ideal; less than for a verdict

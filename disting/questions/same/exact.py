@@ -48,9 +48,8 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
-from disting.evidence.kinds import Evidence
+from disting.evidence.kinds import Decision, Evidence
 from disting.fibres import ideals
-from disting.fibres.decision import Decision
 from disting.fibres.ideals import (
     MOST,
     TRIES,
