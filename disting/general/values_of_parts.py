@@ -8,7 +8,7 @@ matched that have the same sets of functions. Parts of three kinds are matched b
 
 from collections.abc import Iterator, Sequence
 from functools import partial, reduce
-from itertools import product
+from itertools import islice, product
 from typing import Any
 
 from disting.general.closed_form import ClosedForm
@@ -33,6 +33,7 @@ from disting.network.network import Network
 from disting.network.normal_form import Power
 
 LETTERS = (12, 24, 48, 96, 192)  # of a value without a name: what is written shorter is kept
+MOST_MATCHES = 24
 TWO = 2  # kinds of elements
 Edges = dict[frozenset[int], Tree]
 
@@ -119,49 +120,54 @@ def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tup
 
 
 def _of_edges(field: Arithmetic, given: Network, other: Network) -> Iterator[Values]:
-    """Of networks that are one graph with parts at the edges."""
+    """Of networks that are one graph with parts at the edges, matched in the first way that gives
+    formulas.
+    """
     one, two = _edges(given), _edges(other)
-    for places in _matches(given, one, other, two):
-        parts = [_of_part(field, one[ends], two[places[ends]]) for ends in one]
+    none = NoFormulas("they are not made of parts that replace each other")
+    for places in islice(_matches(given, one, other, two), MOST_MATCHES):
+        try:
+            parts = [_of_part(field, one[ends], two[places[ends]]) for ends in one]
+        except NoFormulas as why:
+            none = why
+            continue
         for chosen in product(*parts):
             yield {name: x for values in chosen for name, x in values.items()}
         return
-    raise NoFormulas("they are not made of parts that replace each other")
+    raise none
 
 
 def _matches(
     given: Network, one: Edges, other: Network, two: Edges
 ) -> Iterator[dict[frozenset[int], frozenset[int]]]:
     """Yield the edges of the other graph by those of the given one, same sets at both and the same
-    ports; force and sensor may be exchanged.
+    ports, all of them perhaps turned; force and sensor may be exchanged.
     """
     import networkx  # imported late: it takes longer than most of what is asked
 
-    wanted = _drawn(one, given.inputs, given.outputs)
-    readings = [(other.inputs, other.outputs)]
+    wanted = _drawn(one, (*given.inputs, *given.outputs))
+    readings = [(*other.inputs, *other.outputs)]
     if len(other.inputs) == len(other.outputs) == 1:
-        readings.append((other.outputs, other.inputs))
-    for inputs, outputs in readings:
+        readings.append((*other.outputs, *other.inputs))
+    readings += [tuple(Port(p.minus, p.plus) for p in ports) for ports in readings]
+    for ports in readings:
         matcher = networkx.algorithms.isomorphism.GraphMatcher(
-            wanted,
-            _drawn(two, inputs, outputs),
-            lambda a, b: a == b,
-            lambda a, b: a == b,
+            wanted, _drawn(two, ports), dict.__eq__, dict.__eq__
         )
         for nodes in matcher.isomorphisms_iter():
             yield {ends: frozenset(nodes[i] for i in ends) for ends in one}
 
 
-def _drawn(edges: Edges, inputs: Sequence[Port], outputs: Sequence[Port]) -> Any:
+def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
     import networkx
 
     graph: Any = networkx.Graph()
     for ends, tree in edges.items():
         graph.add_edge(*ends, part=tree.part.generic)
-    for number, port in enumerate((*inputs, *outputs)):
-        for node in (port.plus, port.minus):
+    for number, port in enumerate(ports):
+        for node, sign in ((port.plus, 1), (port.minus, -1)):
             graph.add_node(node)
-            graph.nodes[node].setdefault("ports", []).append(number)
+            graph.nodes[node].setdefault("ports", []).append((number, sign))
     return graph
 
 
