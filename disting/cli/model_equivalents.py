@@ -16,7 +16,7 @@ from disting.errors import InputError
 from disting.files import Format
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import of_network
-from disting.general.balls import Synthesis
+from disting.general.balls import POSITIVE, Synthesis
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
@@ -112,9 +112,9 @@ def _mark(options: argparse.Namespace) -> str:
 
 LONGEST = 16  # signs of a fraction; longer ones are rounded, and exact with --json
 EXTENTS = {
-    "positive": "all positive ones, but for exchanges of branches that are alike",
-    "family": "and infinitely many more",
-    "unknown": "and perhaps more",
+    POSITIVE: "all positive ones, but for exchanges of branches that are alike",
+    Extent.FAMILY: "and infinitely many more",
+    Extent.UNKNOWN: "and perhaps more",
 }
 
 

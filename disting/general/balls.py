@@ -16,6 +16,7 @@ from typing import Any
 
 from flint import acb_poly, arb, ctx, fmpq, fmpq_poly, fmpz_mpoly
 
+from disting.general.fibre import Extent
 from disting.general.field import Arithmetic, Poly
 from disting.general.matrix_model import AnyModel
 from disting.general.replacement import set_of
@@ -24,6 +25,7 @@ from disting.general.target import fraction, value_at
 from disting.general.values_of_parts import values_over
 
 BITS = 600
+POSITIVE = "positive"  # how many sets there are: all positive ones are known, others are not
 
 
 @dataclass
@@ -93,10 +95,10 @@ class Synthesis:
 
     @property
     def extent(self) -> str:
-        """How many there are: as those of `fibre.Extent`, and "positive" where all positive ones
-        are known.
-        """
-        return "family" if self.choices else "positive" if self.complete else "unknown"
+        """How many there are."""
+        if self.choices:
+            return Extent.FAMILY.value
+        return POSITIVE if self.complete else Extent.UNKNOWN.value
 
 
 def positive_sets(given: AnyModel, values: dict[str, Fraction], other: AnyModel) -> Synthesis:
