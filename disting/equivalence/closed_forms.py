@@ -39,9 +39,12 @@ def closed_forms(given: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
     if found is None:
         try:
             found = by_parts(one, two)
+        except NeedsRoots:
+            raise
         except NoFormulas as none:
-            if len(other.parameters) > MOST_SOLVED or isinstance(none, NeedsRoots):
-                raise
+            if len(other.parameters) > MOST_SOLVED:
+                more = f"they have more than {MOST_SOLVED} values"
+                raise NoFormulas(f"{none}, and {more}") from none
             found = _solved(one, two)
     if not found:
         raise NoFormulas("none that is known is positive")
