@@ -10,6 +10,7 @@ from pathlib import Path
 from disting.cli.arguments import parted
 from disting.cli.output import emitted, keep_apart
 from disting.cli.workers import engine_for
+from disting.conditions.finding import Outcome
 from disting.equivalence import assignments
 from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
@@ -101,8 +102,20 @@ def _lines(found: list[ModelEquivalent]) -> Iterator[str]:
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
             yield from (f"  {line}" for line in _values(x.values))
+            if x.verdict.relation is Relation.INDISTINGUISHABLE:
+                yield from (f"  {line}" for line in _exception(x.values))
         if x.synthesis is not None:
             yield from (f"  {line}" for line in _synthesis(x.synthesis))
+
+
+def _exception(found: Alternatives) -> Iterator[str]:
+    """Why there is no positive set although both do the same for all positive values."""
+    if found.exist(Domain.POSITIVE) is Outcome.FAILS:
+        yield (
+            "these values are special, for almost all others there is one"
+            if all(x > 0 for _, x in found.values)
+            else "given values are not all positive, which is what the verdict is about"
+        )
 
 
 def _mark(options: argparse.Namespace) -> str:

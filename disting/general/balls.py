@@ -115,11 +115,14 @@ def positive_sets(given: AnyModel, values: dict[str, Fraction], other: AnyModel)
     if not all(x > 0 for x in values.values()):
         raise NoFormulas("the given values are not all positive")
     numbers = Balls(values)
-    with ctx.workprec(BITS):
-        found = [
-            {n: _number(x) for n, x in sorted(lot.items())}
-            for lot in values_over(numbers, given, other)
-        ]
+    try:
+        with ctx.workprec(BITS):
+            found = [
+                {n: _number(x) for n, x in sorted(lot.items())}
+                for lot in values_over(numbers, given, other)
+            ]
+    except ZeroDivisionError as special:
+        raise NoFormulas("at these values the function is of a smaller set") from special
     known = set_of(given)
     complete = known is not None and known == set_of(other) and not numbers.choices
     return Synthesis(tuple(found), complete, tuple(numbers.choices))

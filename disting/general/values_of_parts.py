@@ -54,10 +54,10 @@ def by_parts(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
     for letters in LETTERS:
         try:
             found.append(list(_forms(given, other, Field(given.parameters, letters))))
-        except TooMuch:
+        except (TooMuch, ZeroDivisionError):  # too long, or the function is of a smaller set
             continue
     if not found:
-        raise NoFormulas("they have too many terms")
+        raise NoFormulas("they grow too long")
     return min(found, key=lambda forms: sum(f.length for f in forms))
 
 

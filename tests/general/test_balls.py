@@ -74,8 +74,9 @@ def test_beside_the_list_of_all_values(given_text, other_text):
     assert swapped[0] == pytest.approx(swapped[1])
 
 
-def test_equal_poles_are_refused():
-    one, two = models(VOIGT, "R1-p(C1,R0-p(C2,R2))-p(R3,C3)")
+@pytest.mark.parametrize("other", ["R1-p(C1,R0-p(C2,R2))-p(R3,C3)", LADDER])
+def test_equal_poles_are_refused(other):
+    one, two = models(VOIGT, other)
     values = numbers(one) | {"R1": 1, "C1": 2, "R2": 2, "C2": 1}
     with pytest.raises(NoFormulas):
         positive_sets(one, {n: Fraction(x) for n, x in values.items()}, two)
