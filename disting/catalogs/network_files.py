@@ -25,8 +25,9 @@ from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import of_network, unnamed
+from disting.general.forms import BRIEFLY
 from disting.general.identifiability import PARAMETERS
-from disting.general.model_side import BRIEFLY, ComparedModel, positive_question
+from disting.general.model_side import ComparedModel, positive_question
 from disting.network.families import NetworkFamily, family_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, question_key, silent
@@ -39,6 +40,7 @@ COMMAND = "disting catalog families"
 SHIPPED = (
     "machines-2",
     "machines-2-damped",
+    "machines-3",
     "circuits-4",
     "circuits-5",
     "cells-4",

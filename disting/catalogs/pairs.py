@@ -1,10 +1,11 @@
-"""The record of a pair in a catalogue: which step decides in which view, and the verdict that it
-holds.
+"""Records of a catalogue. Of a pair: which step decides in which view, and the verdict that it
+holds; of a model: its row.
 
 Over positive parameters nothing is stored but the shares of both sides, from which the verdict
 follows.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 from disting.algebra.certainty import Certainty
@@ -12,13 +13,18 @@ from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Re
 from disting.conditions.rule import RULES, Role, Stage
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
-from disting.model.chain import Premise
+from disting.model.chain import Chain, Premise
+from disting.model.family import Family
+from disting.model.presentation import summary
 from disting.model.question import Domain
+from disting.questions.identifiability import Identifiability
 from disting.questions.inclusion import Inclusion, inclusions_from_dict
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
 from disting.verdict.cascade import Step, open_note
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
+
+INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
 def stored_verdict(
@@ -137,4 +143,46 @@ def _shares(record: Record) -> tuple[PositiveFinding | None, PositiveFinding | N
     here, there = (record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
     return PositiveFinding.from_dict(here) if here else None, (
         PositiveFinding.from_dict(there) if there else None
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ModelRow:
+    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in
+    `classes()` or 0.
+
+    >>> from disting.catalogs import catalog
+    >>> row = catalog(2, damped=True).rows[1]
+    >>> row.number, row.rank, row.n_parameters
+    (2, 3, 4)
+    """
+
+    number: int
+    chain: Chain
+    numerator_degree: int
+    denominator_degree: int
+    n_parameters: int
+    rank: int
+    group: int
+    identifiability: Identifiability
+
+    def __repr__(self) -> str:
+        known = f"{self.rank} of {self.n_parameters} parameters determinable"
+        return summary(
+            self, f"model {self.number}, {known}" + f", group {self.group}" * bool(self.group)
+        )
+
+
+def model_row(record: Record, family: Family, group: int) -> ModelRow:
+    """The row of a model from its record, in this group."""
+    number, (numerator, denominator) = record["model"], record["degrees"]
+    return ModelRow(
+        number=number,
+        chain=family[number],
+        numerator_degree=numerator,
+        denominator_degree=denominator,
+        n_parameters=len(record["parameters"]),
+        rank=record["rank"],
+        group=group,
+        identifiability=Identifiability.from_dict(record["identifiability"]),
     )

@@ -69,11 +69,9 @@ class Work(Enum):
 
 
 FAMILIES = {
-    "machines-3": 7200.0,
     "machines-3-damped": 7200.0,
     "trees-4": 7200.0,
     "trees-4-damped": 7200.0,
-    "circuits-5": 180.0,
     "compartments-3": 3600.0,
 }
 """Seconds of one core for all pairs of a family of networks, where they are decided anew."""

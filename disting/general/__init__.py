@@ -28,7 +28,6 @@ True
 """
 
 from disting.evidence.general import Witnesses as Witnesses
-from disting.general.admissible import confirms as confirms
 from disting.general.alternatives import Alternatives as Alternatives, alternatives as alternatives
 from disting.general.any_model import as_chain as as_chain, unnamed as unnamed
 from disting.general.equivalent import Equivalent as Equivalent
@@ -45,6 +44,7 @@ from disting.general.identifiability import (
 )
 from disting.general.matrix_model import AnyModel as AnyModel, MatrixModel as MatrixModel
 from disting.general.model import Model as Model
+from disting.general.model_evidence import confirms as confirms
 from disting.general.model_files import (
     ModelList as ModelList,
     read_models as read_models,

@@ -121,55 +121,6 @@ def are_one_ports(left: AnyModel, right: AnyModel) -> bool:
     return False
 
 
-def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
-    """Whether both points are what they are said to be, and all parameters near them: the search
-    is done anew.
-
-    Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
-    """
-    domain = Domain(evidence.domain)
-    with_, without = (
-        {name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)
-    )
-    if any(
-        x == 0 or (x < 0 and domain is Domain.POSITIVE)
-        for p in (with_, without)
-        for x in p.values()
-    ):
-        return False
-    sides = {True: (left, right), False: (right, left)}
-    first, second = sides[evidence.with_left_given], sides[evidence.without_left_given]
-    near = tuple(float(Fraction(x)) for _, x in evidence.equivalent)
-    return _has(*first, with_, near, domain) and _has_none(*second, without, domain)
-
-
-def _has(
-    given: AnyModel,
-    other: AnyModel,
-    values: dict[str, Fraction],
-    near: tuple[float, ...],
-    domain: Domain,
-) -> bool:
-    if domain is Domain.POSITIVE and newton.having(given, values, other, near):
-        return True
-    if domain is Domain.POSITIVE and listed.having(given, values, other):
-        return True
-    one = way(given, other, domain)
-    return bool(one and one.having(values))
-
-
-def _has_none(
-    given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
-) -> bool:
-    if domain is Domain.POSITIVE:
-        if isinstance(given, Model) and isinstance(other, Model) and excludes(given, values, other):
-            return True
-        if listed.lacking(given, values, other):
-            return True
-    one = way(given, other, domain)
-    return bool(one and one.lacking(values))
-
-
 def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
     """Yield random rational parameters of a domain, without end, determined by the seed and the
     model.

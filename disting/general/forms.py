@@ -12,10 +12,11 @@ those of the given network.
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses
@@ -25,13 +26,14 @@ from disting.general.any_model import of_network, on_one_variable, unnamed
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import confirms_models
 from disting.general.network_model import behaviour_of
-from disting.general.orthant import THOROUGH, Effort
+from disting.general.orthant import BRIEF, THOROUGH, Effort
 from disting.general.replacement import simplest_network
-from disting.model.question import Domain
+from disting.model.question import Domain, Question, Settings
 from disting.network.inverse import at_inverse
 from disting.network.network import Network
 from disting.network.simplest import same_drawing
 
+WAS_BRIEF = "the search was brief, disting compare of the two alone goes on for longer"
 REMEMBERED = 1024  # pairs of simplest networks: others of a family have the same ones
 
 
@@ -155,3 +157,48 @@ def confirms_forms(
     if isinstance(inner, Replaced):
         return confirms_forms(inner, *models, representation)
     return confirms_models(inner, *models, representation)
+
+
+def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    return admissible_finding(left, right, Domain.REAL, settings.seed)
+
+
+def over_positive(
+    left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
+) -> Finding:
+    """The finding over positive values, as far as this effort goes."""
+    found = by_forms(left, right, settings.seed, effort)
+    if found is None:
+        found = admissible_finding(left, right, Domain.POSITIVE, settings.seed, effort)
+    if found.outcome is not Outcome.ABANDONED:
+        return found
+    turned = by_inverse(left, right, settings.seed, effort)
+    return found if turned is None else turned
+
+
+def _in_brief(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    found = over_positive(left, right, settings, BRIEF)
+    if found.outcome is not Outcome.ABANDONED:
+        return found
+    return replace(found, note=f"{found.note}; {WAS_BRIEF}")
+
+
+_admissible_from_json = partial(Finding.from_json, rule=ADMISSIBLE)
+ADMISSIBLY = {
+    Domain.REAL: Question(
+        "real equivalents of general models", _over_real, Finding.to_json, _admissible_from_json
+    ),
+    Domain.POSITIVE: Question(
+        "positive equivalents of general models",
+        over_positive,
+        Finding.to_json,
+        _admissible_from_json,
+    ),
+}
+BRIEFLY = Question(
+    "positive equivalents of general models, in brief",
+    _in_brief,
+    Finding.to_json,
+    _admissible_from_json,
+)
+"""What is found within small bounds: of the pairs of a large family."""

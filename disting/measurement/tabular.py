@@ -39,6 +39,7 @@ NEGATIVE = 0.1  # share of the lines that must be negative: fewer are damage
 HIGH, NARROW = 40.0, 10.0
 LINEAR_OF = {"1": 1.0, "%": 0.01}
 MINUS = re.compile(r"\s*[-−]\s*[A-Za-z]")
+TRANSPOSED = "the table has a line for each quantity: it is read by its columns"
 MARK = "frequency response, written by disting"
 
 
@@ -64,16 +65,14 @@ def frequency_response(
     sensor; `outliers` as in `mean_of`. Raises InputError where columns are missing, with the
     table's first rows as `detail`, and for a stated unit that is not known.
     """
-    notes, doubts = list[str](), list[str]()
-    if table.transposed:
-        notes.append("the table has a line for each quantity: it is read by its columns")
+    notes, doubts = [TRANSPOSED] * table.transposed, list[str]()
     roles = columns_of(table, columns, notes)
     at = frequency_column(table, roles)
     ours = _written(table.comments)
     grid = _grid(table, at, roles[at], roles[at].unit if ours else frequency_unit, notes, doubts)
     found = groups(table, roles)
-    several = column == "all" and "all" not in table.headers
-    used = found if several else [chosen(table, roles, found, column)]
+    whole = column == "all" and "all" not in table.headers
+    used = found if whole else [chosen(table, roles, found, column)]
     said = _units(table, roles, used[0], ours)
     quantity = quantity_of(table, sensor or ours.get("sensor"), said[0], notes)
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
@@ -91,9 +90,8 @@ def frequency_response(
         for group in used
     ]
     unit = taken_unit(grid, table.column(at), roles[at].unit)
-    words = f"frequency in {unit} (column {at + 1})"
-    mean = mean_of(responses, outliers=outliers)
-    return mean.noted(*notes).doubted(*doubts).read_as(f"{words}, {reading.words}")
+    words = f"frequency in {unit} (column {at + 1}), {reading.words}"
+    return mean_of(responses, outliers=outliers).noted(*notes).doubted(*doubts).read_as(words)
 
 
 def response_columns(table: Table, columns: Sequence[str] | None = None) -> tuple[int, ...]:

@@ -77,23 +77,20 @@ def estimate(
     Lines of a coherence below `least_coherence` are left out (default: that of chance). `order` of
     the sensor (2: acceleration).
     """
-    count = _segments(len(u), segment)
-    low, high = band or (0.0, np.inf)
+    count, (low, high) = _segments(len(u), segment), band or (0.0, np.inf)
     grid = np.fft.rfftfreq(segment, 1 / rate).astype(np.float64)
     kept = (grid > 0) & (grid < rate / 2) & (grid >= low) & (grid <= high)
     uu, yy, uy, rr, ru, ry = _spectra(u, y, reference, rate, segment, kept)
     response, effective = ry / ru, count / (1 + 2 / 36)
     unexplained = np.maximum(yy - 2 * (response.conj() * uy).real + np.abs(response) ** 2 * uu, 0.0)
     deviation = np.sqrt(unexplained * rr / effective) / np.abs(ru)
-    coherence = np.minimum(
-        *(np.abs(cross) ** 2 / (rr * power) for cross, power in ((ru, uu), (ry, yy)))
-    )
+    coherence = np.minimum(np.abs(ru) ** 2 / (rr * uu), np.abs(ry) ** 2 / (rr * yy))
     level = 1 - CHANCE ** (1 / (effective - 1)) if least_coherence is None else least_coherence
-    lines, good = grid[kept], coherence >= level
+    lines = grid[kept]
     even = np.rint(lines * segment / rate) % 2 == 0
-    notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples"]
-    notes += [_left_out(lines[even], good[even], level)] * (not good[even].all())
-    good &= even
+    good = even & (coherence >= level)
+    out = [_left_out(lines[even], good[even], level)] * (not good[even].all())
+    notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples", *out]
     refuse_few(lines[good], notes, band)
     bias, whole, beyond = _bias(response, deviation)
     smooth = reference is None and not _repeats(u, segment)

@@ -19,7 +19,7 @@ from disting.fit.results.selection import Confidence, Selection, confidence, res
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.report.fit.series import Series, band, beneath_in_words, points, series_of
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, over_frequency
 from disting.report.fit.words import name, percent, readable
 
 if TYPE_CHECKING:
@@ -113,9 +113,7 @@ def residuals(
     def draw(figure: "Figure") -> None:
         """Two panels over one axis of frequencies."""
         panels = figure.subplots(2, 1, sharex=True)
-        panels[0].set_xscale("log")
-        panels[0].set_xlim(low / EDGE, high * EDGE)
-        logarithmic(panels[-1].xaxis, low / EDGE, high * EDGE)
+        over_frequency(panels, low / EDGE, high * EDGE)
         _panel(panels[0], found, "amplitude", scaled, omega, sure)
         _panel(panels[1], found, "phase", np.degrees, omega, sure)
         _missed_ranges(panels, misses_of(selection, at))

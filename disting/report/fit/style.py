@@ -26,7 +26,24 @@ from disting.measurement.arrays import Real
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+RESOLUTION = 200  # pixels an inch of a PNG
+WIDE, NARROW = 9.4, 4.2  # inches
+POINTS = 72  # an inch
+TITLE_SIZE = 10.5  # points
+# signs that no XML 1.0 may hold (its production 2); a name from a measured file may
+NOT_XML = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
+LETTER = 0.65  # width of a bold letter, in its size
+
+
+def over_frequency(panels: Sequence["Axes"], low: float, high: float) -> None:
+    """Panels over one axis of frequencies [Hz], which the lowest one shows."""
+    panels[0].set_xscale("log")
+    panels[0].set_xlim(low, high)
+    logarithmic(panels[-1].xaxis, low, high)
 
 
 def logarithmic(axis: "Axis", low: float, high: float) -> None:
@@ -71,18 +88,6 @@ def spread(places: Sequence[float], distance: float) -> Real:
         right[i] = max(right[i], right[i - 1] + distance)
         left[-1 - i] = min(left[-1 - i], left[-i] - distance)
     return np.asarray((right + left) / 2)
-
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-RESOLUTION = 200  # pixels an inch of a PNG
-WIDE, NARROW = 9.4, 4.2  # inches
-POINTS = 72  # an inch
-TITLE_SIZE = 10.5  # points
-# signs that no XML 1.0 may hold (its production 2); a name from a measured file may
-NOT_XML = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
-LETTER = 0.65  # width of a bold letter, in its size
 
 
 class Tone(StrEnum):

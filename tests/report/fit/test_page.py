@@ -181,7 +181,7 @@ def test_more_candidates_than_fit_are_behind_details(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # the package has a function of the module's name
-    monkeypatch.setattr(import_module("disting.report.fit.selection_page"), "FIRST", 10)
+    monkeypatch.setitem(import_module("disting.report.fit.selection_page").ALWAYS, "first", 10)
     text = fit_page(selection, [], [starts], train)
     assert "<summary>All 12 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2
