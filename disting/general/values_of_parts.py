@@ -4,6 +4,7 @@ part, each by synthesis.
 A one-port of two kinds of elements is a part as a whole, however it is made, if the other one is in
 series and parallel. Else both networks are drawn as graphs with parts at their edges, and edges are
 matched that have the same sets of functions. Parts of three kinds are matched branch by branch.
+Trees of compartments have their own way (`values_of_compartments`).
 """
 
 from collections.abc import Iterator, Sequence
@@ -27,6 +28,7 @@ from disting.general.synthesis import (
     series,
     synthesized,
 )
+from disting.general.values_of_compartments import values_of_tree
 from disting.network.element import Port
 from disting.network.graph import joined
 from disting.network.network import Network
@@ -70,6 +72,9 @@ def _forms(given: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedFor
 
 def values_over(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values]:
     """Yield the values of the other network, for each way to share terms among its branches."""
+    if other.network is not None and other.network.is_directed and isinstance(given, Model):
+        yield from values_of_tree(field, given, other.network.grounded)
+        return
     ways = _of_one_port(field, given, other)
     yield from _of_edges(field, _placed(given), _placed(other)) if ways is None else ways
 
