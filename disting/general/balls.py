@@ -6,7 +6,7 @@ two kinds of elements nothing else is positive: in series a positive branch is o
 K(n, c, z), so that the constant and the pole at 0 go where one is asked for, and as F has as many
 different poles as all branches have terms, no two of them share one (see `synthesis`). So these are
 all, but for exchanges of branches that are alike, unless elements share what only their sum
-determines.
+determines. Of trees of compartments the same holds: d_i, p_ij and all flows follow.
 """
 
 from collections.abc import Sequence
@@ -123,8 +123,9 @@ def positive_sets(given: AnyModel, values: dict[str, Fraction], other: AnyModel)
             ]
     except ZeroDivisionError as special:
         raise NoFormulas("at these values the function is of a smaller set") from special
-    known = set_of(given)
-    complete = known is not None and known == set_of(other) and not numbers.choices
+    known, network = set_of(given), other.network
+    whole = known == set_of(other) if known else network is not None and network.is_directed
+    complete = whole and not numbers.choices
     return Synthesis(tuple(found), complete, tuple(numbers.choices))
 
 
