@@ -10,13 +10,14 @@ from pathlib import Path
 from disting.cli.arguments import parted
 from disting.cli.output import emitted, keep_apart
 from disting.cli.workers import engine_for
+from disting.conditions.finding import Outcome
 from disting.equivalence import assignments
 from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
 from disting.files import Format
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import of_network
-from disting.general.balls import Synthesis
+from disting.general.balls import POSITIVE, Synthesis
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
@@ -101,8 +102,20 @@ def _lines(found: list[ModelEquivalent]) -> Iterator[str]:
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
             yield from (f"  {line}" for line in _values(x.values))
+            if x.verdict.relation is Relation.INDISTINGUISHABLE:
+                yield from (f"  {line}" for line in _exception(x.values))
         if x.synthesis is not None:
             yield from (f"  {line}" for line in _synthesis(x.synthesis))
+
+
+def _exception(found: Alternatives) -> Iterator[str]:
+    """Why there is no positive set although both do the same for all positive values."""
+    if found.exist(Domain.POSITIVE) is Outcome.FAILS:
+        yield (
+            "these values are special, for almost all others there is one"
+            if all(x > 0 for _, x in found.values)
+            else "given values are not all positive, which is what the verdict is about"
+        )
 
 
 def _mark(options: argparse.Namespace) -> str:
@@ -112,9 +125,9 @@ def _mark(options: argparse.Namespace) -> str:
 
 LONGEST = 16  # signs of a fraction; longer ones are rounded, and exact with --json
 EXTENTS = {
-    "positive": "all positive ones, but for exchanges of branches that are alike",
-    "family": "and infinitely many more",
-    "unknown": "and perhaps more",
+    POSITIVE: "all positive ones, but for exchanges of branches that are alike",
+    Extent.FAMILY: "and infinitely many more",
+    Extent.UNKNOWN: "and perhaps more",
 }
 
 

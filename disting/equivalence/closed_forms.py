@@ -39,9 +39,12 @@ def closed_forms(given: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
     if found is None:
         try:
             found = by_parts(one, two)
+        except NeedsRoots:
+            raise
         except NoFormulas as none:
-            if len(other.parameters) > MOST_SOLVED or isinstance(none, NeedsRoots):
-                raise
+            if len(other.parameters) > MOST_SOLVED:
+                more = f"they have more than {MOST_SOLVED} values"
+                raise NoFormulas(f"{none}, and {more}") from none
             found = _solved(one, two)
     if not found:
         raise NoFormulas("none that is known is positive")
@@ -49,15 +52,13 @@ def closed_forms(given: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
 
 
 def _renamed(given: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm] | None:
-    """The renaming that a verdict rests on."""
+    """The renaming that a verdict rests on: of its left model's parameters to the right one's."""
     if not isinstance(verdict.evidence, Renaming):
         return None
-    pairs = verdict.evidence.pairs
-    if {a for a, _ in pairs} != {*other.parameters}:
-        pairs = tuple((b, a) for a, b in pairs)
-    ring = symbols(given.parameters)
-    values = ((b, RationalFunction(ring[a], ring[a] ** 0)) for b, a in pairs)
-    return [ClosedForm(given.parameters, (), tuple(sorted(values, key=lambda x: x[0])))]
+    is_left, ring = verdict.left == given.name, symbols(given.parameters)
+    pairs = ((a, b) if is_left else (b, a) for a, b in verdict.evidence.pairs)
+    values = {b: RationalFunction(ring[a], ring[a] ** 0) for a, b in pairs}
+    return [ClosedForm(given.parameters, (), tuple((n, values[n]) for n in other.parameters))]
 
 
 def _of_chains(given: AnyModel, other: AnyModel) -> list[ClosedForm] | None:
@@ -73,9 +74,8 @@ def _solved(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
     """Sections of the equations that hold for all generic positive values, or a root that does;
     else all that is known over complex values, of which some are positive somewhere.
     """
-    found = way(given, other, Domain.POSITIVE)
+    field, found = Field(given.parameters), way(given, other, Domain.POSITIVE)
     if found is not None and found.covering:
-        field = Field(given.parameters)
         return [_of_section(field, found, section) for section in found.covering]
     root = found.path() if found is not None else None
     if found is not None and root is not None:

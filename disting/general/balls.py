@@ -6,7 +6,7 @@ two kinds of elements nothing else is positive: in series a positive branch is o
 K(n, c, z), so that the constant and the pole at 0 go where one is asked for, and as F has as many
 different poles as all branches have terms, no two of them share one (see `synthesis`). So these are
 all, but for exchanges of branches that are alike, unless elements share what only their sum
-determines.
+determines. Of trees of compartments the same holds: d_i, p_ij and all flows follow.
 """
 
 from collections.abc import Sequence
@@ -16,6 +16,7 @@ from typing import Any
 
 from flint import acb_poly, arb, ctx, fmpq, fmpq_poly, fmpz_mpoly
 
+from disting.general.fibre import Extent
 from disting.general.field import Arithmetic, Poly
 from disting.general.matrix_model import AnyModel
 from disting.general.replacement import set_of
@@ -24,6 +25,7 @@ from disting.general.target import fraction, value_at
 from disting.general.values_of_parts import values_over
 
 BITS = 600
+POSITIVE = "positive"  # how many sets there are: all positive ones are known, others are not
 
 
 @dataclass
@@ -93,10 +95,10 @@ class Synthesis:
 
     @property
     def extent(self) -> str:
-        """How many there are: as those of `fibre.Extent`, and "positive" where all positive ones
-        are known.
-        """
-        return "family" if self.choices else "positive" if self.complete else "unknown"
+        """How many there are."""
+        if self.choices:
+            return Extent.FAMILY.value
+        return POSITIVE if self.complete else Extent.UNKNOWN.value
 
 
 def positive_sets(given: AnyModel, values: dict[str, Fraction], other: AnyModel) -> Synthesis:
@@ -113,13 +115,17 @@ def positive_sets(given: AnyModel, values: dict[str, Fraction], other: AnyModel)
     if not all(x > 0 for x in values.values()):
         raise NoFormulas("the given values are not all positive")
     numbers = Balls(values)
-    with ctx.workprec(BITS):
-        found = [
-            {n: _number(x) for n, x in sorted(lot.items())}
-            for lot in values_over(numbers, given, other)
-        ]
-    known = set_of(given)
-    complete = known is not None and known == set_of(other) and not numbers.choices
+    try:
+        with ctx.workprec(BITS):
+            found = [
+                {n: _number(x) for n, x in sorted(lot.items())}
+                for lot in values_over(numbers, given, other)
+            ]
+    except ZeroDivisionError as special:
+        raise NoFormulas("at these values the function is of a smaller set") from special
+    known, network = set_of(given), other.network
+    whole = known == set_of(other) if known else network is not None and network.is_directed
+    complete = whole and not numbers.choices
     return Synthesis(tuple(found), complete, tuple(numbers.choices))
 
 

@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
+from itertools import count
 from typing import Any
 
 from flint import fmpz_mpoly
@@ -140,10 +141,10 @@ class Field(Arithmetic):
     choices: list[tuple[str, ...]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        free = [c for c in "uxyzwh" if not any(n.startswith(c) for n in self.parameters)]
-        if len(free) < len("ux"):
-            raise TooMuch("no letters are left for values with a name")
-        self._letters = sorted(free[:2])
+        self._letters = [
+            next(c * k for k in count(1) if not any(n.startswith(c * k) for n in self.parameters))
+            for c in "ux"
+        ]
         names = [f"{c}{i}" for c in self._letters for i in range(1, MOST_NAMES + 1)]
         self.ring = symbols([*self.parameters, *names, " "])
         self.one = RationalFunction(self.ring[" "] ** 0, self.ring[" "] ** 0)
@@ -180,7 +181,7 @@ class Field(Arithmetic):
         self, letter: int, value: RationalFunction, root: Poly = (), sign: int = 1
     ) -> RationalFunction:
         start = self._letters[letter]
-        number = 1 + sum(s.name.startswith(start) for s in self.steps)
+        number = 1 + sum(bool(s.root) == letter for s in self.steps)
         if number > MOST_NAMES:
             raise TooMuch(f"more than {MOST_NAMES} values with a name")
         self.steps.append(Step(f"{start}{number}", value, root, sign))
@@ -204,8 +205,9 @@ class Field(Arithmetic):
                 kept[name] = steps.pop(symbol).value
         numbers, images = Counter[str](), dict(self.ring)
         for name in steps:
-            numbers[name[0]] += 1
-            images[name] = self.ring[f"{name[0]}{numbers[name[0]]}"]
+            letter = name.rstrip("0123456789")
+            numbers[letter] += 1
+            images[name] = self.ring[f"{letter}{numbers[letter]}"]
         by = list(images.values())
         return (
             tuple(s.renamed(str(images[s.name]), by) for s in steps.values()),

@@ -15,16 +15,24 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 from math import prod
-from typing import Any
+from typing import Any, Protocol
 
 from disting.general.field import Arithmetic, Poly
 from disting.network.element import Element
 from disting.network.normal_form import Part, Power, in_parallel, in_series, turned
 
-QUADRATIC = 2
+QUADRATIC = TWO = 2
 Cut = list[tuple[int, ...]]
 """For each branch the positions of its factors."""
 Values = dict[str, Any]
+
+
+class Shaped(Protocol):
+    """What branches are shared among: those of one shape are alike."""
+
+    @property
+    def shape(self) -> tuple[object, ...]:
+        """What tells it from others."""
 
 
 class NoFormulas(Exception):
@@ -163,12 +171,7 @@ def _parted(
         pole = field.short(top[0] / bottom[1])
         left = left[1:]
         rest = field.plus(rest, left, -pole)[1:]
-    ways = (
-        [{many[0]: (rest, left)}]
-        if len(many) == 1
-        else _shared(field, [(i, trees[i], shares[i].terms) for i in many], rest, left)
-    )
-    for terms in ways:
+    for terms in shared(field, [(i, trees[i], shares[i].terms) for i in many], rest, left):
         found = list[tuple[Poly, Poly]]()
         for i, share in enumerate(shares):
             above, below = terms.get(i, ((), (field.one,)))
@@ -181,16 +184,16 @@ def _parted(
         yield found
 
 
-def _shared(
-    field: Arithmetic, branches: Sequence[tuple[int, Tree, int]], top: Poly, bottom: Poly
-) -> Iterator[dict[int | None, tuple[Poly, Poly]]]:
-    """Yield the terms of several branches, by their places."""
-    if not branches:
-        yield {}
+def shared(
+    field: Arithmetic, branches: Sequence[tuple[int, Shaped, int]], top: Poly, bottom: Poly
+) -> Iterator[dict[int, tuple[Poly, Poly]]]:
+    """Yield the terms of branches, by their places: of so many terms each."""
+    if len(branches) < TWO:
+        yield {place: (top, bottom) for place, _, _ in branches}
         return
     for factors, cut in _partitions(field, branches, bottom):
         terms = _partial(field, factors, top, bottom)
-        found = dict[int | None, tuple[Poly, Poly]]()
+        found = dict[int, tuple[Poly, Poly]]()
         for (place, _, _), chosen in zip(branches, cut, strict=True):
             below = field.times(*(factors[i] for i in chosen))
             above: Poly = ()
@@ -202,7 +205,7 @@ def _shared(
 
 
 def _partitions(
-    field: Arithmetic, branches: Sequence[tuple[int, Tree, int]], bottom: Poly
+    field: Arithmetic, branches: Sequence[tuple[int, Shaped, int]], bottom: Poly
 ) -> Iterator[tuple[list[Poly], Cut]]:
     """Yield factors of a denominator and which of them each branch has; quadratic ones are split
     where that is needed.

@@ -4,11 +4,12 @@ part, each by synthesis.
 A one-port of two kinds of elements is a part as a whole, however it is made, if the other one is in
 series and parallel. Else both networks are drawn as graphs with parts at their edges, and edges are
 matched that have the same sets of functions. Parts of three kinds are matched branch by branch.
+Trees of compartments have their own way (`values_of_compartments`).
 """
 
 from collections.abc import Iterator, Sequence
 from functools import partial, reduce
-from itertools import product
+from itertools import islice, product
 from typing import Any
 
 from disting.general.closed_form import ClosedForm
@@ -27,12 +28,14 @@ from disting.general.synthesis import (
     series,
     synthesized,
 )
+from disting.general.values_of_compartments import values_of_tree
 from disting.network.element import Port
 from disting.network.graph import joined
 from disting.network.network import Network
 from disting.network.normal_form import Power
 
 LETTERS = (12, 24, 48, 96, 192)  # of a value without a name: what is written shorter is kept
+MOST_MATCHES = 24
 TWO = 2  # kinds of elements
 Edges = dict[frozenset[int], Tree]
 
@@ -53,10 +56,10 @@ def by_parts(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
     for letters in LETTERS:
         try:
             found.append(list(_forms(given, other, Field(given.parameters, letters))))
-        except TooMuch:
+        except (TooMuch, ZeroDivisionError):  # too long, or the function is of a smaller set
             continue
     if not found:
-        raise NoFormulas("they have too many terms")
+        raise NoFormulas("they grow too long")
     return min(found, key=lambda forms: sum(f.length for f in forms))
 
 
@@ -69,6 +72,9 @@ def _forms(given: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedFor
 
 def values_over(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values]:
     """Yield the values of the other network, for each way to share terms among its branches."""
+    if other.network is not None and other.network.is_directed and isinstance(given, Model):
+        yield from values_of_tree(field, given, other.network.grounded)
+        return
     ways = _of_one_port(field, given, other)
     yield from _of_edges(field, _placed(given), _placed(other)) if ways is None else ways
 
@@ -119,49 +125,54 @@ def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tup
 
 
 def _of_edges(field: Arithmetic, given: Network, other: Network) -> Iterator[Values]:
-    """Of networks that are one graph with parts at the edges."""
+    """Of networks that are one graph with parts at the edges, matched in the first way that gives
+    formulas.
+    """
     one, two = _edges(given), _edges(other)
-    for places in _matches(given, one, other, two):
-        parts = [_of_part(field, one[ends], two[places[ends]]) for ends in one]
+    none = NoFormulas("they are not made of parts that replace each other")
+    for places in islice(_matches(given, one, other, two), MOST_MATCHES):
+        try:
+            parts = [_of_part(field, one[ends], two[places[ends]]) for ends in one]
+        except NoFormulas as why:
+            none = why
+            continue
         for chosen in product(*parts):
             yield {name: x for values in chosen for name, x in values.items()}
         return
-    raise NoFormulas("they are not made of parts that replace each other")
+    raise none
 
 
 def _matches(
     given: Network, one: Edges, other: Network, two: Edges
 ) -> Iterator[dict[frozenset[int], frozenset[int]]]:
     """Yield the edges of the other graph by those of the given one, same sets at both and the same
-    ports; force and sensor may be exchanged.
+    ports, all of them perhaps turned; force and sensor may be exchanged.
     """
     import networkx  # imported late: it takes longer than most of what is asked
 
-    wanted = _drawn(one, given.inputs, given.outputs)
-    readings = [(other.inputs, other.outputs)]
+    wanted = _drawn(one, (*given.inputs, *given.outputs))
+    readings = [(*other.inputs, *other.outputs)]
     if len(other.inputs) == len(other.outputs) == 1:
-        readings.append((other.outputs, other.inputs))
-    for inputs, outputs in readings:
+        readings.append((*other.outputs, *other.inputs))
+    readings += [tuple(Port(p.minus, p.plus) for p in ports) for ports in readings]
+    for ports in readings:
         matcher = networkx.algorithms.isomorphism.GraphMatcher(
-            wanted,
-            _drawn(two, inputs, outputs),
-            lambda a, b: a == b,
-            lambda a, b: a == b,
+            wanted, _drawn(two, ports), dict.__eq__, dict.__eq__
         )
         for nodes in matcher.isomorphisms_iter():
             yield {ends: frozenset(nodes[i] for i in ends) for ends in one}
 
 
-def _drawn(edges: Edges, inputs: Sequence[Port], outputs: Sequence[Port]) -> Any:
+def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
     import networkx
 
     graph: Any = networkx.Graph()
     for ends, tree in edges.items():
         graph.add_edge(*ends, part=tree.part.generic)
-    for number, port in enumerate((*inputs, *outputs)):
-        for node in (port.plus, port.minus):
+    for number, port in enumerate(ports):
+        for node, sign in ((port.plus, 1), (port.minus, -1)):
             graph.add_node(node)
-            graph.nodes[node].setdefault("ports", []).append(number)
+            graph.nodes[node].setdefault("ports", []).append((number, sign))
     return graph
 
 

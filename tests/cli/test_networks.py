@@ -285,3 +285,11 @@ def test_other_values_of_the_same_network():
     assert done.returncode == 0
     assert "C1 = 1, C2 = 1, R0 = 1, R1 = 3, R2 = 2" in done.stdout
     assert done.stdout.startswith(f"{cell}: of 1 network 1 can do the same")
+
+
+def test_values_at_which_there_is_none_are_explained():
+    one, two = "p(R1,C1)-p(R2,C2)", "p(C1,R1-p(C2,R2))"
+    done = called("equivalents", one, "--to", two, "--set", "R1=1,R2=2,C1=2,C2=1")
+    assert "these values are special, for almost all others there is one" in done.stdout
+    done = called("equivalents", one, "--to", two, "--set", "R1=1,R2=2,C1=-2,C2=1")
+    assert "given values are not all positive, which is what the verdict is about" in done.stdout

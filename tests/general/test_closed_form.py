@@ -11,6 +11,7 @@ from disting.errors import ContradictionError
 from disting.general.alternatives import alternatives
 from disting.general.any_model import of_network
 from disting.general.closed_form import confirmed
+from disting.general.field import Field, names_in
 from disting.general.synthesis import NoFormulas
 from disting.general.values_of_parts import by_parts
 from disting.model.question import Domain
@@ -33,6 +34,10 @@ PAIRS = (
     ("1~2~3, 1~4; F1; S1", "1~2, 2~3, 2~4; F1; S1", 1, True),
     ("1=2~3~4; F1; S1", "1=2, 2~3, 2~4; F1; S1", 1, True),
     ("1=2~3~4; F1; S2", "1=2, 2~3, 2~4; F2; S1", 1, True),
+    ("1<>2, 1<>3, 1<>4, 1>0; in 1; out 1", "1<>2, 2<>3, 3<>4, 2>0; in 1; out 1", 1, False),
+    ("1<>2, 1<>3, 1<>4, 1>0; in 1; out 1", "1<>2, 2<>3, 1<>4, 2>0; in 1; out 1", 3, False),
+    ("1<>2, 2<>3, 1>0; in 1; out 1", "1<>2, 1<>3, 2>0; in 1; out 1", 2, True),
+    ("1<>2, 2<>3; in 1; out 1", "1<>2, 1<>3; in 1; out 1", 2, True),
 )
 
 
@@ -173,3 +178,22 @@ def _ladder(a, b, sections, is_open):
     for i in range(sections - 1, 0, -1):
         inside = f"p({b}{i},{a}{i}-{inside})"
     return f"{a}0-{inside}" if is_open else inside
+
+
+def test_a_renaming_is_read_the_right_way():
+    """Of three masses around a loop: 1 to 2 to 3 to 1 is not its own inverse."""
+    one, two = "1~2*3/2, 2~3, 1~3; F1; S2", "2~3*3/2, 3~1, 2~1; F2; S3"
+    (form,) = formulas(one, two)
+    assert not form.steps
+    assert [line.split() for line in form.text.splitlines() if line.startswith("m")] == [
+        ["m1'", "=", "m3"],
+        ["m2'", "=", "m1"],
+        ["m3'", "=", "m2"],
+    ]
+
+
+def test_names_that_are_taken_are_not_given_to_steps():
+    ring = Field(("u1", "x2", "xx1"))
+    value = (ring["u1"] + ring["x2"]) ** 30
+    assert names_in(ring.short(value)) == {"uu1"}
+    assert names_in(ring.split((ring["u1"], ring["x2"], ring.one))[1]) == {"xxx2"}

@@ -21,6 +21,7 @@ from disting.fit.plan.power import Answer
 from disting.fit.plan.rival import Limit, Trust
 from disting.fit.search.setup import Setup
 from disting.general.any_model import of_network
+from disting.general.balls import POSITIVE
 from disting.general.fibre import Extent
 from disting.general.model_files import read_models
 from disting.measurement import write_csv
@@ -218,7 +219,7 @@ def test_words_of_the_schemas_are_those_of_the_program() -> None:
     assert signs == [s.value for s in Signs]
     networks = schema(Format.NETWORK_EQUIVALENTS)["properties"]["equivalents"]["items"]
     extents = networks["properties"]["extent"]["enum"]
-    assert extents == ["", *(e.value for e in Extent)]
+    assert extents == ["", *(e.value for e in Extent), POSITIVE]
     pairs = schema(Format.NEXT_OF_FIT)["properties"]["pairs"]["items"]["properties"]
     assert pairs["standing"]["enum"] == [s.value for s in Standing]
 
