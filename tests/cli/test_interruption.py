@@ -74,10 +74,10 @@ def test_many_processes_share_one_cache(tmp_path):
         subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
         )
-        for _ in range(3)
+        for _ in range(2)
     ]
     outputs = [process.communicate(timeout=600) for process in running]
-    assert [process.returncode for process in running] == [0] * 3
+    assert [process.returncode for process in running] == [0] * 2
     assert {error for _, error in outputs} == {""}
     assert len({text for text, _ in outputs}) == 1
 
