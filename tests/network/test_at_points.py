@@ -142,10 +142,7 @@ LARGE = "=".join(map(str, range(1, 11)))
 
 @pytest.mark.parametrize(
     ("branch", "relation"),
-    [
-        pytest.param("6=11, 11=12", Relation.UNDECIDED, marks=pytest.mark.slow),
-        ("5=11", Relation.DISTINGUISHABLE),
-    ],
+    [("6=11, 11=12", Relation.UNDECIDED), ("5=11", Relation.DISTINGUISHABLE)],
 )
 def test_networks_with_too_many_terms(branch, relation) -> None:
     """Profiles may tell them apart; what needs the terms is left open, and said."""
