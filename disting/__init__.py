@@ -8,73 +8,77 @@ tell apart, with proof, and what else to measure then.
 
 TYPE_CHECKING = False  # as type checkers know it; the module typing would double the start
 if TYPE_CHECKING:
-    from disting import fit as fit
-    from disting import measurement as measurement
-    from disting import report as report
-    from disting import simulation as simulation
+    from disting import (
+        fit as fit,
+        measurement as measurement,
+        report as report,
+        simulation as simulation,
+    )
     from disting.algebra.certainty import Certainty as Certainty
     from disting.behaviour.expanded import transfer_function as transfer_function
-    from disting.catalogs import Catalog as Catalog
-    from disting.catalogs import ModelRow as ModelRow
-    from disting.catalogs import catalog as catalog
-    from disting.conditions.finding import Finding as Finding
-    from disting.conditions.finding import Outcome as Outcome
+    from disting.catalogs import Catalog as Catalog, ModelRow as ModelRow, catalog as catalog
+    from disting.conditions.finding import Finding as Finding, Outcome as Outcome
     from disting.conditions.table import CONDITIONS as CONDITIONS
-    from disting.equivalence import equivalents as equivalents
-    from disting.equivalence import explicit_map as explicit_map
-    from disting.equivalence import gate as gate
-    from disting.errors import CatalogError as CatalogError
-    from disting.errors import ConstraintViolation as ConstraintViolation
-    from disting.errors import ContradictionError as ContradictionError
-    from disting.errors import DistingError as DistingError
-    from disting.errors import InputError as InputError
+    from disting.equivalence import (
+        equivalents as equivalents,
+        explicit_map as explicit_map,
+        gate as gate,
+    )
+    from disting.errors import (
+        CatalogError as CatalogError,
+        ConstraintViolation as ConstraintViolation,
+        ContradictionError as ContradictionError,
+        DistingError as DistingError,
+        InputError as InputError,
+    )
     from disting.experiments import Experiment as Experiment
     from disting.files import __version__ as __version__
-    from disting.general.alternatives import Alternatives as Alternatives
-    from disting.general.alternatives import alternatives as alternatives
+    from disting.general.alternatives import (
+        Alternatives as Alternatives,
+        alternatives as alternatives,
+    )
     from disting.general.global_identifiability import (
         global_identifiability as global_identifiability,
     )
     from disting.general.identifiability import local_identifiability as local_identifiability
     from disting.general.matrix_model import MatrixModel as MatrixModel
     from disting.general.model import Model as Model
-    from disting.general.model_files import ModelList as ModelList
-    from disting.general.model_files import read_models as read_models
-    from disting.general.model_files import write_models as write_models
-    from disting.model.chain import Chain as Chain
-    from disting.model.chain import Sensor as Sensor
+    from disting.general.model_files import (
+        ModelList as ModelList,
+        read_models as read_models,
+        write_models as write_models,
+    )
+    from disting.model.chain import Chain as Chain, Sensor as Sensor
     from disting.model.family import Family as Family
-    from disting.model.question import Domain as Domain
-    from disting.model.question import Settings as Settings
+    from disting.model.question import Domain as Domain, Settings as Settings
     from disting.model.symmetry import Symmetry as Symmetry
-    from disting.network.element import Element as Element
-    from disting.network.element import Port as Port
+    from disting.network.element import Element as Element, Port as Port
     from disting.network.network import Network as Network
     from disting.network.notation import network_of as network_of
-    from disting.questions.identifiability import Identifiability as Identifiability
-    from disting.questions.identifiability import Level as Level
     from disting.questions.identifiability import (
+        Identifiability as Identifiability,
+        Level as Level,
         ParameterIdentifiability as ParameterIdentifiability,
     )
     from disting.questions.inclusion import Inclusion as Inclusion
-    from disting.store import CacheWarning as CacheWarning
-    from disting.store import Store as Store
+    from disting.store import CacheWarning as CacheWarning, Store as Store
     from disting.verdict.cascade import Step as Step
-    from disting.verdict.comparison import compare as compare
-    from disting.verdict.comparison import findings as findings
-    from disting.verdict.comparison import identifiability as identifiability
+    from disting.verdict.comparison import (
+        compare as compare,
+        findings as findings,
+        identifiability as identifiability,
+        prove as prove,
+    )
     from disting.verdict.decisions import Decisions as Decisions
     from disting.verdict.engine import Engine as Engine
-    from disting.verdict.everywhere import compare_everywhere as compare_everywhere
-    from disting.verdict.everywhere import everywhere_file as everywhere_file
-    from disting.verdict.proof import prove as prove
-    from disting.verdict.query import Query as Query
-    from disting.verdict.query import View as View
-    from disting.verdict.result import Relation as Relation
-    from disting.verdict.result import Verdict as Verdict
+    from disting.verdict.everywhere import (
+        compare_everywhere as compare_everywhere,
+        everywhere_file as everywhere_file,
+    )
+    from disting.verdict.query import Query as Query, View as View
+    from disting.verdict.result import Relation as Relation, Verdict as Verdict
     from disting.verdict.verdict_file import verdict_file as verdict_file
-    from disting.verdict.verification import Verification as Verification
-    from disting.verdict.verification import verify as verify
+    from disting.verdict.verification import Verification as Verification, verify as verify
 
 # The same list, by which a name is found when it is used: to import all takes half a second.
 _NAMES = {
@@ -104,11 +108,10 @@ _NAMES = {
     "disting.questions.inclusion": "Inclusion",
     "disting.store": "CacheWarning Store",
     "disting.verdict.cascade": "Step",
-    "disting.verdict.comparison": "compare findings identifiability",
+    "disting.verdict.comparison": "compare findings identifiability prove",
     "disting.verdict.decisions": "Decisions",
     "disting.verdict.engine": "Engine",
     "disting.verdict.everywhere": "compare_everywhere everywhere_file",
-    "disting.verdict.proof": "prove",
     "disting.verdict.query": "Query View",
     "disting.verdict.result": "Relation Verdict",
     "disting.verdict.verdict_file": "verdict_file",

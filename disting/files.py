@@ -1,5 +1,9 @@
 """Files: the data that the package ships, read whole; files that a user names, never read without
 a bound; and files that are written whole or not at all, with the same bytes on every system.
+
+All JSON that is written says at "format" which format it has. A field that is added leaves its
+number as it is; one that goes, or means something else, raises it. Of each there is a JSON Schema;
+definitions that several share stand in one file.
 """
 
 import contextlib
@@ -10,6 +14,7 @@ import stat
 import threading
 import warnings
 from collections.abc import Iterable, Iterator
+from enum import StrEnum
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -21,6 +26,7 @@ STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process,
 LARGEST = 50_000_000  # bytes of a file, unless its reader takes more
 PART = 1 << 20  # bytes that are read at once of what does not tell its size
 PATIENCE = 2.0  # seconds after which a pipe that says nothing is spoken of
+DEFINITION = re.compile(r'"#/\$defs/(\w+)"')  # in a JSON Schema
 __version__ = "0.3.0"  # of the package; files that it writes name it
 
 
@@ -194,3 +200,63 @@ def _opened(path: Path) -> Iterator[BinaryIO]:
     except BaseException:
         beside.unlink(missing_ok=True)
         raise
+
+
+class Format(StrEnum):
+    """What a JSON says at "format"."""
+
+    VERDICT = "disting verdict 1"
+    EVERYWHERE = "disting verdicts for every place 1"
+    VERDICTS = "disting verdicts 1"
+    CATALOGUE = "disting catalogue 1"
+    EQUIVALENTS = "disting equivalents 1"
+    NETWORK_EQUIVALENTS = "disting equivalents of a network 1"
+    NEXT = "disting next 1"
+    NEXT_OF_FIT = "disting next of a fit 1"
+    NEXT_OF_NETWORK_FIT = "disting next of a fit of networks 1"
+    FIT = "disting fit 1"
+    NETWORK_FIT = "disting fit of networks 1"
+    PLAN = "disting plan 1"
+    PLANS_OF_FIT = "disting plans of a fit 1"
+    MODELS = "disting models 1"
+    GATE = "disting gate 1"
+
+    @property
+    def short(self) -> str:
+        """Its name on a command line, and that of its file.
+
+        >>> Format.NEXT_OF_FIT.short
+        'next-of-a-fit'
+        """
+        return "-".join(self.value.split()[1:-1])
+
+    @property
+    def description(self) -> str:
+        """What it holds and who writes it."""
+        return str(_read_schema(self.short)["description"])
+
+
+def schema(of: Format) -> dict[str, Any]:
+    """Its JSON Schema, which needs no other file.
+
+    >>> schema(Format.NEXT)["title"], sorted(schema(Format.NEXT)["$defs"])[:2]
+    ('disting next 1', ['certainty', 'next'])
+    """
+    found, known = _read_schema(of.short), _read_schema("definitions")
+    needed: dict[str, Any] = {}
+    new = _definitions(found)
+    while new:
+        needed |= {name: known[name] for name in sorted(new)}
+        new = {n for name in new for n in _definitions(known[name])} - needed.keys()
+    return found | {"$defs": dict(sorted(needed.items()))}
+
+
+def _definitions(part: object) -> set[str]:
+    """Definitions that a part of a schema refers to."""
+    return set(DEFINITION.findall(json.dumps(part)))
+
+
+def _read_schema(name: str) -> dict[str, Any]:
+    text = (Path(__file__).parent / "schemas" / f"{name}.json").read_text(encoding="utf-8")
+    found: dict[str, Any] = json.loads(text)
+    return found

@@ -8,8 +8,7 @@ from enum import Enum
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 import disting
 from disting import (

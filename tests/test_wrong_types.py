@@ -5,8 +5,15 @@ import inspect
 import pytest
 
 import disting
-from disting import Experiment, InputError, Model, compare, compare_everywhere, findings
-from disting import verdict_file as file_of_verdict
+from disting import (
+    Experiment,
+    InputError,
+    Model,
+    compare,
+    compare_everywhere,
+    findings,
+    verdict_file as file_of_verdict,
+)
 
 WRONG = [3, None, 3.5, object(), [], {}]
 FUNCTIONS = [

@@ -19,6 +19,7 @@ from flint import nmod_mat
 
 from disting.algebra.matroid_circuits import dependent_flats, search_size
 
+MOST_ROWS = 64  # of a component: its sets are bits of one word
 Rows = tuple[int, ...]
 
 
@@ -77,9 +78,10 @@ class Matroid:
 
 
 def matroid(jacobian: nmod_mat, limit: int) -> Matroid:
-    """Matroid of the rows of a matrix modulo a prime below 2^31, at most 64 rows.
+    """Matroid of the rows of a matrix modulo a prime below 2^31.
 
-    Raises SearchTooLargeError where a component has more than `limit` subsets of its (dual) rank.
+    Raises SearchTooLargeError where a component has more than 64 rows, or more than `limit` subsets
+    of its (dual) rank.
     """
     reduced, rank = jacobian.transpose().rref()
     size = jacobian.nrows()
@@ -156,7 +158,7 @@ def _component(
     dual = len(rows) - rank < rank
     if dual:
         part = _dual(part, [columns.index(pivots[i]) for i in inside], modulus)
-    if search_size(part.shape[0], len(rows)) > limit:
+    if len(rows) > MOST_ROWS or search_size(part.shape[0], len(rows)) > limit:
         raise SearchTooLargeError(f"{len(rows)} rows of rank {rank}")
     masks = dependent_flats(part, modulus) if len(part) else []
     flats = sorted(

@@ -20,7 +20,7 @@ import numpy as np
 from flint import nmod_mat
 from numpy.typing import NDArray
 
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 
 Words = NDArray[np.uint64]
 Marks = NDArray[np.bool_]

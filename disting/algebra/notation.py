@@ -13,10 +13,10 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import (
     Content,
     Polynomial,
+    RationalFunction,
     Term,
     content,
     factors,
@@ -34,7 +34,7 @@ Product = tuple[Any, list[tuple[Expr, int]]]
 def expression(of: RationalFunction | Sum, *, evaluate: bool = True) -> Expr:
     """The same for SymPy; a rational function factorised, a sum term by term.
 
-    >>> from disting.algebra.rational_function import variables
+    >>> from disting.algebra.symbols import variables
     >>> a, b = variables(["m1", "m2"]).values()
     >>> expression((a**2 - b**2) / a) * expression([(1, {"m1": 1})])
     (m1 - m2)*(m1 + m2)

@@ -17,8 +17,8 @@ from typing import ClassVar
 
 from flint import fmpz_poly
 
+from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, constant, lowest_terms, variable
-from disting.algebra.sampling import Size
 from disting.algebra.symbols import coefficients
 from disting.behaviour.expanded import written_out
 from disting.behaviour.sample import at_point, coefficient_columns

@@ -18,7 +18,7 @@ from types import MappingProxyType
 
 from flint import fmpz_mpoly
 
-from disting.algebra.fractionfree import rank
+from disting.algebra.determinants import rank
 from disting.algebra.notation import Expr, quotient, symbol
 from disting.algebra.symbols import coefficients, renamed, symbols
 from disting.behaviour.transfer import plain_receptance

@@ -13,9 +13,9 @@ from itertools import chain
 from math import ceil, log2
 from typing import Any
 
+from disting.algebra.certainty import SEARCH_BITS, Size, enough, safety
 from disting.algebra.matroid import Component, Matroid, SearchTooLargeError, matroid
 from disting.algebra.quotient import Quotient, rational, series_rows
-from disting.algebra.sampling import SEARCH_BITS, Size, enough, safety
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Drawn, Representation, Sample, drawn, samples, seen_at
 from disting.model.protocol import Model
@@ -205,8 +205,6 @@ def _matroid(
 
     What was refuted counts too: each statement had its chance to be confirmed wrongly.
     """
-    if len(seen[0].labels) > 64:
-        return Unsearched("more than 64 invariants"), 0
     claims = 0
     for search in searches:
         try:

@@ -25,8 +25,8 @@ from functools import lru_cache
 
 from flint import nmod_mat
 
+from disting.algebra.certainty import PROOF_BITS, about, prime, residues
 from disting.algebra.quotient import Quotient, coefficient_rows, matrix, series_rows
-from disting.algebra.sampling import PROOF_BITS, about, prime, residues
 from disting.errors import InputError
 from disting.model.protocol import ZERO, Columns, Degrees, Model
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
 
-from disting.algebra.tridiagonal import Ring, Tridiagonal
+from disting.algebra.determinants import Ring, Tridiagonal
 from disting.model.structure import Element, Ports, power
 
 

@@ -1,5 +1,4 @@
 """A whole family compared: built, stored, looked up, verified."""
 
-from disting.catalogs.catalog import Catalog as Catalog
-from disting.catalogs.catalog import ModelRow as ModelRow
-from disting.catalogs.catalog import catalog as catalog
+from disting.catalogs.catalog import Catalog as Catalog, catalog as catalog
+from disting.catalogs.pairs import ModelRow as ModelRow

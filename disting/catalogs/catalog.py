@@ -4,13 +4,13 @@ CSV and JSON.
 
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from disting.catalogs.export import Row, csv_text, inclusion_text, premise_text, share_text
+from disting.catalogs.export import csv_row, csv_text
 from disting.catalogs.files import (
     PROVENANCE,
     SHIPPED_SIZES,
@@ -19,14 +19,20 @@ from disting.catalogs.files import (
     read_records,
     shipped_folder,
 )
-from disting.catalogs.pairs import deciding, relation_of, stored_verdict
+from disting.catalogs.pairs import (
+    INDEX_NAMES,
+    ModelRow as ModelRow,
+    deciding,
+    model_row,
+    relation_of,
+    stored_verdict,
+)
 from disting.conditions.rule import RULES
 from disting.errors import CatalogError, ContradictionError, InputError, of_type
-from disting.model.chain import Chain, Premise
+from disting.files import Format
+from disting.model.chain import Premise
 from disting.model.family import Family
 from disting.model.presentation import Shown, plural, summary
-from disting.questions.identifiability import Identifiability
-from disting.schemas import Format
 from disting.verdict.buckets import classes_of
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
@@ -34,32 +40,6 @@ from disting.verdict.result import Relation, Verdict
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
-
-
-@dataclass(frozen=True, slots=True)
-class ModelRow:
-    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in
-    `classes()` or 0.
-
-    >>> row = catalog(2, damped=True).rows[1]
-    >>> row.number, row.rank, row.n_parameters
-    (2, 3, 4)
-    """
-
-    number: int
-    chain: Chain
-    numerator_degree: int
-    denominator_degree: int
-    n_parameters: int
-    rank: int
-    group: int
-    identifiability: Identifiability
-
-    def __repr__(self) -> str:
-        known = f"{self.rank} of {self.n_parameters} parameters determinable"
-        return summary(
-            self, f"model {self.number}, {known}" + f", group {self.group}" * bool(self.group)
-        )
 
 
 @dataclass(frozen=True)
@@ -149,7 +129,8 @@ class Catalog(Shown):
         """The models with their properties."""
         group = {m: number for number, members in enumerate(self.classes(), 1) for m in members}
         return tuple(
-            self._row(r, group.get(r["model"], 0)) for r in self.records[1 : 1 + len(self.family)]
+            model_row(r, self.family, group.get(r["model"], 0))
+            for r in self.records[1 : 1 + len(self.family)]
         )
 
     def classes(self, view: View = View.POSITIVE) -> tuple[tuple[int, ...], ...]:
@@ -159,6 +140,10 @@ class Catalog(Shown):
         Raises CatalogError where the verdicts contradict each other. Pairs that agree for some
         parameters only belong to no group for that (see `depending`).
         """
+        groups: tuple[tuple[int, ...], ...] = self._once(view, partial(self._classes_of, view))
+        return groups
+
+    def _classes_of(self, view: View) -> tuple[tuple[int, ...], ...]:
         pairs = self.records[1 + len(self.family) :]
         relations = {(r["left"], r["right"]): relation_of(self._deciding(r, view)) for r in pairs}
         names = [str(number) for number in range(1, 1 + len(self.family))]
@@ -218,7 +203,7 @@ class Catalog(Shown):
         import pandas as pd
 
         rows = [
-            {"model": r.number, **dict(zip(_INDEX_NAMES, r.chain.indices[1:], strict=True))}
+            {"model": r.number, **dict(zip(INDEX_NAMES, r.chain.indices[1:], strict=True))}
             | {"parameters": " ".join(r.chain.parameters), "numerator_degree": r.numerator_degree}
             | {"denominator_degree": r.denominator_degree, "n_parameters": r.n_parameters}
             | {
@@ -233,7 +218,7 @@ class Catalog(Shown):
 
     def to_csv(self, view: View = View.POSITIVE) -> str:
         """All verdicts as CSV text."""
-        return csv_text(_csv_row(i, j, v) for i, j, v in self.pairs(view))
+        return csv_text(csv_row(i, j, v) for i, j, v in self.pairs(view))
 
     def to_json(self, view: View = View.POSITIVE) -> str:
         """All verdicts with evidence and sentences as JSON text."""
@@ -246,42 +231,27 @@ class Catalog(Shown):
         }
         return json.dumps(plain, ensure_ascii=False, separators=(",", ":")) + "\n"
 
-    def _row(self, record: Record, group: int) -> ModelRow:
-        number, (numerator, denominator) = record["model"], record["degrees"]
-        known = Identifiability.from_dict(record["identifiability"])
-        chain, count = self.family[number], len(record["parameters"])
-        return ModelRow(
-            number=number,
-            chain=chain,
-            numerator_degree=numerator,
-            denominator_degree=denominator,
-            n_parameters=count,
-            rank=record["rank"],
-            group=group,
-            identifiability=known,
-        )
-
     @cached_property
-    def _known(self) -> dict[tuple[int, int, View], Verdict]:
-        """Verdicts that were asked for; pages ask for each a few times."""
+    def _known(self) -> dict[object, Any]:
+        """What was asked for: pages ask a few times for each verdict, for the step that decides it,
+        and for the groups of a view.
+        """
         return {}
 
-    @cached_property
-    def _steps(self) -> dict[tuple[int, int, View], dict[str, Any]]:
-        """Deciding steps that were asked for: over positive parameters they are made of shares."""
-        return {}
+    def _once(self, key: object, made: Callable[[], Any]) -> Any:
+        if key not in self._known:
+            self._known[key] = made()
+        return self._known[key]
 
     def _deciding(self, record: Record, view: View) -> dict[str, Any]:
-        key = (record["left"], record["right"], view)
-        if key not in self._steps:
-            self._steps[key] = deciding(record, view)[1]
-        return self._steps[key]
+        key = ("step", record["left"], record["right"], view)
+        step: dict[str, Any] = self._once(key, lambda: deciding(record, view)[1])
+        return step
 
     def _verdict(self, record: Record, view: View) -> Verdict:
         key = (record["left"], record["right"], view)
-        if key not in self._known:
-            self._known[key] = self._read(record, view)
-        return self._known[key]
+        verdict: Verdict = self._once(key, partial(self._read, record, view))
+        return verdict
 
     def _read(self, record: Record, view: View) -> Verdict:
         try:
@@ -313,28 +283,16 @@ def catalog(n_masses: int, *, damped: bool = True, folder: Path | None = None) -
             f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting"
             " catalog build'"
         )
-    return Catalog.from_records(
-        read_records((folder or shipped_folder()) / f"{name_of(n_masses, damped)}.jsonl")
-    )
+    return _shipped(n_masses, damped) if folder is None else _read(folder, n_masses, damped)
 
 
-_INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
+@lru_cache(maxsize=2)  # a look-up asks for the verdict, then for what is known of each model
+def _shipped(n_masses: int, damped: bool) -> Catalog:
+    return _read(shipped_folder(), n_masses, damped)
 
 
-def _csv_row(left: int, right: int, v: Verdict) -> Row:
-    image, closure = (inclusion_text(inclusion) for inclusion in (v.image, v.closure))
-    graded = (v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound)
-    return (
-        left,
-        right,
-        *graded,
-        v.domain,
-        image,
-        closure,
-        share_text(v.left_positive),
-        share_text(v.right_positive),
-        *premise_text(*v.premises),
-    )
+def _read(folder: Path, n_masses: int, damped: bool) -> Catalog:
+    return Catalog.from_records(read_records(folder / f"{name_of(n_masses, damped)}.jsonl"))
 
 
 def _software() -> dict[str, str]:

@@ -8,13 +8,13 @@ from collections.abc import Iterable, Sequence
 
 from disting.algebra.certainty import Certainty
 from disting.evidence.positive import PositiveFinding
+from disting.files import Format
 from disting.model.chain import Premise
 from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion, Sense
-from disting.schemas import Format
 from disting.verdict.decisions import Decisions
 from disting.verdict.joint import family_safety
-from disting.verdict.result import Relation, error_bound
+from disting.verdict.result import Relation, Verdict, error_bound
 
 FORMULA = re.compile(r"(?:^|(?<=[,;])|(?<=[,;] ))[=+@-]")
 CSV_COLUMNS = (
@@ -156,3 +156,20 @@ def decisions_json(decided: Decisions) -> str:
         "verdicts": verdicts,
     }
     return json.dumps(plain, ensure_ascii=False) + "\n"
+
+
+def csv_row(left: int, right: int, v: Verdict) -> Row:
+    """The row of a verdict on two numbered models."""
+    image, closure = (inclusion_text(inclusion) for inclusion in (v.image, v.closure))
+    graded = (v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound)
+    return (
+        left,
+        right,
+        *graded,
+        v.domain,
+        image,
+        closure,
+        share_text(v.left_positive),
+        share_text(v.right_positive),
+        *premise_text(*v.premises),
+    )

@@ -10,28 +10,66 @@ one reason), and which positive models of either side have a positive equivalent
 What the data files of a folder are: `provenance.json` with the digest of each, compared
 whenever one is read.
 
-The file that `disting catalog settle` appends to is named with the length that it had: what is
-appended later is the user's own. See `disting.files.intact_text`, which compares.
+`settled-dampers.jsonl`: pairs of chains with dampers to the ground that were decided once, with
+patience, a line a pair of canonical chains with its finding, which has its evidence.
+`damper_family` takes over what it finds there; that the evidence holds is looked at by itself
+(`evidence_check.finding_holds`). The file, to which `disting catalog settle` appends, is named with
+the length that it had: what is appended later is the user's own. See `disting.files.intact_text`,
+which compares.
 """
 
 import hashlib
 import json
 import platform
+from collections.abc import Iterable
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from disting.catalogs.damper_settled import FILE as SETTLED
+from disting.conditions.finding import Finding
 from disting.errors import CatalogError
-from disting.files import PROVENANCE as PROVENANCE
-from disting.files import __version__, intact_text, write_whole
-from disting.files import shipped_folder as shipped_folder
+from disting.files import (
+    PROVENANCE as PROVENANCE,
+    __version__,
+    intact_text,
+    shipped_folder as shipped_folder,
+    write_whole,
+)
+from disting.model.chain import Chain
 
+SETTLED = "settled-dampers.jsonl"
+Settled = dict[tuple[Chain, Chain], Finding]
+"""Findings on ordered pairs of canonical chains."""
 SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
 LEFT_POSITIVE, RIGHT_POSITIVE = "left_positive", "right_positive"  # of a pair's record
 INCLUSIONS = "inclusions"
 Record = dict[str, Any]
+
+
+def read_settled(canonical_chains: Iterable[Chain], folder: Path | None = None) -> Settled:
+    """What is settled of these canonical chains: in the shipped file, and in the folder's own."""
+    named = {str(chain): chain for chain in canonical_chains}
+    found = Settled()
+    folders = dict.fromkeys(where.resolve() for where in (shipped_folder(), folder) if where)
+    for path in (where / SETTLED for where in folders):
+        for text in intact_text(path).splitlines() if path.is_file() else ():
+            record = json.loads(text)
+            if record["left"] in named and record["right"] in named:
+                pair = named[record["left"]], named[record["right"]]
+                found[pair] = Finding.from_json(json.dumps(record["finding"]))
+    return found
+
+
+def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
+    """Add a finding to the file, at once."""
+    record = {
+        "left": str(first),
+        "right": str(second),
+        "finding": json.loads(finding.to_json()),
+    }
+    with (folder / SETTLED).open("a", encoding="utf-8", newline="\n") as file:
+        file.write(json.dumps(record, separators=(",", ":")) + "\n")
 
 
 def name_of(n_masses: int, damped: bool) -> str:

@@ -7,7 +7,8 @@ where positive equivalents were looked for, which then has the evidence. Other p
 by conditions or by an exact decision in milliseconds: they are decided anew.
 
 A command on a family takes the findings over, so it answers at once, and all that it says has its
-evidence.
+evidence. Families of thousands of such pairs are searched in brief: what is not decided within
+small bounds is undecided in the file, and `disting compare` of the two alone goes on for longer.
 """
 
 import json
@@ -24,6 +25,7 @@ from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import of_network, unnamed
+from disting.general.forms import BRIEFLY
 from disting.general.identifiability import PARAMETERS
 from disting.general.model_side import ComparedModel, positive_question
 from disting.network.families import NetworkFamily, family_of
@@ -38,11 +40,14 @@ COMMAND = "disting catalog families"
 SHIPPED = (
     "machines-2",
     "machines-2-damped",
+    "machines-3",
     "circuits-4",
     "circuits-5",
     "cells-4",
+    "cells-5",
     "compartments-2",
 )
+IN_BRIEF = ("machines-3",)  # of the shipped ones
 COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
 
 
@@ -66,10 +71,10 @@ def build_networks(
     order of the work.
     """
     sides = engine.general_subjects([of_network(n) for n in family.networks])
-    over_complex, over_positive = (
-        engine.decisions(sides, query, executor=executor, progress=progress)
-        for query in (COMPLEX, POSITIVE)
-    )
+    over_complex = engine.decisions(sides, COMPLEX, executor=executor, progress=progress)
+    if family.name in IN_BRIEF:
+        _search_in_brief(engine, sides, over_complex, executor, progress)
+    over_positive = engine.decisions(sides, POSITIVE, executor=executor, progress=progress)
     group = {i: g for g, members in enumerate(over_complex.classes(), 1) for i in members}
     header: Record = {
         "schema": SCHEMA,
@@ -94,13 +99,33 @@ def build_networks(
     return lines([header, *models, *pairs])
 
 
+def _search_in_brief(
+    engine: Engine,
+    sides: list[ComparedModel],
+    over_complex: Decisions,
+    executor: Executor | None,
+    progress: Progress,
+) -> None:
+    """Let the engine know what a brief search tells of each pair, in place of a long one."""
+    asked = [positive_question(sides[i], sides[j]) for i, j in _same(over_complex, len(sides))]
+    every = [models for _, models in asked]
+    engine.answer_all(BRIEFLY, every, executor=executor, progress=progress)
+    for question, models in asked:
+        engine.remember(question, models, engine.answer(BRIEFLY, models, engine.settings))
+
+
+def _same(over_complex: Decisions, count: int) -> Iterator[tuple[int, int]]:
+    """Yield the pairs that are not told apart over complex parameters."""
+    for i, j in combinations(range(count), 2):
+        if over_complex.relation(i, j) is not Relation.DISTINGUISHABLE:
+            yield i, j
+
+
 def _pairs(
     engine: Engine, sides: list[ComparedModel], over_complex: Decisions, over_positive: Decisions
 ) -> Iterator[Record]:
     """Yield the lines of the pairs that are the same over complex parameters."""
-    for i, j in combinations(range(len(sides)), 2):
-        if over_complex.relation(i, j) is Relation.DISTINGUISHABLE:
-            continue
+    for i, j in _same(over_complex, len(sides)):
         question, models = positive_question(sides[i], sides[j])
         finding = engine.answers.get(question_key(question, models, engine.settings))
         record: Record = {"left": i + 1, "right": j + 1, "complex": _told(over_complex, i, j)}

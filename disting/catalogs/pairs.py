@@ -1,11 +1,11 @@
-"""The record of a pair in a catalogue: which step decides in which view, and the verdict that it
-holds.
+"""Records of a catalogue. Of a pair: which step decides in which view, and the verdict that it
+holds; of a model: its row.
 
 Over positive parameters nothing is stored but the shares of both sides, from which the verdict
 follows.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass
 from typing import Any
 
 from disting.algebra.certainty import Certainty
@@ -13,23 +13,53 @@ from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Re
 from disting.conditions.rule import RULES, Role, Stage
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
-from disting.model.chain import Premise
+from disting.model.chain import Chain, Premise
+from disting.model.family import Family
+from disting.model.presentation import summary
 from disting.model.question import Domain
+from disting.questions.identifiability import Identifiability
 from disting.questions.inclusion import Inclusion, inclusions_from_dict
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
 from disting.verdict.cascade import Step, open_note
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
+INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
+
 
 def stored_verdict(
     record: Record, view: View, names: tuple[str, str], premises: tuple[Premise, Premise]
 ) -> Verdict:
     """The verdict of a view with all that the record says of the pair, which it names so."""
-    found = replace(_plain(record, view, names), premises=premises)
+    (where, step), relations = deciding(record, view), _both_ways(record, view)
+    if not step:
+        return Verdict(
+            *names,
+            Relation.UNDECIDED,
+            domain=view.domain,
+            notes=_notes(record, view),
+            premises=premises,
+            **relations,
+        )
+    return Verdict(
+        *names,
+        relation_of(step),
+        step["decided_by"],
+        where,
+        Certainty(step["certainty"]),
+        step["safety"],
+        evidence_from(step["evidence"]),
+        view.domain,
+        premises=premises,
+        **relations,
+    )
+
+
+def _both_ways(record: Record, view: View) -> dict[str, Any]:
+    """What a verdict says of inclusions and shares, where its view looks at the parameters."""
     settled = relation_of(deciding(record, View.EXACT)[1])
     if Stage.FIBRE not in view.representations or settled is Relation.UNDECIDED:
-        return found
+        return {}
     here, there = _shares(record)
     if INCLUSIONS in record:
         both = inclusions_from_dict(record[INCLUSIONS])
@@ -39,14 +69,13 @@ def stored_verdict(
         image = closure = (
             Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
         )
-    return replace(
-        found,
-        left_positive=here,
-        right_positive=there,
-        image=image,
-        closure=closure,
-        inclusions=both,
-    )
+    return {
+        "left_positive": here,
+        "right_positive": there,
+        "image": image,
+        "closure": closure,
+        "inclusions": both,
+    }
 
 
 def deciding(record: Record, view: View) -> tuple[Stage, dict[str, Any]]:
@@ -72,23 +101,6 @@ def relation_of(step: dict[str, Any]) -> Relation:
         Relation.DISTINGUISHABLE
         if RULES[step["decided_by"]].role is Role.NECESSARY
         else Relation.INDISTINGUISHABLE
-    )
-
-
-def _plain(record: Record, view: View, names: tuple[str, str]) -> Verdict:
-    where, step = deciding(record, view)
-    if not step:
-        return Verdict(*names, Relation.UNDECIDED, domain=view.domain, notes=_notes(record, view))
-    certainty, evidence = Certainty(step["certainty"]), evidence_from(step["evidence"])
-    return Verdict(
-        *names,
-        relation_of(step),
-        step["decided_by"],
-        where,
-        certainty,
-        step["safety"],
-        evidence,
-        view.domain,
     )
 
 
@@ -131,4 +143,46 @@ def _shares(record: Record) -> tuple[PositiveFinding | None, PositiveFinding | N
     here, there = (record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
     return PositiveFinding.from_dict(here) if here else None, (
         PositiveFinding.from_dict(there) if there else None
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ModelRow:
+    """A model as Table 3 lists it; `rank` = determinable parameters, `group` = its group in
+    `classes()` or 0.
+
+    >>> from disting.catalogs import catalog
+    >>> row = catalog(2, damped=True).rows[1]
+    >>> row.number, row.rank, row.n_parameters
+    (2, 3, 4)
+    """
+
+    number: int
+    chain: Chain
+    numerator_degree: int
+    denominator_degree: int
+    n_parameters: int
+    rank: int
+    group: int
+    identifiability: Identifiability
+
+    def __repr__(self) -> str:
+        known = f"{self.rank} of {self.n_parameters} parameters determinable"
+        return summary(
+            self, f"model {self.number}, {known}" + f", group {self.group}" * bool(self.group)
+        )
+
+
+def model_row(record: Record, family: Family, group: int) -> ModelRow:
+    """The row of a model from its record, in this group."""
+    number, (numerator, denominator) = record["model"], record["degrees"]
+    return ModelRow(
+        number=number,
+        chain=family[number],
+        numerator_degree=numerator,
+        denominator_degree=denominator,
+        n_parameters=len(record["parameters"]),
+        rank=record["rank"],
+        group=group,
+        identifiability=Identifiability.from_dict(record["identifiability"]),
     )

@@ -10,8 +10,7 @@ from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.files import shipped_folder
 from disting.catalogs.network_files import SHIPPED, build_networks, verify_networks
 from disting.cli.arguments import add_masses, add_out, add_work, size_or_family
-from disting.cli.effort import announced, pairs_by_size, pairs_work
-from disting.cli.workers import engine_for
+from disting.cli.workers import announced, engine_for, pairs_by_size, pairs_work
 from disting.network.families import family_of
 from disting.verdict.engine import Engine, Progress
 
@@ -124,9 +123,13 @@ def families(options: argparse.Namespace) -> int:
 
 def menus(options: argparse.Namespace) -> int:
     """Compute what to measure next for all groups of whole families."""
-    from disting.catalogs.damper_files import damper_catalog
-    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-    from disting.catalogs.next_files import WITH_DAMPERS, build_next, write
+    from disting.catalogs.damper_family import damper_catalog
+    from disting.catalogs.next_files import (
+        SHIPPED_SIZES as NEXT_SIZES,
+        WITH_DAMPERS,
+        build_next,
+        write,
+    )
 
     with engine_for(options) as (engine, pool, progress):
         for n, damped in product(options.masses or NEXT_SIZES, (False, True)):
@@ -143,8 +146,8 @@ def settle(options: argparse.Namespace) -> int:
     """Decide pairs of classes with dampers to the ground that are open, of the sizes that have
     files.
     """
-    from disting.catalogs.damper_files import read
-    from disting.catalogs.damper_verify import settle_dampers
+    from disting.catalogs.damper_family import read
+    from disting.catalogs.verify import settle_dampers
 
     with engine_for(options) as (engine, _, _):
         for n in options.masses:
@@ -192,11 +195,9 @@ def _wrong_of_one_size(
     """What is wrong in the files of chains of one size; nothing is taken from the cache: a
     verification computes.
     """
-    from disting.catalogs.damper_files import SHIPPED_SIZES, read
-    from disting.catalogs.damper_verify import verify_dampers
-    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-    from disting.catalogs.next_files import WITH_DAMPERS, verify_next
-    from disting.catalogs.verify import verify as verify_chains
+    from disting.catalogs.damper_family import SHIPPED_SIZES, read
+    from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, verify_next
+    from disting.catalogs.verify import verify as verify_chains, verify_dampers
 
     fresh, found = Engine(), list[str]()
     for check in (verify_chains, verify_dampers) if n in SHIPPED_SIZES else (verify_chains,):

@@ -23,11 +23,10 @@ from disting.cli.arguments import (
     add_quantity,
 )
 from disting.cli.compare_words import both_ways, every_way, explained, in_letters
-from disting.cli.effort import told_if_long
 from disting.cli.model_names import MODEL, models_named
 from disting.cli.output import emitted
 from disting.cli.relations import query
-from disting.cli.workers import engine_for
+from disting.cli.workers import engine_for, told_if_long
 from disting.errors import InputError
 from disting.experiments import named
 from disting.general.any_model import measured
@@ -108,7 +107,7 @@ def _judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.N
         verdict = compare(left, right, query=asked, engine=engine)
         known = determinable(left, right, engine)
     if options.prove:
-        from disting.verdict.proof import prove
+        from disting.verdict.comparison import prove
 
         verdict = prove(verdict, left, right)
     return Judged((left, right), verdict, known)
@@ -202,7 +201,7 @@ def decided(
     turned = found.left != names_of(chains[0], chains[1])[0]
     ordered = list(reversed(chains)) if turned else list(chains)
     if options.prove:
-        from disting.verdict.proof import prove
+        from disting.verdict.comparison import prove
 
         found = prove(found, ordered[0], ordered[1])
     return ordered, found

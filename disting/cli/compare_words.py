@@ -9,8 +9,7 @@ from disting.errors import InputError, listed
 from disting.experiments import Experiment, MeasuredChain, Places, moved
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
+from disting.model.chain import Chain, text_drawing
 from disting.model.question import Domain
 from disting.network.element import Sort
 from disting.questions.inclusion import Inclusion, InclusionFinding

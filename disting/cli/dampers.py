@@ -9,17 +9,21 @@ from functools import partial
 from itertools import combinations
 from textwrap import fill
 
-from disting.catalogs.damper_family import DamperFamily, damper_family
-from disting.catalogs.damper_files import SHIPPED_SIZES, damper_catalog, write
+from disting.catalogs.damper_family import (
+    SHIPPED_SIZES,
+    DamperFamily,
+    damper_catalog,
+    damper_family,
+    write,
+)
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
 from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
-from disting.cli.effort import Work, announced
 from disting.cli.output import emitted, emitted_lines, written_file
 from disting.cli.relations import relations_in_words
-from disting.cli.workers import engine_for
+from disting.cli.workers import Work, announced, engine_for
 from disting.conditions.rule import RULES
 from disting.errors import InputError
-from disting.model.drawing import text_drawing
+from disting.model.chain import text_drawing
 from disting.model.family import MOST_MASSES, Family
 from disting.model.names import chains_named, extras_of, name_of
 from disting.model.question import Domain

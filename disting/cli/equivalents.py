@@ -20,12 +20,11 @@ from disting.equivalence import (
     among,
     assignments,
     chains_of,
+    equivalents as find,
     explicit_map,
 )
-from disting.equivalence import equivalents as find
 from disting.errors import InputError
-from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
+from disting.model.chain import Chain, text_drawing
 from disting.model.kinds import EXAMPLES
 from disting.model.names import chains_named, name_of
 from disting.network.notation import notations_of
@@ -73,7 +72,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form.add_argument(
         "--formulas",
         action="store_true",
-        help="print formulas, where they are rational, for any values",
+        help="print formulas for any values: rational ones, of networks also by square roots",
     )
     form.add_argument("--latex", action="store_true", help="print formulas in LaTeX")
     form.add_argument(

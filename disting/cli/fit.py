@@ -10,11 +10,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from disting.cli.arguments import is_damped
-from disting.cli.effort import Work, announced
 from disting.cli.fit_data import Data, data, sensors
 from disting.cli.fit_text import told
 from disting.cli.output import emitted
-from disting.cli.workers import cores, engine_for
+from disting.cli.workers import Work, announced, cores, engine_for
 from disting.errors import InputError, listed, printable
 from disting.files import write_whole
 from disting.fit.judge.admissible import Rule

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from disting.cli.plain import complain, keep_apart
+from disting.cli.output import complain, keep_apart
 from disting.errors import InputError, shown
 from disting.experiments.changes import GENERIC, read_changes
 from disting.fit.search.joint import Further

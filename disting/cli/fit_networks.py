@@ -8,8 +8,7 @@ from math import isfinite
 from pathlib import Path
 
 from disting.cli.fit_data import data
-from disting.cli.output import emitted
-from disting.cli.plain import complain, keep_apart
+from disting.cli.output import complain, emitted, keep_apart
 from disting.cli.verdicts import listed_models
 from disting.cli.workers import engine_for
 from disting.errors import InputError, listed

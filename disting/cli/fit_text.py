@@ -8,14 +8,13 @@ from typing import Any
 
 from disting.fit.judge.admissible import FROM_ZERO, UNDETERMINED
 from disting.fit.judge.exclusion import LEVEL
+from disting.fit.judge.explanation import explanations
 from disting.fit.judge.members import Disagreement, Member
 from disting.fit.judge.modes import Result, physical
 from disting.fit.judge.reading import read_in_words
-from disting.fit.judge.responses import explanations
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
+from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
 from disting.report.fit.onward import commands, renamed
@@ -24,11 +23,11 @@ from disting.report.fit.sentences import first_lines, learned, suspicions, which
 from disting.report.fit.words import (
     cost_in_words,
     fit_in_words,
+    name as name_of,
     percent,
     result_unit,
     with_error,
 )
-from disting.report.fit.words import name as name_of
 from disting.verdict.result import Relation
 
 SHOWN = 8  # candidates of the printed table

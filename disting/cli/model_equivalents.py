@@ -8,23 +8,26 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from disting.cli.arguments import parted
-from disting.cli.output import emitted
-from disting.cli.plain import keep_apart
+from disting.cli.output import emitted, keep_apart
 from disting.cli.workers import engine_for
 from disting.equivalence import assignments
+from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
+from disting.files import Format
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import of_network
+from disting.general.balls import Synthesis
+from disting.general.equivalent import spelled
 from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_files import read_models
+from disting.general.synthesis import NoFormulas
 from disting.model.names import chains_named, name_of
 from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.families import family_of
 from disting.network.notation import network_of, notations_of
-from disting.schemas import Format
 from disting.verdict.model_equivalents import ModelEquivalent, model_equivalents
 from disting.verdict.result import Relation
 
@@ -33,17 +36,22 @@ OPEN = (Relation.UNDECIDED, Relation.SOMETIMES)
 
 def run(options: argparse.Namespace) -> int:
     """Print the networks that are not told apart from one, with values where they are given."""
-    if options.also or options.formulas or options.latex or options.sympy:
+    if options.also:
         raise InputError(
-            "of networks and models of a file values are listed, not formulas or experiments: leave"
-            " --also, --formulas, --latex and --sympy away"
+            "of networks and models of a file values and formulas are listed, not experiments:"
+            " leave --also away"
         )
     (given,) = _named(options.model, options)
     listed = map(of_network, family_of(options.family).networks) if options.family else ()
     named = _named(options.to, options) if options.to else []
     others = [model for model in (*listed, *named) if model.name != given.name]
     keep_apart(model.name for model in (given, *others))
+    if [model.name for model in named] == [given.name]:  # which other values does it have
+        others = named
     values = assignments(options.values) if options.values else None
+    formulas = options.formulas or options.latex or options.sympy
+    if formulas and values is not None:
+        raise InputError("formulas are for any values: leave --set away, or ask for values alone")
     with engine_for(options) as (engine, _, _progress):
         found = model_equivalents(given, others, values, engine=engine)
     if options.json:
@@ -54,8 +62,11 @@ def run(options: argparse.Namespace) -> int:
         }
         emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
         return 0
-    other = "other network" if given.network else "other model"
-    print("\n".join(_lines(given.name, len(others), other, found)))
+    other = "network" if given.network else "model"
+    other = other if others == [given] else f"other {other}"
+    head = _counted(given.name, plural(len(others), other), found)
+    lines = _formulas(given, found, options) if formulas else _lines(found)
+    print("\n".join([_mark(options) + head, *lines]))
     return 0
 
 
@@ -72,19 +83,80 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
     return [Model.from_chain(chain, name=name_of(chain))]
 
 
-def _lines(given: str, count: int, other: str, found: list[ModelEquivalent]) -> Iterator[str]:
+def _counted(given: str, others: str, found: list[ModelEquivalent]) -> str:
+    """How many of the others do the same."""
     same = [x for x in found if x.verdict.relation is Relation.INDISTINGUISHABLE]
-    yield (
-        f"{given}: of {plural(count, other)} {len(same)} can do the same for all positive"
-        f" values, {sum(x.verdict.relation is OPEN[1] for x in found)} for some,"
+    return (
+        f"{given}: of {others} {len(same)} can do the same for all positive values,"
+        f" {sum(x.verdict.relation is OPEN[1] for x in found)} for some,"
         f" {sum(x.verdict.relation is OPEN[0] for x in found)} undecided"
     )
+
+
+def _lines(found: list[ModelEquivalent]) -> Iterator[str]:
+    """Each with its verdict and, where values are given, its own."""
     for x in found:
         yield f"{x.model.name}  {x.verdict.told} ({x.verdict.rule or 'nothing settles it'})"
         if x.exponents:
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
             yield from (f"  {line}" for line in _values(x.values))
+        if x.synthesis is not None:
+            yield from (f"  {line}" for line in _synthesis(x.synthesis))
+
+
+def _mark(options: argparse.Namespace) -> str:
+    """What a line of words begins with where formulas are source."""
+    return "% " if options.latex else "# " if options.sympy else ""
+
+
+LONGEST = 16  # signs of a fraction; longer ones are rounded, and exact with --json
+EXTENTS = {
+    "positive": "all positive ones, but for exchanges of branches that are alike",
+    "family": "and infinitely many more",
+    "unknown": "and perhaps more",
+}
+
+
+def _synthesis(found: Synthesis) -> Iterator[str]:
+    """Positive sets of values, and whether there are more."""
+    for values in found.sets:
+        exact = {n: x for n, x in values.items() if len(str(x)) <= LONGEST}
+        yield ", ".join(f"{n} = {spelled(exact.get(n, float(x)))}" for n, x in values.items())
+    yield EXTENTS[found.extent]
+
+
+def _formulas(
+    given: AnyModel, found: list[ModelEquivalent], options: argparse.Namespace
+) -> Iterator[str]:
+    """For each model that does the same for all positive values its values as formulas, or why
+    none are known.
+    """
+    mark = _mark(options)
+    for x in found:
+        yield ""
+        if x.verdict.relation is not Relation.INDISTINGUISHABLE:
+            yield f"{mark}{x.model.name}: {x.verdict.told} (no formulas; --set gives values)"
+            continue
+        yield f"{mark}{x.model.name}   (primed)"
+        try:
+            forms = closed_forms(given, x.model, x.verdict)
+        except NoFormulas as none:
+            yield f"{mark}no formulas: {none} (--set gives values)"
+            continue
+        for number, form in enumerate(forms, 1):
+            ways = f"{number} of {len(forms)}: " * (len(forms) > 1)
+            yield f"{mark}{ways}{form.checked}"
+            yield from (f"{mark}{name}' = {same}" for name, same in sorted(x.exponents))
+            yield from (f"{mark}where {g} > 0" for g in form.where)
+            if form.partial:
+                yield f"{mark}positive for some given values; for others --set may find more"
+            yield from (
+                f"{mark}{', '.join(names)} can share a part in any proportion; here they share"
+                " it equally"
+                for names in form.choices
+            )
+            yield form.latex if options.latex else form.python if options.sympy else form.text
 
 
 def _values(found: Alternatives) -> Iterator[str]:

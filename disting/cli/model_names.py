@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 
 from disting.cli.arguments import FILE, parted
-from disting.cli.plain import keep_apart
+from disting.cli.output import keep_apart
 from disting.errors import InputError
 from disting.general.any_model import of_network
 from disting.general.matrix_model import AnyModel

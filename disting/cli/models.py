@@ -12,15 +12,14 @@ from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_list_or_network
 from disting.cli.compare_words import in_letters
-from disting.cli.effort import Work, announced
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
-from disting.cli.workers import engine_for
+from disting.cli.workers import Work, announced, engine_for
 from disting.errors import InputError, listed
 from disting.experiments import Experiment, MeasuredChain, named
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.general.any_model import of_network, unnamed
 from disting.general.identifiability import PARAMETERS
-from disting.model.drawing import LEGEND, text_drawing
+from disting.model.chain import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option

@@ -8,11 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES
-from disting.catalogs.next_files import WITH_DAMPERS, next_catalog
+from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, next_catalog
 from disting.cli.arguments import (
     add_damped,
     add_notation,
@@ -25,8 +23,7 @@ from disting.conditions.side import AnySide
 from disting.errors import InputError, listed, printable
 from disting.experiments.menu import Costs, Item
 from disting.general.any_model import of_network
-from disting.model.chain import Chain
-from disting.model.drawing import LEGEND, text_drawing
+from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import chains_named, name_of, read
 from disting.network.element import Sort

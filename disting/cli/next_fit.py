@@ -7,13 +7,12 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 
-from disting.cli.plain import complain
+from disting.cli.output import complain
 from disting.errors import InputError, listed
 from disting.experiments.menu import Costs
-from disting.fit.plan.fit_file import Named, named_by
-from disting.fit.plan.further import bench_of, foretold
-from disting.fit.plan.network_file import is_of_networks, left_by
-from disting.fit.plan.relations import stood
+from disting.files import Format
+from disting.fit.plan.fit_file import Named, is_of_networks, left_by, named_by
+from disting.fit.plan.further import bench_of, foretold, stood
 from disting.fit.results.networks import BAR
 from disting.network.network import Network
 from disting.report.fit.left_first import again, first_sentence
@@ -25,7 +24,6 @@ from disting.report.fit.left_words import (
     measured_in_words,
     set_in_words,
 )
-from disting.schemas import Format
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.further import Further, further
 from disting.verdict.further_words import CSV_COLUMNS, to_dict

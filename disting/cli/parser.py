@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from disting.cli.commands import COMMANDS, Command, Group
-from disting.cli.plain import complain
+from disting.cli.output import complain
 from disting.conditions.rule import RULES
 from disting.errors import LONGEST_ECHO, shown
 from disting.files import __version__

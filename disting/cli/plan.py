@@ -11,14 +11,19 @@ import numpy as np
 
 from disting.cli.arguments import is_damped
 from disting.cli.model_names import structures, values_of
-from disting.cli.output import emitted
-from disting.cli.plain import complain
+from disting.cli.output import complain, emitted
 from disting.cli.workers import engine_for
 from disting.errors import InputError, printable
+from disting.files import Format
 from disting.fit.noise.scatter import scatter
 from disting.fit.plan.design import Designed, designed, designed_to_dict
-from disting.fit.plan.fit_file import Named, named_by
-from disting.fit.plan.network_file import NamedNetworks, is_of_networks, networks_named_by
+from disting.fit.plan.fit_file import (
+    Named,
+    NamedNetworks,
+    is_of_networks,
+    named_by,
+    networks_named_by,
+)
 from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
 from disting.fit.plan.search import AnyStructure, responses_of, sensor_of
 from disting.measurement import read
@@ -29,7 +34,6 @@ from disting.model.names import damping_option
 from disting.network.element import Sort
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.plan_write import write_plan
-from disting.schemas import Format
 
 AnyNamed = Named | NamedNetworks
 LINES = 120

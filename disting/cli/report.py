@@ -5,18 +5,19 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
-from disting.catalogs.damper_files import damper_catalog
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import (
+    SHIPPED_SIZES as DAMPER_SIZES,
+    damper_catalog,
+    damper_name,
+)
 from disting.catalogs.files import SHIPPED_SIZES, name_of
 from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import Listed, add_out, add_work, size_or_list
-from disting.cli.effort import announced, announced_family, pairs_by_size, pairs_work
 from disting.cli.parser import parser
 from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import LISTS, list_of
-from disting.cli.workers import engine_for
+from disting.cli.workers import announced, announced_family, engine_for, pairs_by_size, pairs_work
 from disting.errors import InputError
 from disting.files import write_whole
 from disting.general.model_files import ModelList

@@ -4,8 +4,7 @@ import argparse
 import json
 
 from disting.cli.output import emitted
-from disting.files import __version__
-from disting.schemas import Format, schema
+from disting.files import Format, __version__, schema
 from disting.store import Store
 
 NAMES = {known.short: known for known in Format}

@@ -19,11 +19,9 @@ from disting.cli.arguments import (
     sizes_or_list,
     whole,
 )
-from disting.cli.effort import announced, announced_family, pairs_by_size, pairs_work
-from disting.cli.output import emitted, written_file
-from disting.cli.plain import keep_apart
+from disting.cli.output import emitted, keep_apart, written_file
 from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
-from disting.cli.workers import engine_for
+from disting.cli.workers import announced, announced_family, engine_for, pairs_by_size, pairs_work
 from disting.conditions.side import AnySide
 from disting.errors import InputError, in_row
 from disting.general.any_model import of_network
@@ -33,10 +31,10 @@ from disting.model.names import damping_option
 from disting.model.presentation import plural
 from disting.network.families import family_of
 from disting.questions.inclusion import ONE_SIDED, Sense
+from disting.verdict.comparison import prove_all
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.joint import family_safety, joint_in_words
-from disting.verdict.proof import prove_all
 from disting.verdict.result import Relation
 from disting.verdict.sides import refuse_ports
 
@@ -146,8 +144,8 @@ def _summary(decided: Decisions) -> str:
     """
     pairs = list(combinations(range(len(decided.subjects)), 2))
     head = (
-        f"{len(decided.subjects)} models, {len(pairs)} pairs, over {decided.query.view.domain}"
-        " parameters"
+        f"{plural(len(decided.subjects), 'model')}, {plural(len(pairs), 'pair')}, over"
+        f" {decided.query.view.domain} parameters"
     )
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
     told = (

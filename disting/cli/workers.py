@@ -1,23 +1,152 @@
-"""What a command computes with: the user's store, workers, and progress on standard error."""
+"""What a command computes with, and how much work it begins.
+
+A rate is measured: seconds of one core for one thing of so many masses, on the machine of the
+guide's page on speed. Sizes beyond the last that was measured take as many times more as that took
+more than the one before it. So it is an order of size, and is told as one.
+"""
 
 import argparse
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from enum import Enum
 from threading import TIMEOUT_MAX, Event, Thread
-from time import monotonic
+from time import monotonic, process_time
 
-from disting.cli.plain import complain
+from disting.cli.output import complain
 from disting.errors import InputError, shown
+from disting.model.family import Family
 from disting.store import Store
 from disting.verdict.engine import Engine, Progress
 
+LONG = 60.0  # seconds that nobody needs to be told of
+PATIENCE = 5.0  # seconds that one pair may take without a word
+LOOK = 0.1  # seconds between two looks at the time
+UNITS = (("day", 86400.0), ("hour", 3600.0), ("minute", 60.0))
 BARS_AFTER = 2.0  # seconds of silence on a terminal
 SILENT = 30.0  # seconds at most, where standard error is no terminal
 REDRAWN = 0.2  # seconds between two looks at what is done
 VARIABLE = "DISTING_PROGRESS"  # of the environment: other seconds of silence, or off
+
+
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """Seconds for one of these `things`, by number of masses from `first` on; `smaller`: what makes
+    the work smaller.
+    """
+
+    things: str
+    first: int
+    seconds: tuple[float, ...]
+    smaller: str
+
+    def of(self, masses: int) -> float:
+        """Seconds for one thing of this size.
+
+        >>> Rate("pairs", 3, (1.0, 10.0), "").of(2), Rate("pairs", 3, (1.0, 10.0), "").of(6)
+        (1.0, 1000.0)
+        """
+        place, last = max(0, masses - self.first), len(self.seconds) - 1
+        beyond = max(0, place - last)
+        growth = self.seconds[last] / self.seconds[last - 1]
+        return self.seconds[min(place, last)] * growth**beyond
+
+
+class Work(Enum):
+    """What takes long, each with its rate."""
+
+    PAIRS = Rate(
+        "pairs", 4, (0.0023, 0.0036, 0.0069), "fewer masses, or two models alone (disting compare)"
+    )
+    UNDAMPED_PAIRS = Rate("pairs", 4, (0.0027, 0.003), PAIRS.smaller)
+    IDENTIFIABILITY = Rate("models", 6, (0.085, 0.09), "leave --identifiability away")
+    UNDER_EXPERIMENTS = Rate("models", 3, (0.03, 0.32), "fewer masses, or fewer --also")
+    DAMPERS = Rate("models with dampers", 3, (0.009, 0.027), "one model alone, or --sets single")
+    FITS = Rate("candidates", 1, (0.1, 0.15, 0.3), "fewer masses, such as --masses 1-3")
+
+
+FAMILIES = {
+    "machines-3-damped": 7200.0,
+    "trees-4": 7200.0,
+    "trees-4-damped": 7200.0,
+    "compartments-3": 3600.0,
+}
+"""Seconds of one core for all pairs of a family of networks, where they are decided anew."""
+
+
+def announced_family(name: str, jobs: int = 1) -> None:
+    """Tell of the pairs of a family of networks, where they take long."""
+    seconds = FAMILIES.get(name, 0.0) / max(jobs, 1)
+    if seconds > LONG:
+        complain(
+            f"all pairs of {name}, which may take {in_words(seconds)}; less to do: two networks"
+            " alone (disting compare); Ctrl-C stops it, and what is done stays in the cache"
+        )
+
+
+def announced(work: Work, counts: Mapping[int, int], jobs: int = 1) -> None:
+    """Tell of so many things by number of masses, where they take long; nothing is asked."""
+    seconds = sum(count * work.value.of(n) for n, count in counts.items()) / max(jobs, 1)
+    if seconds > LONG:
+        complain(
+            f"{sum(counts.values())} {work.value.things}, which may take {in_words(seconds)};"
+            f" less to do: {work.value.smaller}; Ctrl-C stops it"
+        )
+
+
+@contextmanager
+def told_if_long(message: str, seconds: float = PATIENCE) -> Iterator[None]:
+    """Tell of work that is not done after so many seconds of one core, while it goes on."""
+    done = Event()
+    Thread(target=_watch, args=(done, message, process_time() + seconds), daemon=True).start()
+    try:
+        yield
+    finally:
+        done.set()
+
+
+def _watch(done: Event, message: str, until: float) -> None:
+    while not done.wait(max(until - process_time(), LOOK)):
+        if process_time() >= until:
+            complain(message)
+            return
+
+
+def pairs_work(damped: bool) -> Work:
+    """Verdicts on pairs of chains."""
+    return Work.PAIRS if damped else Work.UNDAMPED_PAIRS
+
+
+def pairs_by_size(sizes: Iterable[int], *, across: bool = True) -> dict[int, int]:
+    """Pairs of the chains of these sizes, by the larger number of masses; `across`: of different
+    sizes too.
+
+    >>> pairs_by_size([2, 3]), pairs_by_size([2, 3], across=False)
+    ({2: 3, 3: 88}, {2: 3, 3: 55})
+    """
+    found, smaller = {}, 0
+    for n in sorted(set(sizes)):
+        count = len(Family(n))
+        found[n] = count * (count - 1) // 2 + count * smaller
+        smaller += count if across else 0
+    return found
+
+
+def in_words(seconds: float) -> str:
+    """An order of size.
+
+    >>> in_words(100), in_words(5000), in_words(1e6), in_words(1e9)
+    ('about 2 minutes', 'about an hour', 'about 12 days', 'more than a year')
+    """
+    if seconds > 365 * UNITS[0][1]:
+        return "more than a year"
+    name, size = next((unit for unit in UNITS if seconds >= unit[1]), UNITS[-1])
+    count = round(seconds / size)
+    article = "an" if name == "hour" else "a"
+    return f"about {article} {name}" if count <= 1 else f"about {count} {name}s"
 
 
 def cores() -> int:
@@ -83,8 +212,7 @@ def _bars(pause: float) -> Iterator[Progress]:
 def _drawn(ended: Event, latest: dict[str, tuple[int, int]]) -> None:
     """A bar for each thing that is done, a moving one where nothing is counted yet."""
     from rich.console import Console
-    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
-    from rich.progress import Progress as Bar
+    from rich.progress import BarColumn, Progress as Bar, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
     console = Console(stderr=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from disting.algebra.certainty import Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions import necessary, structural, sufficient
+from disting.conditions import necessary, sufficient
 from disting.conditions.finding import Finding
 from disting.conditions.rule import (
     DEGREES,
@@ -105,7 +105,7 @@ SUFFICIENT = (
     Sufficient(FREE_CHOICE, _free_choice),
 )
 STRUCTURAL = (
-    Structural(SUBMODEL, structural.condition_8),
-    Structural(SUPERMODEL, structural.condition_9),
+    Structural(SUBMODEL, sufficient.condition_8),
+    Structural(SUPERMODEL, sufficient.condition_9),
 )
 CONDITIONS: tuple[Necessary | Sufficient | Structural, ...] = (*NECESSARY, *SUFFICIENT, *STRUCTURAL)

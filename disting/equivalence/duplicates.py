@@ -12,6 +12,7 @@ from disting.errors import ContradictionError, InputError, listed, of_type
 from disting.evidence.conditions import Renaming
 from disting.evidence.general import Explicit, Formula
 from disting.experiments.menu import Costs
+from disting.files import Format
 from disting.general.any_model import of_network, unnamed
 from disting.general.formulas import fit, of_way
 from disting.general.identifiability import PARAMETERS
@@ -24,7 +25,6 @@ from disting.model.presentation import Shown, plural, summary
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 from disting.questions.identifiability import ParameterIdentifiability
-from disting.schemas import Format
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.further import further

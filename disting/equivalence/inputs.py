@@ -9,17 +9,15 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from itertools import chain as chained
-from itertools import combinations
+from itertools import chain as chained, combinations
 from numbers import Number
 
 from flint import fmpq
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain
-from disting.model.exact_number import MOST_DIGITS, is_too_long
 from disting.model.family import Family
-from disting.model.names import EXTRAS, chain_of, extended, name_of, sized
+from disting.model.names import EXTRAS, MOST_DIGITS, chain_of, extended, is_too_long, name_of, sized
 from disting.network.network import Network
 
 Value = Number | str

@@ -13,12 +13,10 @@ from typing import Any
 from flint import fmpq
 
 from disting.experiments import Places
-from disting.fibres.synthesis.result import Fibre, Status
-from disting.fibres.synthesis.target import target
-from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
+from disting.fibres.synthesis.task import Fibre, Status, target
+from disting.files import Format
+from disting.model.chain import Chain, text_drawing
 from disting.model.presentation import Shown, summary
-from disting.schemas import Format
 
 
 class Signs(StrEnum):

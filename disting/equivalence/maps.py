@@ -14,11 +14,10 @@ from flint import fmpq
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.notation import expression, latex, latex_symbol, text
-from disting.algebra.rational_function import RationalFunction, variables
-from disting.equivalence.cauer import expansions
-from disting.equivalence.identity import holds_at_random, is_identity, safety
-from disting.equivalence.images import Image, images
+from disting.algebra.symbols import RationalFunction, variables
+from disting.equivalence.checks import holds_at_random, is_identity, safety
 from disting.equivalence.inputs import Value, point_of
+from disting.equivalence.theorems import Image, expansions, images
 from disting.errors import ContradictionError
 from disting.model.chain import Chain
 from disting.model.names import chains_named, name_of

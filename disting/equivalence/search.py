@@ -14,9 +14,7 @@ from typing import Any
 
 from flint import acb, arb, fmpq
 
-from disting.equivalence.cauer import common_ratio, proportional_solutions
-from disting.equivalence.identity import difference
-from disting.equivalence.images import DUALITY, Image, images
+from disting.equivalence.checks import Bench, benches, difference
 from disting.equivalence.inputs import Value, chains_of, point_of
 from disting.equivalence.listing import (
     Equivalent,
@@ -29,12 +27,17 @@ from disting.equivalence.listing import (
     special,
     under_all,
 )
-from disting.equivalence.under_experiments import Bench, benches
+from disting.equivalence.theorems import (
+    DUALITY,
+    Image,
+    common_ratio,
+    images,
+    proportional_solutions,
+)
 from disting.errors import ContradictionError, InputError
 from disting.experiments import Experiment, named
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Fibre, Solution, Status, target
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chains_named, name_of
@@ -92,7 +95,7 @@ def equivalents(
     fractions = {name: Fraction(int(v.p), int(v.q)) for name, v in point.items()}
     special_damping = given.n_masses > 2 and common_ratio(given, point) is not None
     return Equivalents(
-        name=_name(given),
+        name=name_of(given),
         chain=given,
         values=fractions,
         listings=listings,
@@ -136,7 +139,7 @@ def _listing(given: Chain, point: Point, other: Chain) -> Listing:
     members = _members(found, point)
     cause = special(given, point) if found.fibre.status is Status.DEGENERATE else ""
     told = sentence(found.fibre, len(members), cause)
-    return Listing(_name(other), other, found.fibre.status, members, found.is_complete, told)
+    return Listing(name_of(other), other, found.fibre.status, members, found.is_complete, told)
 
 
 def _members(found: _Found, point: Point) -> tuple[Equivalent, ...]:
@@ -163,7 +166,7 @@ def _under(bench: Bench, point: Point) -> Listing:
     members = tuple(_everywhere(m, bench, plain) for m in _members(kept, point))
     told = under_all(found.fibre, len(members), found.is_complete)
     return Listing(
-        _name(other), other, found.fibre.status, members, found.is_complete, told, bench.places
+        name_of(other), other, found.fibre.status, members, found.is_complete, told, bench.places
     )
 
 
@@ -252,18 +255,9 @@ def _from_solution(
     residual = difference(given, point, other, _read(text))
     proven = found.real is not Answer.UNKNOWN and not (real and found.positive is Answer.UNKNOWN)
     bound = difference(given, point, other, found.values)
-    return Equivalent(
-        other,
-        _floats(text),
-        text,
-        {},
-        _signs(found, real),
-        origin,
-        residual,
-        bound,
-        found.gauges,
-        proven,
-    )
+    signs, values = _signs(found, real), _floats(text)
+    errors = residual, bound, found.gauges
+    return Equivalent(other, values, text, {}, signs, origin, *errors, proven)
 
 
 def _signs(found: Solution, real: bool) -> Signs:
@@ -303,7 +297,3 @@ def _order(member: Equivalent) -> tuple[int, bool, list[tuple[float, float]]]:
     """Positive ones first, exact ones before others, then by value."""
     numbers = [(complex(v).real, complex(v).imag) for v in member.values.values()]
     return list(Signs).index(member.signs), not member.exact, numbers
-
-
-def _name(chain: Chain) -> str:
-    return name_of(chain)

@@ -128,20 +128,13 @@ class TooLarge(Kind):
 
     kind: ClassVar[str] = "too-large"
     claim: ClassVar[Claim] = Claim(inside=Inside.NO_LIMIT)
+    words: ClassVar[str] = (
+        "{left} has {0.left} determinable parameters, {right} {0.right}: limits with fewer poles"
+        " have fewer than the models that they are limits of."
+    )
+    symbols: ClassVar[str] = "N_R = {0.left}, {0.right}"
     left: int
     right: int
-
-    def sentence(self, left: str, right: str) -> str:
-        """Both numbers, and what follows."""
-        return (
-            f"{left} has {self.left} determinable parameters, {right} {self.right}: limits with"
-            " fewer poles have fewer than the models that they are limits of."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The two ranks."""
-        return f"N_R = {self.left}, {self.right}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,6 +149,7 @@ class PoleSharing(Kind):
 
     kind: ClassVar[str] = "pole-sharing"
     claim: ClassVar[Claim] = Claim(inside=Inside.NO_LIMIT)
+    symbols: ClassVar[str] = "v n = l₁ f₂ + l₂ f₁, d = e f₁ f₂  ⇒  v = 0"
     left_is_larger: bool
     label: str
     points: tuple[tuple[int, ...], ...]
@@ -169,11 +163,6 @@ class PoleSharing(Kind):
             f"{found} of {smaller} given in numbers is no limit of {larger}: no distribution of the"
             f" poles to its two rows gives the zeros{row}."
         )
-
-    @property
-    def formula(self) -> str:
-        """The equations without solution."""
-        return "v n = l₁ f₂ + l₂ f₁, d = e f₁ f₂  ⇒  v = 0"
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,7 @@ masses.
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind
-from disting.evidence.seen import Labels, SeenPair, spelled
+from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, Labels, SeenPair, spelled
 from disting.model.question import Domain, Relation
 
 TRANSCENDENTAL = (
@@ -238,6 +237,7 @@ class Supermodel(Kind):
 
     kind: ClassVar[str] = "supermodel"
     claim: ClassVar[Claim] = _SAME
+    symbols: ClassVar[str] = "N_R = {0.rank} for all three"
     parameters: Labels
     rank: int
 
@@ -249,11 +249,6 @@ class Supermodel(Kind):
             f" {self.rank} determinable parameters, so their behaviours agree over complex"
             " parameters."
         )
-
-    @property
-    def formula(self) -> str:
-        """The common rank."""
-        return f"N_R = {self.rank} for all three"
 
     def holds(self, pair: SeenPair, representation: str) -> bool:
         """The third model once more, and all three ranks."""

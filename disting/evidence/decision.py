@@ -63,6 +63,7 @@ class Theorem(Kind):
 
     kind: ClassVar[str] = "theorem"
     claim: ClassVar[Claim] = Claim(~Carrier.NOBODY, grounds="a theorem")
+    symbols: ClassVar[str] = "{0.name} theorem"
     name: str
 
     def __post_init__(self) -> None:
@@ -78,11 +79,6 @@ class Theorem(Kind):
     def sentence(self, left: str, right: str) -> str:
         """What the theorem says of this pair."""
         return THEOREMS[self.name].format(left=left, right=right) + "."
-
-    @property
-    def formula(self) -> str:
-        """The theorem by name."""
-        return f"{self.name} theorem"
 
     def shows(self, domain: Domain) -> Relation:
         """Of positive models of chains it is told which way they have equivalents (`BothWays`)."""
@@ -110,22 +106,14 @@ class DeadTime(Kind):
 
     kind: ClassVar[str] = "dead time"
     claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds="dead time")
+    theorem: ClassVar[str] = "dead time"
+    symbols: ClassVar[str] = "exp(−Td s), Td ≠ 0, is not rational"
     left_given: bool
 
     def sentence(self, left: str, right: str) -> str:
         """Whose it is and what that means."""
         with_it, without = (left, right) if self.left_given else (right, left)
         return f"{with_it} has a dead time, {without} has none: {TRANSCENDENTAL}."
-
-    @property
-    def formula(self) -> str:
-        """The factor."""
-        return "exp(−Td s), Td ≠ 0, is not rational"
-
-    @property
-    def title(self) -> str:
-        """What settles it."""
-        return self.kind
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +127,7 @@ class FibreUnder(Kind):
 
     kind: ClassVar[str] = "fibre under experiments"
     claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds="one fibre")
+    symbols: ClassVar[str] = "q ∈ Φ₂,{0.listed}⁻¹(Φ₁,{0.listed}(p₀)) ⇒ Φ₂(q) ≠ Φ₁(p₀)"
     left_given: bool
     point: tuple[tuple[str, str], ...]
     listed: int
@@ -158,11 +147,6 @@ class FibreUnder(Kind):
             f"{start}{fit}, complex ones included, with the same transfer function in experiment"
             f" {self.listed}, and {each} another one in experiment {where}."
         )
-
-    @property
-    def formula(self) -> str:
-        """The stacked fibre is empty."""
-        return f"q ∈ Φ₂,{self.listed}⁻¹(Φ₁,{self.listed}(p₀)) ⇒ Φ₂(q) ≠ Φ₁(p₀)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,3 +200,56 @@ class FibreAt(Kind):
     def inside(self) -> Inside:
         """Solutions have elements that are neither zero nor infinite."""
         return Inside.EQUIVALENT if self.solutions > 0 else Inside.NO_EQUIVALENT
+
+
+_OBSTACLES = {
+    "decay": (
+        "the transfer functions of {0} and {1} fall off at different rates for high frequencies"
+    ),
+    "residues": (
+        "{0} has negative residues in the row where force and sensor are apart, {1} has positive"
+        " ones alone"
+    ),
+    "own poles": (
+        "the grounded and the free row of {1} would have to be those of {0}, which are of another"
+        " kind"
+    ),
+    "signs": (
+        "in the order of the poles the residues of a row of {0} change their signs more often than"
+        " those of {1} can"
+    ),
+    "swapped parts": (
+        "the rows of {1} would be those of {0}, equal or exchanged, which decay or positive masses"
+        " rule out"
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Excluded(Kind):
+    """NEVER: the statement of that `name`, see `positivity.obstacles`; at the rational `point`, if
+    one is needed, balls are looked at.
+    """
+
+    kind: ClassVar[str] = "excluded"
+    symbols: ClassVar[str] = "{0.name} exclude positive equivalents"
+    name: str
+    point: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        # from a damaged file: said here, and not when it is to be told
+        if self.name not in _OBSTACLES:
+            raise ValueError(f"nothing that excludes equivalents is called {self.name!r}")
+
+    def sentence(self, given: str, other: str) -> str:
+        """What stands against equivalents."""
+        why = _OBSTACLES[self.name].format(given, other)
+        return (
+            f"No generic positive parameters of {given} have a positive equivalent in {other}:"
+            f" {why}."
+        )
+
+    @property
+    def title(self) -> str:
+        """The statement by name."""
+        return self.name

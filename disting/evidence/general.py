@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 
 from disting.errors import listed
 from disting.evidence.decision import Theorem
-from disting.evidence.kind import Carrier, Claim, Kind, plain_fields, read
-from disting.evidence.seen import Labels
+from disting.evidence.kind import Carrier, Claim, Kind, Labels, plain_fields, read
 from disting.model.question import Domain, Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
@@ -46,6 +45,7 @@ class Explicit(OverDomain):
 
     kind: ClassVar[str] = "explicit"
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE)
+    symbols: ClassVar[str] = "∀ p ∈ A ∃ q ∈ A: Φ₂(q) = Φ₁(p),  ∀ q ∈ A ∃ p ∈ A: Φ₁(p) = Φ₂(q)"
     formulas: tuple[Formula, ...]
 
     def small(self, formula: Formula) -> tuple[str, ...]:
@@ -73,11 +73,6 @@ class Explicit(OverDomain):
         values = "" if self.without_exception(Domain.POSITIVE) else " but special ones"
         return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters{values}."
 
-    @property
-    def formula(self) -> str:
-        """Both ways."""
-        return "∀ p ∈ A ∃ q ∈ A: Φ₂(q) = Φ₁(p),  ∀ q ∈ A ∃ p ∈ A: Φ₁(p) = Φ₂(q)"
-
 
 def _told(formula: Formula, small: Labels) -> str:
     _, where, values, root = formula
@@ -99,6 +94,7 @@ class NoEquivalent(OverDomain):
 
     kind: ClassVar[str] = "no equivalent"
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.DISTINGUISHABLE)
+    symbols: ClassVar[str] = "Φ₁(A) ∩ Φ₂(A) = ∅"
     left_given: bool
     contradictions: tuple[str, ...]
 
@@ -114,11 +110,6 @@ class NoEquivalent(OverDomain):
             f" q1, .. those of {searched})."
         )
 
-    @property
-    def formula(self) -> str:
-        """Both images have nothing in common."""
-        return "Φ₁(A) ∩ Φ₂(A) = ∅"
-
 
 @dataclass(frozen=True, slots=True)
 class Constants(Kind):
@@ -126,21 +117,13 @@ class Constants(Kind):
 
     kind: ClassVar[str] = "constants"
     claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds="constants")
+    words: ClassVar[str] = (
+        "{0.labels[0]} is {0.left[0]} in {left} and {0.right[0]} in {right}, for all parameters."
+    )
+    symbols: ClassVar[str] = "{0.labels[0]} = {0.left[0]} ≠ {0.right[0]}"
     labels: tuple[str, ...]
     left: tuple[str, ...]
     right: tuple[str, ...]
-
-    def sentence(self, left: str, right: str) -> str:
-        """The first of them."""
-        return (
-            f"{self.labels[0]} is {self.left[0]} in {left} and {self.right[0]} in {right}, for all"
-            " parameters."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The first of them."""
-        return f"{self.labels[0]} = {self.left[0]} ≠ {self.right[0]}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +138,7 @@ class Witnesses(OverDomain):
 
     kind: ClassVar[str] = "witnesses"
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.SOMETIMES)
+    symbols: ClassVar[str] = "∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A ≠ ∅,  ∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A = ∅"
     with_left_given: bool
     point_with: Point
     equivalent: Point
@@ -174,11 +158,6 @@ class Witnesses(OverDomain):
             f" {without} at {_spelled(self.point_without)} has no equivalent in {nowhere} with"
             f" {self.domain} parameters{many}; the same is true all around both points."
         )
-
-    @property
-    def formula(self) -> str:
-        """Which sets are empty."""
-        return "∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A ≠ ∅,  ∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A = ∅"
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,7 @@ class Solved(Kind):
     claim: ClassVar[Claim] = Claim(
         Carrier.EXACT, Relation.INDISTINGUISHABLE, COMPLEX, _IDEAL, Inside.LIMIT
     )
+    symbols: ClassVar[str] = "Φ₂(q₀) ≡ Φ₁(p₀)"
     left_given: bool
     labels: tuple[str, ...]
     solutions: tuple[tuple[int, ...], ...]
@@ -43,11 +44,6 @@ class Solved(Kind):
             " computed."
         )
 
-    @property
-    def formula(self) -> str:
-        """The fibre has a point."""
-        return "Φ₂(q₀) ≡ Φ₁(p₀)"
-
 
 @dataclass(frozen=True, slots=True)
 class Refuted(Kind):
@@ -60,6 +56,7 @@ class Refuted(Kind):
 
     kind: ClassVar[str] = "refuted"
     claim: ClassVar[Claim] = Claim(Carrier.EXACT, Relation.DISTINGUISHABLE, grounds=_IDEAL)
+    symbols: ClassVar[str] = "1 ∈ ⟨Φ₂(q) − Φ₁(p₀)⟩"
     left_given: bool
     labels: tuple[str, ...]
     degree: int
@@ -74,11 +71,6 @@ class Refuted(Kind):
             f" random prime, no parameters of {searched}, in any extension, have the same transfer"
             f" function: the equations contradict each other in degree {self.degree}."
         )
-
-    @property
-    def formula(self) -> str:
-        """The ideal is everything."""
-        return "1 ∈ ⟨Φ₂(q) − Φ₁(p₀)⟩"
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +102,7 @@ class ByRows(Kind):
     """
 
     kind: ClassVar[str] = "by-parts"
+    symbols: ClassVar[str] = "R₂(q) + F₂(q) = R₁(p) + F₁(p)"
     left_given: bool
     steps: tuple[RowStep, ...]
 
@@ -142,11 +135,6 @@ class ByRows(Kind):
             )
         return f"{start}, so its rows have given receptances: {told}."
 
-    @property
-    def formula(self) -> str:
-        """The sum of both rows."""
-        return "R₂(q) + F₂(q) = R₁(p) + F₁(p)"
-
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON: what is shown of a row stands beside its name."""
         steps = [{"split": s.split, "part": s.part, **s.shown.to_dict()} for s in self.steps]
@@ -176,6 +164,7 @@ class Shared(Kind):
         Relation.DISTINGUISHABLE,
         grounds="all ways to share out the zeros of a row",
     )
+    symbols: ClassVar[str] = "1 ∈ ⟨θ₂ − θ, φ₂ − φ, D₂ − D₁⟩ for {0.shares} shares"
     left_given: bool
     part: str
     label: str
@@ -192,11 +181,6 @@ class Shared(Kind):
             f" {self.shares} ways in which the numerator's roots could be shared out among its"
             " factors leads to a contradiction."
         )
-
-    @property
-    def formula(self) -> str:
-        """Every share's ideal is everything."""
-        return f"1 ∈ ⟨θ₂ − θ, φ₂ − φ, D₂ − D₁⟩ for {self.shares} shares"
 
 
 @dataclass(frozen=True, slots=True)

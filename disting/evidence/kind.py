@@ -1,24 +1,119 @@
-"""What every kind of evidence declares: which rules may carry it, which relation it shows over
-which parameters, what it says of limits, in which words, and how it is stored.
+"""What every kind of evidence declares, and the two models that it is checked on, looked at anew.
 
 A condition is any row of the table of conditions: which one it was is seen by asking that row
 again. What shows that models are the same over complex parameters says nothing of others, unless
 it gives their values.
 """
 
-from collections.abc import Iterable
+import re
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from enum import Enum, Flag, auto
+from functools import cache
+from itertools import chain, groupby
 from types import UnionType
 from typing import Any, ClassVar, Self, Union, get_args, get_origin, get_type_hints
 
-from disting.evidence.seen import SeenPair
+from disting.behaviour.sample import Representation, Sample, samples
+from disting.model.protocol import Model
 from disting.model.question import Domain, Relation
 
+Labels = tuple[str, ...]
+POINTS = 3
+MOST_MARKOV = 1000  # of a file that somebody else wrote: each costs a row
 GONE = {
     "program": "an external program, which decides nothing now",
     "row": "an answer about rows of masses that is shipped no more",
 }  # kinds that older versions wrote, each with what it rested on
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What one model reveals: `draw` gives samples of so many Markov parameters after G_0;
+    `degrees` of numerator and denominator, of several transfer functions one pair after the other.
+    """
+
+    parameters: Labels
+    degrees: tuple[int, ...]
+    draw: Callable[[Representation, int], tuple[Sample, ...]]
+
+    def rank(self, representation: str, rows: Labels = ()) -> int:
+        """Rank of the named rows, or of all: the largest that is seen."""
+        seen = self._samples(representation, rows)
+        at = tuple(i for i, label in enumerate(seen[0].labels) if not rows or label in rows)
+        return max(s.rank(at) for s in seen)
+
+    def labels(self, representation: str, rows: Labels = ()) -> set[str]:
+        """All invariants, with as many Markov parameters as these rows need."""
+        return set(self._samples(representation, rows)[0].labels)
+
+    def free(self, representation: str, rows: Labels) -> set[str]:
+        """Those of them that vary."""
+        seen = self._samples(representation, rows)
+        labels = enumerate(seen[0].labels)
+        return {label for i, label in labels if any(any(s.rows[i]) for s in seen)}
+
+    def _samples(self, representation: str, rows: Labels) -> tuple[Sample, ...]:
+        return self.draw(Representation(representation), markov_count(rows))
+
+
+@dataclass(frozen=True, slots=True)
+class SeenPair:
+    """Both models: whether a renaming `renames` the left one to the right one, and evidence is
+    `found_again` by the method that finds such. Of chains and networks also the `numberings` of
+    the nodes of a part, which the left one is or the right one, in the whole; of chains the model
+    with the elements of both.
+    """
+
+    left: Seen
+    right: Seen
+    renames: Callable[[dict[str, str]], bool]
+    found_again: Callable[[Any], bool]
+    numberings: Callable[[bool], Iterable[dict[int, int]]] = lambda left_is_part: ()
+    united: Callable[[], Seen | None] = lambda: None
+
+    @property
+    def sides(self) -> tuple[Seen, Seen]:
+        """Left and right."""
+        return self.left, self.right
+
+
+def seen(model: Model, seed: str = "verify") -> Seen:
+    """A model at fresh points, the same for all questions."""
+
+    @cache
+    def draw(representation: Representation, count: int) -> tuple[Sample, ...]:
+        """Samples in this representation."""
+        return tuple(samples(model, representation, count, POINTS, seed))
+
+    return Seen(model.parameters, tuple(chain.from_iterable(model.degrees)), draw)
+
+
+def markov_count(labels: Labels) -> int:
+    """Markov parameters needed to have all these labels, such as G3 or G3[2]; raises ValueError for
+    more than are looked at.
+    """
+    found = [re.fullmatch(r"G(\d{1,9})(?:\[\d+\])?", label) for label in labels]
+    most = max((int(x[1]) for x in found if x), default=0)
+    if most > MOST_MARKOV:
+        raise ValueError(f"G{most} is beyond the first {MOST_MARKOV} Markov parameters")
+    return most
+
+
+def spelled(labels: Labels) -> str:
+    """Labels with runs shortened.
+
+    >>> spelled(("b0", "b1", "b2", "a1")), spelled(("b0[2]", "b1[2]"))
+    ('b0–b2, a1', 'b0[2]–b1[2]')
+    """
+    found = [re.fullmatch(r"([A-Za-z]+)(\d+)(.*)", label) for label in labels]
+    numbered = [(m[1] + m[3], int(m[2])) if m else ("", -1) for m in found]
+    runs = [
+        list(run)
+        for _, run in groupby(enumerate(numbered), key=lambda x: (x[1][0], x[1][1] - x[0]))
+    ]
+    ends = [(labels[run[0][0]], labels[run[-1][0]]) for run in runs]
+    return ", ".join(a if a == b else f"{a}–{b}" for a, b in ends)
 
 
 class Carrier(Flag):
@@ -59,16 +154,40 @@ class Claim:
 
 
 COMPLEX = (Domain.COMPLEX,)
+ROLES = {
+    "left_given": ("given", "searched"),
+    "left_is_larger": ("larger", "smaller"),
+    "left_is_part": ("part", "whole"),
+}  # of the left model and the right one where the field is true, exchanged where it is not
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """Evidence of a kind: `kind` is its name in files, its fields are what is stored, `sentence`
-    and `formula` of two models its words.
+    """Evidence of a kind: `kind` is its name in files, its fields are what is stored.
+
+    `words`, `symbols` and `theorem` make `sentence`, `formula` and `title`, if its class says no
+    more: {0} is the evidence, {left} and {right} are the models, also by the roles (`ROLES`) that
+    a field of it gives them.
     """
 
     kind: ClassVar[str]
     claim: ClassVar[Claim] = Claim()
+    words: ClassVar[str] = ""
+    symbols: ClassVar[str] = ""
+    theorem: ClassVar[str] = ""
+
+    def sentence(self, left: str, right: str) -> str:
+        """What it says of two models with these names."""
+        names = {"left": left, "right": right}
+        for flag, (first, second) in ROLES.items():
+            ordered = (left, right) if getattr(self, flag, True) else (right, left)
+            names |= zip((first, second), ordered, strict=True)
+        return self.words.format(self, **names)
+
+    @property
+    def formula(self) -> str:
+        """The same in symbols."""
+        return self.symbols.format(self)
 
     def shows(self, domain: Domain) -> Relation:
         """Which relation it shows over a domain, UNDECIDED: nothing. A difference over complex
@@ -85,7 +204,7 @@ class Kind:
     @property
     def title(self) -> str:
         """What the theorem is called that it speaks by; "" where it has no name of its own."""
-        return ""
+        return self.theorem
 
     def holds(self, pair: SeenPair, representation: str) -> bool:
         """Whether it is true of two models, seen anew, and decides them; unless a class says how,

@@ -7,8 +7,7 @@ from enum import StrEnum
 from itertools import groupby
 from typing import ClassVar, NamedTuple
 
-from disting.evidence.kind import Claim, Inside, Kind
-from disting.evidence.seen import Labels, spelled
+from disting.evidence.kind import Claim, Inside, Kind, Labels, spelled
 
 
 class Why(StrEnum):
@@ -99,17 +98,13 @@ class RowsInside(_Steps):
 
     kind: ClassVar[str] = "parts-inside"
     claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
+    symbols: ClassVar[str] = "R₁ + F₁ = lim (R₂ + F₂)"
 
     def sentence(self, left: str, right: str) -> str:
         """Row by row."""
         given, searched = self._names(left, right)
         told = "; ".join(step.told(searched) for step in self.steps)
         return f"Every {given} is a limit of models {searched}: {told}."
-
-    @property
-    def formula(self) -> str:
-        """The sum of the rows."""
-        return "R₁ + F₁ = lim (R₂ + F₂)"
 
 
 _IN = {
@@ -254,17 +249,13 @@ class FullImage(Kind):
 
     kind: ClassVar[str] = "full-image"
     claim: ClassVar[Claim] = Claim(inside=Inside.LIMIT)
+    words: ClassVar[str] = (
+        "{larger} gives its {0.rank} invariants any generic values, so those of {smaller} are"
+        " limits of its own."
+    )
     left_is_larger: bool
     rank: int
     free: Labels
-
-    def sentence(self, left: str, right: str) -> str:
-        """What that means for the other."""
-        larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        return (
-            f"{larger} gives its {self.rank} invariants any generic values, so those of {smaller}"
-            " are limits of its own."
-        )
 
     @property
     def formula(self) -> str:

@@ -11,67 +11,11 @@ from math import sqrt
 from typing import Any, ClassVar, Self, get_args
 
 from disting.algebra.certainty import Certainty, withhold
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import Excluded, Theorem
 from disting.evidence.kind import Kind, plain_fields, read
 
 Values = tuple[tuple[str, str], ...]  # parameter name, fraction
 Z95 = 1.96  # quantile of the normal distribution for 95 %
-
-_OBSTACLES = {
-    "decay": (
-        "the transfer functions of {0} and {1} fall off at different rates for high frequencies"
-    ),
-    "residues": (
-        "{0} has negative residues in the row where force and sensor are apart, {1} has positive"
-        " ones alone"
-    ),
-    "own poles": (
-        "the grounded and the free row of {1} would have to be those of {0}, which are of another"
-        " kind"
-    ),
-    "signs": (
-        "in the order of the poles the residues of a row of {0} change their signs more often than"
-        " those of {1} can"
-    ),
-    "swapped parts": (
-        "the rows of {1} would be those of {0}, equal or exchanged, which decay or positive masses"
-        " rule out"
-    ),
-}
-
-
-@dataclass(frozen=True, slots=True)
-class Excluded(Kind):
-    """NEVER: the statement of that `name`, see `positivity.obstacles`; at the rational `point`, if
-    one is needed, balls are looked at.
-    """
-
-    kind: ClassVar[str] = "excluded"
-    name: str
-    point: Values = ()
-
-    def __post_init__(self) -> None:
-        # from a damaged file: said here, and not when it is to be told
-        if self.name not in _OBSTACLES:
-            raise ValueError(f"nothing that excludes equivalents is called {self.name!r}")
-
-    def sentence(self, given: str, other: str) -> str:
-        """What stands against equivalents."""
-        why = _OBSTACLES[self.name].format(given, other)
-        return (
-            f"No generic positive parameters of {given} have a positive equivalent in {other}:"
-            f" {why}."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The statement by name."""
-        return f"{self.name} exclude positive equivalents"
-
-    @property
-    def title(self) -> str:
-        """The statement by name."""
-        return self.name
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,19 +25,12 @@ class EmptyFibre(Kind):
     """
 
     kind: ClassVar[str] = "no-equivalent"
+    words: ClassVar[str] = (
+        "For one choice of rational parameters of {left} no parameters of {right}, real or complex,"
+        " give the same transfer function; so generic parameters have no equivalent."
+    )
+    symbols: ClassVar[str] = "Φ₂⁻¹(Φ₁(p₀)) = ∅"
     point: Values
-
-    def sentence(self, given: str, other: str) -> str:
-        """What the fibre shows."""
-        return (
-            f"For one choice of rational parameters of {given} no parameters of {other}, real or"
-            " complex, give the same transfer function; so generic parameters have no equivalent."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The empty fibre."""
-        return "Φ₂⁻¹(Φ₁(p₀)) = ∅"
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +55,7 @@ class Interlacing(Kind):
     """
 
     kind: ClassVar[str] = "interlacing"
+    theorem: ClassVar[str] = "order of poles and zeros"
     parts: tuple[RowWords, ...]
     with_one: Values = ()
     without: Values = ()
@@ -145,11 +83,6 @@ class Interlacing(Kind):
             f"{name}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for name, n in counted
         )
 
-    @property
-    def title(self) -> str:
-        """What settles it."""
-        return "order of poles and zeros"
-
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> Self:
         """From plain data; raises KeyError or TypeError for what is none."""
@@ -164,20 +97,13 @@ class Points(Kind):
     """
 
     kind: ClassVar[str] = "points"
+    words: ClassVar[str] = (
+        "All models near one choice of positive rational parameters of {left} have a positive"
+        " equivalent in {right}, generic ones near another choice have none."
+    )
+    symbols: ClassVar[str] = "∃ p₀: Φ₂⁻¹(Φ₁(p₀)) ∩ ℝ₊ⁿ ≠ ∅,  ∃ p₁: Φ₂⁻¹(Φ₁(p₁)) ∩ ℝ₊ⁿ = ∅"
     with_one: Values
     without: Values
-
-    def sentence(self, given: str, other: str) -> str:
-        """What the two points show."""
-        return (
-            f"All models near one choice of positive rational parameters of {given} have a positive"
-            f" equivalent in {other}, generic ones near another choice have none."
-        )
-
-    @property
-    def formula(self) -> str:
-        """One of each."""
-        return "∃ p₀: Φ₂⁻¹(Φ₁(p₀)) ∩ ℝ₊ⁿ ≠ ∅,  ∃ p₁: Φ₂⁻¹(Φ₁(p₁)) ∩ ℝ₊ⁿ = ∅"
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,14 +113,11 @@ class BoxMap(Kind):
     """
 
     kind: ClassVar[str] = "box"
+    words: ClassVar[str] = (
+        "A renaming turns {left} into {right}, and every range of {left} lies inside the range that"
+        " it is renamed to."
+    )
     pairs: tuple[tuple[str, str], ...]
-
-    def sentence(self, given: str, other: str) -> str:
-        """What the renaming does to the ranges."""
-        return (
-            f"A renaming turns {given} into {other}, and every range of {given} lies inside the"
-            " range that it is renamed to."
-        )
 
     @property
     def formula(self) -> str:
@@ -209,20 +132,12 @@ class OnlyOne(Kind):
     """
 
     kind: ClassVar[str] = "only one"
+    words: ClassVar[str] = (
+        "In experiment {0.experiment} alone every positive {left} has a positive equivalent in"
+        " {right}, and generic ones have no other, so it is that of all experiments."
+    )
+    symbols: ClassVar[str] = "|Φ₂,{0.experiment}⁻¹(Φ₁,{0.experiment}(p))| = 1, ⊂ ℝ₊ⁿ"
     experiment: int
-
-    def sentence(self, given: str, other: str) -> str:
-        """Why the equivalent under one experiment is that under all."""
-        return (
-            f"In experiment {self.experiment} alone every positive {given} has a positive"
-            f" equivalent in {other}, and generic ones have no other, so it is that of all"
-            " experiments."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The fibre of one experiment is one positive point."""
-        return f"|Φ₂,{self.experiment}⁻¹(Φ₁,{self.experiment}(p))| = 1, ⊂ ℝ₊ⁿ"
 
 
 PositiveEvidence = Theorem | Excluded | EmptyFibre | Interlacing | Points | BoxMap | OnlyOne

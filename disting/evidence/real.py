@@ -28,24 +28,13 @@ class RealFactors(Kind):
 
     kind: ClassVar[str] = "real factors"
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE, _REAL)
-
-    def sentence(self, left: str, right: str) -> str:
-        """What the theorem says."""
-        return (
-            f"Poles and zeros of {left} can always be shared out among the rows of {right} with"
-            " real coefficients, and the reverse: real polynomials have real factors of the"
-            " degrees that are needed. The rest is rational."
-        )
-
-    @property
-    def formula(self) -> str:
-        """The factors."""
-        return "ℝ[x] ∋ P = A·B, deg A as needed, both ways"
-
-    @property
-    def title(self) -> str:
-        """What settles it."""
-        return self.kind
+    theorem: ClassVar[str] = "real factors"
+    words: ClassVar[str] = (
+        "Poles and zeros of {left} can always be shared out among the rows of {right} with real"
+        " coefficients, and the reverse: real polynomials have real factors of the degrees that are"
+        " needed. The rest is rational."
+    )
+    symbols: ClassVar[str] = "ℝ[x] ∋ P = A·B, deg A as needed, both ways"
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +48,7 @@ class RealWitnesses(Kind):
 
     kind: ClassVar[str] = "real witnesses"
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.SOMETIMES, _REAL)
+    symbols: ClassVar[str] = "∃ p₀: Φ₂⁻¹(Φ₁(p₀)) ∩ ℝⁿ ≠ ∅,  ∃ p₁: Φ₂⁻¹(Φ₁(p₁)) ∩ ℝⁿ = ∅"
     without_left_given: bool
     without: Point
     with_left_given: bool
@@ -75,11 +65,6 @@ class RealWitnesses(Kind):
             f"{positive} But near {values} no real {given} has a real equivalent in {other}: its"
             " poles and zeros cannot be shared out among the rows without parting two conjugates."
         )
-
-    @property
-    def formula(self) -> str:
-        """One of each."""
-        return "∃ p₀: Φ₂⁻¹(Φ₁(p₀)) ∩ ℝⁿ ≠ ∅,  ∃ p₁: Φ₂⁻¹(Φ₁(p₁)) ∩ ℝⁿ = ∅"
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""
@@ -174,6 +159,8 @@ class OddFibres(Kind):
 
     kind: ClassVar[str] = "odd fibres"
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.INDISTINGUISHABLE, _REAL)
+    theorem: ClassVar[str] = "odd fibres"
+    symbols: ClassVar[str] = "|Φ₁⁻¹(Φ₁(p))| = {0.left}, |Φ₂⁻¹(Φ₂(q))| = {0.right}"
     left: int
     right: int
 
@@ -185,16 +172,6 @@ class OddFibres(Kind):
             f" {there} in {left}; solutions that are not real are pairs of conjugates, so of an odd"
             " number at least one is real."
         )
-
-    @property
-    def formula(self) -> str:
-        """Both numbers."""
-        return f"|Φ₁⁻¹(Φ₁(p))| = {self.left}, |Φ₂⁻¹(Φ₂(q))| = {self.right}"
-
-    @property
-    def title(self) -> str:
-        """What settles it."""
-        return self.kind
 
 
 def _equivalents(count: int) -> str:

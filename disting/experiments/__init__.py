@@ -16,13 +16,13 @@ Experiment(sensor=1)
 `confirms` finds evidence of a verdict under experiments again, as `disting.verify` does.
 """
 
-from disting.experiments.changes import GENERIC as GENERIC
-from disting.experiments.changes import Change as Change
-from disting.experiments.experiment import Experiment as Experiment
-from disting.experiments.experiment import MeasuredChain as MeasuredChain
+from disting.experiments.changes import GENERIC as GENERIC, Change as Change
+from disting.experiments.experiment import Experiment as Experiment, MeasuredChain as MeasuredChain
 from disting.experiments.measured_evidence import confirms as confirms
-from disting.experiments.places import Named as Named
-from disting.experiments.places import Places as Places
-from disting.experiments.places import moved as moved
-from disting.experiments.places import named as named
-from disting.experiments.places import ways as ways
+from disting.experiments.places import (
+    Named as Named,
+    Places as Places,
+    moved as moved,
+    named as named,
+    ways as ways,
+)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 from disting.errors import InputError, shown
-from disting.model.exact_number import is_too_long
 from disting.model.kinds import CHANGES, Kind
+from disting.model.names import is_too_long
 
 P = TypeVar("P", int, str)  # a place
 Q = TypeVar("Q", int, str)

@@ -101,11 +101,8 @@ class Experiment:
         taken. Kinds that came later are there where something is done, so that what was written
         before them is written so again.
         """
-        said: dict[str, object] = {
-            "force": self.force,
-            "sensor": self.sensor,
-            "quantity": self.quantity,
-        }
+        names = "force", "sensor", "quantity"
+        said: dict[str, object] = {name: getattr(self, name) for name in names}
         for kind in CHANGES:
             listed = self.of(kind)
             if listed or kind.always:
@@ -169,6 +166,11 @@ class Entry:
     def lag(self) -> bool:
         """Whether the force has a lag."""
         return self.structure.lag
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether the sensor never moves: no mass that it shows is joined to one that is driven."""
+        return not touched(self)
 
     @cached_property
     def sensor_order(self) -> int:
@@ -269,7 +271,7 @@ class MeasuredChain:
     @property
     def silent(self) -> tuple[int, ...]:
         """Experiments, from 0, in which the sensor never moves: their transfer function is zero."""
-        return tuple(i for i, entry in enumerate(self.entries) if not touched(entry))
+        return tuple(i for i, entry in enumerate(self.entries) if entry.is_silent)
 
     @property
     def text(self) -> tuple[str, ...]:

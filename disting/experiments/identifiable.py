@@ -16,13 +16,13 @@ where one of them is not zero.
 
 from dataclasses import replace
 
-from disting.algebra.sampling import enough
+from disting.algebra.certainty import enough
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import Listed, lists, without_dead_time
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import stacked_map
 from disting.fibres.synthesis.decide import safety_of_point
-from disting.fibres.synthesis.result import Confirmation
+from disting.fibres.synthesis.task import Confirmation
 from disting.model.question import Question, Settings
 from disting.questions.identifiability import (
     Level,

@@ -23,8 +23,13 @@ from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.model.kinds import Kind
 from disting.model.minors import embeddings, is_minor, minors
 from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
-from disting.questions.inclusion.missing_elements import missing, without_dead_time
-from disting.questions.inclusion.profiles import by_profiles, exceed, ordered
+from disting.questions.inclusion.profiles import (
+    by_profiles,
+    exceed,
+    missing,
+    ordered,
+    without_dead_time,
+)
 
 IMAGE_NOT_ASKED = "under several experiments only limits are asked for"
 NOT_SETTLED = "neither missing elements nor one experiment alone settles it"

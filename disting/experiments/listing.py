@@ -26,9 +26,8 @@ from functools import lru_cache
 
 from flint import acb_poly, ctx, fmpq, fmpq_poly
 
-from disting.algebra.certainty import Certainty
-from disting.algebra.sampling import about
-from disting.algebra.tridiagonal import Ring
+from disting.algebra.certainty import Certainty, about
+from disting.algebra.determinants import Ring
 from disting.behaviour.transfer import plain_receptance
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
@@ -43,8 +42,7 @@ from disting.fibres.synthesis.decide import (
 )
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import is_covered
-from disting.fibres.synthesis.result import Fibre, Solution, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Fibre, Solution, Status, target
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.row import rows_of

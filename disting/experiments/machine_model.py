@@ -20,10 +20,10 @@ from typing import ClassVar
 
 from flint import fmpz_mpoly, fmpz_poly
 
+from disting.algebra.certainty import Size, prime, residues
+from disting.algebra.determinants import Ring
 from disting.algebra.quotient import Quotient, matrix
-from disting.algebra.sampling import Size, prime, residues
 from disting.algebra.symbols import coefficients, symbols
-from disting.algebra.tridiagonal import Ring
 from disting.behaviour.chain_model import quotient, size_of_minors, vanishing_series
 from disting.behaviour.expanded import become
 from disting.behaviour.sample import (

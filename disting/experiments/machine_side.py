@@ -20,12 +20,11 @@ from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
-from disting.experiments.exact import exact_finding
+from disting.experiments.exact import exact_finding, positive_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.measured_evidence import confirms, confirms_inclusion, exact_again
-from disting.experiments.positive import positive_finding
 from disting.model.chain import Premise
 from disting.model.question import Domain, Question
 from disting.questions.inclusion import Inclusions

@@ -13,21 +13,19 @@ from disting.conditions.finding import Finding
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refuted, Solved
-from disting.evidence.kind import Kind
+from disting.evidence.kind import Kind, Seen, SeenPair, seen
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, MissingElements
 from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
 from disting.evidence.real import BothWays
-from disting.evidence.seen import Seen, SeenPair, seen
+from disting.experiments.exact import answer_of
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import confirms_missing, numberings
 from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
 from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.maps import matched
-from disting.experiments.positive import answer_of
 from disting.fibres.ideals import seen_again
-from disting.fibres.synthesis.result import Answer
-from disting.fibres.synthesis.target import fraction
+from disting.fibres.synthesis.task import Answer, fraction
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical

@@ -15,7 +15,6 @@ from typing import Any
 from flint import nmod_poly
 
 from disting.behaviour.sample import drawn
-from disting.behaviour.transfer import touched
 from disting.errors import InputError, shown
 from disting.experiments.changes import GENERIC
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
@@ -148,7 +147,7 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     """
     both = measured(chain, item)
     here, there = both.entries
-    if not touched(there):
+    if there.is_silent:
         return Gain.SILENT
     sized = item.kind.power is not None
     if sized and not chain.lag and here.ports == (0, item.at, 0, item.at):

@@ -73,65 +73,74 @@ True
 from disting.fit.judge.admissible import Rule as Rule
 from disting.fit.judge.alternatives import Alternative as Alternative
 from disting.fit.judge.candidate import Candidate as Candidate
-from disting.fit.judge.explanation import Explanation as Explanation
-from disting.fit.judge.explanation import Miss as Miss
-from disting.fit.judge.members import Disagreement as Disagreement
-from disting.fit.judge.members import Member as Member
-from disting.fit.judge.members import Twin as Twin
-from disting.fit.judge.modes import Result as Result
-from disting.fit.judge.modes import physical as physical
-from disting.fit.judge.modes import poles as poles
-from disting.fit.judge.modes import zeros as zeros
-from disting.fit.judge.practical import Practical as Practical
-from disting.fit.judge.practical import Thresholds as Thresholds
-from disting.fit.judge.practical import collinearity_index as collinearity_index
-from disting.fit.judge.practical import condition_indices as condition_indices
-from disting.fit.judge.practical import importance as importance
-from disting.fit.judge.practical import practical as practical
+from disting.fit.judge.explanation import Explanation as Explanation, Miss as Miss
+from disting.fit.judge.members import Disagreement as Disagreement, Member as Member, Twin as Twin
+from disting.fit.judge.modes import (
+    Result as Result,
+    physical as physical,
+    poles as poles,
+    zeros as zeros,
+)
+from disting.fit.judge.practical import (
+    Practical as Practical,
+    Thresholds as Thresholds,
+    collinearity_index as collinearity_index,
+    condition_indices as condition_indices,
+    importance as importance,
+    practical as practical,
+)
 from disting.fit.judge.readings import Reading as Reading
 from disting.fit.noise.covariance import Noise as Noise
 from disting.fit.noise.scatter import Scatter as Scatter
-from disting.fit.plan.design import Designed as Designed
-from disting.fit.plan.design import designed as designed
-from disting.fit.plan.power import Plan as Plan
-from disting.fit.plan.power import plan as plan
-from disting.fit.plan.rival import Rival as Rival
-from disting.fit.plan.rival import gain as gain
-from disting.fit.results.confidence import Confidence as Confidence
-from disting.fit.results.confidence import confidence as confidence
-from disting.fit.results.confidence import fit_percent as fit_percent
-from disting.fit.results.export import Exported as Exported
-from disting.fit.results.export import control_script as control_script
-from disting.fit.results.export import predicted as predicted
-from disting.fit.results.export import state_space as state_space
-from disting.fit.results.export import to_control as to_control
-from disting.fit.results.export import to_control_transfer_function as to_control_transfer_function
-from disting.fit.results.export import write_mat as write_mat
-from disting.fit.results.export import zero_pole as zero_pole
-from disting.fit.results.loop import Controller as Controller
-from disting.fit.results.loop import Margins as Margins
-from disting.fit.results.loop import margins as margins
+from disting.fit.plan.design import Designed as Designed, designed as designed
+from disting.fit.plan.power import Plan as Plan, plan as plan
+from disting.fit.plan.rival import Rival as Rival, gain as gain
+from disting.fit.results.export import (
+    Exported as Exported,
+    control_script as control_script,
+    predicted as predicted,
+    state_space as state_space,
+    to_control as to_control,
+    to_control_transfer_function as to_control_transfer_function,
+    write_mat as write_mat,
+    zero_pole as zero_pole,
+)
+from disting.fit.results.loop import (
+    Controller as Controller,
+    Margins as Margins,
+    margins as margins,
+)
 from disting.fit.results.model_file import read_model as read_model
 from disting.fit.results.reliance import Statement as Statement
-from disting.fit.results.selection import Selection as Selection
-from disting.fit.results.sweep import Profile as Profile
-from disting.fit.results.sweep import Sweep as Sweep
-from disting.fit.results.sweep import profile as profile
-from disting.fit.results.sweep import sweep as sweep
-from disting.fit.search.candidates import chosen_ports as chosen_ports
-from disting.fit.search.candidates import figure_1 as figure_1
-from disting.fit.search.candidates import variants as variants
-from disting.fit.search.candidates import whole_family as whole_family
-from disting.fit.search.cost import Case as Case
-from disting.fit.search.cost import Cost as Cost
-from disting.fit.search.cost import lines_by_coherence as lines_by_coherence
-from disting.fit.search.cost import lines_by_deviation as lines_by_deviation
-from disting.fit.search.estimate import Estimate as Estimate
-from disting.fit.search.estimate import Task as Task
+from disting.fit.results.selection import (
+    Confidence as Confidence,
+    Profile as Profile,
+    Selection as Selection,
+    Sweep as Sweep,
+    confidence as confidence,
+    fit_percent as fit_percent,
+    profile as profile,
+    sweep as sweep,
+)
+from disting.fit.search.candidates import (
+    chosen_ports as chosen_ports,
+    figure_1 as figure_1,
+    variants as variants,
+    whole_family as whole_family,
+)
+from disting.fit.search.cost import (
+    Case as Case,
+    Cost as Cost,
+    lines_by_coherence as lines_by_coherence,
+    lines_by_deviation as lines_by_deviation,
+)
+from disting.fit.search.estimate import Estimate as Estimate, Task as Task
 from disting.fit.search.exchange import estimates as estimates
-from disting.fit.search.joint import Further as Further
-from disting.fit.search.joint import JointCost as JointCost
-from disting.fit.search.joint import JointPlant as JointPlant
+from disting.fit.search.joint import (
+    Further as Further,
+    JointCost as JointCost,
+    JointPlant as JointPlant,
+)
 from disting.fit.search.plant import Plant as Plant
 from disting.fit.search.setup import Setup as Setup
 from disting.fit.select import select as select

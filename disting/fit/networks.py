@@ -13,11 +13,12 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.fit.judge.exclusion import basis_of, limit, statistic
-from disting.fit.judge.responses import explained, noises, scatters, together
+from disting.fit.judge.explanation import explained, noises, scatters, together
 from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.cost import Case, Cost
+from disting.fit.search.data import Whitened
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
@@ -29,8 +30,6 @@ from disting.fit.search.network_plant import (
     random_starts,
 )
 from disting.fit.search.setup import Setup
-from disting.fit.search.whitened import Whitened
-from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.network.network import Network
@@ -85,7 +84,7 @@ def fit_networks(
     data = [measured] if isinstance(measured, FrequencyResponse) else list(measured)
     asked = _asked(data, networks)
     engine = engine or Engine()
-    subjects = engine.general_subjects([of_network(network) for network in asked])
+    subjects = engine.general_subjects(asked)
     decided = engine.decisions(subjects, Query(View.POSITIVE, inclusion=False))
     first = _first_of_same(decided, len(asked))
     cost, found = _cost(data), list[tuple[AnyNetworkPlant, Real]]()

@@ -32,17 +32,15 @@ from disting.fit.judge.joint_verdicts import (
 from disting.fit.judge.members import Member, members
 from disting.fit.judge.practical import Thresholds
 from disting.fit.judge.reading import other_quantities
-from disting.fit.judge.readings import Reading, readings
-from disting.fit.judge.signs import pilot, signed
+from disting.fit.judge.readings import Reading, pilot, readings, signed
 from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import statements
 from disting.fit.results.selection import Selection
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.data import checked
+from disting.fit.search.data import checked, joint_cost, judging_cost
 from disting.fit.search.estimate import Estimate, Method, Task, one_thread
 from disting.fit.search.exchange import SEARCHED, body, estimates, polished
 from disting.fit.search.joint import AnyCost, Further, JointCost
-from disting.fit.search.weighing import joint_cost, judging_cost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain

@@ -12,9 +12,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice, repeat
 
-from disting.algebra.certainty import Certainty
+from disting.algebra.certainty import Certainty, residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
-from disting.algebra.sampling import residues
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
@@ -28,13 +27,13 @@ from disting.general.formulas import explicit, fit
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
+from disting.general.orthant import THOROUGH, Effort
 from disting.general.search import common_points
 from disting.general.target import fibre_equations, rational_values, target
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
 
-POINTS = 40  # of either model
-FIRST, LISTED = 3, 24  # of either model, whose equivalents are all listed or excluded
+FIRST = 3  # of either model, whose equivalents are all listed or excluded
 SMALL = 5  # parameters: formulas for so few come before searches in rounded numbers
 GUARDS = 4  # of either model, where no equivalents are to be found
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
@@ -45,7 +44,9 @@ Found = tuple[bool, Point, Point]
 """Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
 
 
-def admissible_finding(left: AnyModel, right: AnyModel, domain: Domain, seed: str) -> Finding:
+def admissible_finding(
+    left: AnyModel, right: AnyModel, domain: Domain, seed: str, effort: Effort = THOROUGH
+) -> Finding:
     """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen. Lists of all
     equivalents of points cost milliseconds, so a few come first.
     """
@@ -55,12 +56,19 @@ def admissible_finding(left: AnyModel, right: AnyModel, domain: Domain, seed: st
             found = _by_numbers(left, right, seed, FIRST)
         if found:
             return _sometimes(found)
-    first = way(left, right, domain)
-    second = None if first and first.never else way(right, left, domain)
-    return of_ways(left, right, (first, second), domain, seed)
+    first = way(left, right, domain, effort)
+    second = None if first and first.never else way(right, left, domain, effort)
+    return of_ways(left, right, (first, second), domain, seed, effort)
 
 
-def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: str) -> Finding:
+def of_ways(
+    left: AnyModel,
+    right: AnyModel,
+    ways: Ways,
+    domain: Domain,
+    seed: str,
+    effort: Effort = THOROUGH,
+) -> Finding:
     """The finding from what is known each way; raises ContradictionError where that cannot all
     be true.
     """
@@ -75,12 +83,12 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
                 evidence=NoEquivalent(domain.value, left_given, closed),
             )
     if all(one and one.covering for one in ways):
-        return _always(explicit(ways, left, right, domain), left, right)
+        return _always(explicit(ways, left, right, domain, effort), left, right)
     if domain is Domain.POSITIVE and are_one_ports(left, right):
         return Finding(
             ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
         )
-    having, lacking, shares = _seen(ways, domain, seed)
+    having, lacking, shares = _seen(ways, domain, seed, effort.points)
     if lacking and not having and domain is Domain.POSITIVE:
         having = _common(left, right)
     if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
@@ -89,11 +97,11 @@ def of_ways(left: AnyModel, right: AnyModel, ways: Ways, domain: Domain, seed: s
         )
     if having and lacking:
         return _sometimes(_witnesses(left, right, having, lacking, domain))
-    if not lacking and (formulas := explicit(ways, left, right, domain)):
+    if not lacking and (formulas := explicit(ways, left, right, domain, effort)):
         return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
-        found = _by_lists(left, right, seed, LISTED) or _by_numbers(
-            left, right, seed, LISTED, having
+        found = _by_lists(left, right, seed, effort.listed) or _by_numbers(
+            left, right, seed, effort.listed, having
         )
         if found:
             return _sometimes(found)
@@ -111,55 +119,6 @@ def are_one_ports(left: AnyModel, right: AnyModel) -> bool:
     if isinstance(left, Model) and isinstance(right, Model):
         return same_one_ports(left, right)
     return False
-
-
-def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
-    """Whether both points are what they are said to be, and all parameters near them: the search
-    is done anew.
-
-    Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
-    """
-    domain = Domain(evidence.domain)
-    with_, without = (
-        {name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)
-    )
-    if any(
-        x == 0 or (x < 0 and domain is Domain.POSITIVE)
-        for p in (with_, without)
-        for x in p.values()
-    ):
-        return False
-    sides = {True: (left, right), False: (right, left)}
-    first, second = sides[evidence.with_left_given], sides[evidence.without_left_given]
-    near = tuple(float(Fraction(x)) for _, x in evidence.equivalent)
-    return _has(*first, with_, near, domain) and _has_none(*second, without, domain)
-
-
-def _has(
-    given: AnyModel,
-    other: AnyModel,
-    values: dict[str, Fraction],
-    near: tuple[float, ...],
-    domain: Domain,
-) -> bool:
-    if domain is Domain.POSITIVE and newton.having(given, values, other, near):
-        return True
-    if domain is Domain.POSITIVE and listed.having(given, values, other):
-        return True
-    one = way(given, other, domain)
-    return bool(one and one.having(values))
-
-
-def _has_none(
-    given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
-) -> bool:
-    if domain is Domain.POSITIVE:
-        if isinstance(given, Model) and isinstance(other, Model) and excludes(given, values, other):
-            return True
-        if listed.lacking(given, values, other):
-            return True
-    one = way(given, other, domain)
-    return bool(one and one.lacking(values))
 
 
 def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
@@ -206,7 +165,9 @@ def _always(evidence: Explicit | None, left: AnyModel, right: AnyModel) -> Findi
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
 
-def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | None, str]:
+def _seen(
+    ways: Ways, domain: Domain, seed: str, count_of: int
+) -> tuple[Found | None, Found | None, str]:
     """A point with and one without an equivalent, of either model, and the shares of those with
     one.
     """
@@ -218,7 +179,7 @@ def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | 
             )
             continue
         count, always = 0, bool(one.covering)
-        for values in islice(points(one.given, domain, seed), POINTS):
+        for values in islice(points(one.given, domain, seed), count_of):
             found = one.having(values)
             count += bool(found)
             if found:
@@ -227,7 +188,7 @@ def _seen(ways: Ways, domain: Domain, seed: str) -> tuple[Found | None, Found | 
                 lacking.append((left_given, _written(values), ()))
             if having and lacking:
                 return having[0], lacking[0], ""
-        share = f"{count} of {POINTS} random" if one.looked_at else "no"
+        share = f"{count} of {count_of} random" if one.looked_at else "no"
         lost = one.not_looked_at
         shares.append(f"at {share} points of {one.given.name}{lost and f' ({lost})'}")
     return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)

@@ -8,18 +8,19 @@ is zero are none.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from disting.algebra.groebner.own_process import End, run_limited
-from disting.algebra.groebner.rational import Bounds, TooLarge
+from disting.algebra.groebner.rational import Bounds, Polynomial, TooLarge
 from disting.conditions.finding import Outcome
-from disting.errors import of_type
+from disting.errors import InputError, of_type
 from disting.general.any_model import on_one_variable
 from disting.general.equivalent import Equivalent
 from disting.general.fibre import Extent, Fibre, solved
+from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
-from disting.general.target import fibre_equations, rational_values, target
+from disting.general.target import joint_equations, rational_values, target
 from disting.model.presentation import summary
 from disting.model.question import Domain
 
@@ -116,34 +117,35 @@ class Alternatives:
 
 
 def alternatives(
-    model: Model,
+    model: AnyModel,
     values: Mapping[str, object],
-    other: Model,
+    other: AnyModel,
     *,
     seed: str = "disting",
     seconds: float = SECONDS,
 ) -> Alternatives:
     """Alternatives to a model at rational values (numbers, texts such as "0.1", fractions), in the
-    parameters of `other`.
+    parameters of `other`, which has as many inputs and outputs: with all its transfer functions.
 
-    Gives up after so many seconds. Raises InputError for missing, foreign or inexact values and a
-    zero leading coefficient.
+    Gives up after so many seconds. Raises InputError for missing, foreign or inexact values, a
+    zero leading coefficient, and models of different inputs and outputs.
 
     >>> a = Model.from_transfer_function("1", "(s + a)*(s + b)")
     >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
     ['a = 1/2, b = 1', 'a = 1, b = 1/2']
     """
     for one in (model, other):
-        of_type(one, Model, "alternatives are those of a Model in a Model")
+        of_type(one, Model | MatrixModel, "alternatives are those of a Model in a Model")
     of_type(values, Mapping, "values are a mapping of names to numbers")
     exact = rational_values(model, values)
+    if model.shape != other.shape:
+        raise InputError(f"{model.name} and {other.name} have other numbers of inputs and outputs")
     here, there = on_one_variable([model, other])
-    equations = fibre_equations(target(here, exact), there)
-    try:
-        found = solved(equations, other.parameters, seed, AT_ONCE)
-    except TooLarge:
-        ended = run_limited(solved, (equations, other.parameters, seed, AT_MOST), seconds)
-        found = ended.value if ended.end is End.DONE else Fibre(Extent.UNKNOWN, reason=ended.reason)
+    found = (
+        _solved(_equations(here, exact, there), other.parameters, seed, seconds)
+        if [e is None for e in here.cells] == [e is None for e in there.cells]
+        else Fibre(Extent.UNKNOWN, reason="not the same transfer functions of both are zero")
+    )
     return Alternatives(
         model=model.name,
         other=other.name,
@@ -154,3 +156,19 @@ def alternatives(
         excluded=found.excluded,
         reason=found.reason,
     )
+
+
+def _equations(given: AnyModel, values: Values, other: AnyModel) -> tuple[Polynomial, ...]:
+    goals = [target(replace(entry, name=given.name), values) for entry in given.entries]
+    return joint_equations(goals, other.entries)
+
+
+def _solved(
+    equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed: str, seconds: float
+) -> Fibre:
+    """At once, or in a process of its own."""
+    try:
+        return solved(equations, parameters, seed, AT_ONCE)
+    except TooLarge:
+        ended = run_limited(solved, (equations, parameters, seed, AT_MOST), seconds)
+        return ended.value if ended.end is End.DONE else Fibre(Extent.UNKNOWN, reason=ended.reason)

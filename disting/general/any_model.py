@@ -9,6 +9,7 @@ from typing import TypeVar, overload
 from disting.conditions.finding import Finding
 from disting.fibres.ideals import (
     CoefficientMap,
+    Fraction as Ratio,
     Limits,
     PolynomialMap,
     StackedMap,
@@ -16,7 +17,6 @@ from disting.fibres.ideals import (
     matched,
     stacked_maps,
 )
-from disting.fibres.ideals import Fraction as Ratio
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model, Terms
 from disting.general.powers import Cell, Powers, in_v, out_of_v, weighted
@@ -26,7 +26,7 @@ from disting.network.element import Sort
 from disting.network.network import Network
 from disting.questions.same.exact import SAFETY, decided
 
-LIMITS = Limits(safety=SAFETY)
+LIMITS = Limits(safety=SAFETY, long=True)
 M = TypeVar("M", Model, AnyModel)
 
 

@@ -30,8 +30,8 @@ from typing import ClassVar
 
 from flint import nmod_poly
 
+from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, lowest_terms
-from disting.algebra.sampling import Size
 from disting.behaviour.chain_model import UNBOUNDED, size_of_minors
 from disting.behaviour.sample import label, shared_poles
 from disting.general.matrix_model import AnyModel

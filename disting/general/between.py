@@ -24,11 +24,10 @@ from math import prod
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.sampling import residues
-from disting.algebra.symbols import factored
-from disting.general.cases import Case, numbered, placed
+from disting.algebra.certainty import residues
+from disting.algebra.symbols import RationalFunction, factored
 from disting.general.counts import number_of_roots, remainder
+from disting.general.elimination import Case, numbered, placed
 from disting.general.orthant import Orthant
 
 CHOICES = 12  # fractions that are tried for the unknown that is chosen

@@ -23,6 +23,7 @@ from itertools import combinations, islice
 
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
+from disting.general.orthant import THOROUGH, Effort
 from disting.general.relations import coefficients, dimension_at_least, dimension_at_most
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
@@ -40,7 +41,7 @@ class Boundary:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def at_boundary(given: AnyModel, other: AnyModel) -> Boundary | None:
+def at_boundary(given: AnyModel, other: AnyModel, effort: Effort = THOROUGH) -> Boundary | None:
     """Parameters of the other model, and formulas for the others, that show a positive equivalent
     of all generic values; None where none is found.
 
@@ -52,20 +53,22 @@ def at_boundary(given: AnyModel, other: AnyModel) -> Boundary | None:
     if not (isinstance(given, Model) and isinstance(other, Model)):
         return None
     for zero in islice(_candidates(given, other), TRIED):
-        found = equivalents_without(given, other, zero)
+        found = equivalents_without(given, other, zero, effort)
         if found:
             return Boundary(zero, found)
     return None
 
 
-def equivalents_without(given: Model, other: Model, zero: tuple[str, ...]) -> Way | None:
+def equivalents_without(
+    given: Model, other: Model, zero: tuple[str, ...], effort: Effort = THOROUGH
+) -> Way | None:
     """The way to the other model without these parameters, if it gives all generic values an
     equivalent and the theorem applies.
     """
     less = without(other, zero)
     if less is None or not keeps_functions(given, other, less):
         return None
-    found = way(given, less, Domain.POSITIVE)
+    found = way(given, less, Domain.POSITIVE, effort)
     return found if found and (found.covering or found.path()) else None
 
 

@@ -43,16 +43,15 @@ and a point of a case gives an equivalent if no `nonzero` polynomial, and so no 
 lead(q) and none of the values required to be positive, is zero there.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations, permutations
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.sampling import residues
-from disting.algebra.symbols import factored
-from disting.general.elimination import branches
+from disting.algebra.certainty import residues
+from disting.algebra.symbols import RationalFunction
+from disting.general.elimination import Case, branches, placed, unknown_factors
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.model.question import Domain
@@ -62,20 +61,6 @@ CASES = 300  # that are opened before the search is given up
 ORDERS = 24  # in which five unknowns and more are solved for
 ALL_ORDERS = 4  # unknowns: these have 24 orders
 RESULTANTS = 24  # sum of total degrees: resultants stay a matter of milliseconds
-
-
-@dataclass(frozen=True, slots=True)
-class Case:
-    """Equations left over (irreducible, in no unknown linear), polynomials that are positive,
-    unknowns that are solved for.
-
-    `nonzero`: irreducible polynomials with unknowns that are not zero.
-    """
-
-    equations: tuple[fmpz_mpoly, ...] = ()
-    positive: tuple[fmpz_mpoly, ...] = ()
-    solved: tuple[tuple[int, RationalFunction], ...] = ()
-    nonzero: tuple[fmpz_mpoly, ...] = ()
 
 
 @dataclass(slots=True)
@@ -260,99 +245,3 @@ def _eliminate(search: Search, case: Case) -> bool:
         else:
             _place(search, replace(case, equations=(branch.factor,)), *branch.line)
     return True
-
-
-def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | str:
-    """A case with one unknown replaced by a fraction whose denominator is not zero; else what
-    would have to hold and fails.
-    """
-    put = [ring.put(c, at, by.num, by.den)[0] for c in case.nonzero]
-    void = next((c for c, found in zip(case.nonzero, put, strict=True) if found.is_zero()), None)
-    if void is not None:
-        return f"{void} != 0"
-    positive, failing = inequalities(ring, (put_positive(ring, g, at, by) for g in case.positive))
-    if failing is not None:
-        return f"{failing} > 0"
-    equations = tuple(ring.put(e, at, by.num, by.den)[0] for e in case.equations)
-    solved = tuple((i, put_ratio(ring, value, at, by)) for i, value in case.solved)
-    return Case(equations, positive, (*solved, (at, by)), unknown_factors(ring, put))
-
-
-def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
-    """The distinct irreducible factors that contain unknowns."""
-    every = [
-        f for polynomial in polynomials for f, _ in factored(polynomial)[1] if ring.occurring([f])
-    ]
-    return tuple(f for i, f in enumerate(every) if f not in every[:i])
-
-
-def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], RationalFunction]) -> Case:
-    """A case with an unknown of no equation and no inequality replaced by the first of values(1),
-    values(2), .. that may be.
-
-    These are different fractions. A polynomial of degree d in the unknown is zero at d of them at
-    most, if it is not zero.
-    """
-    numbers = range(1, 2 + sum(int(c.degrees()[at]) for c in case.nonzero))
-    return next(c for k in numbers if isinstance(c := placed(ring, case, at, values(k)), Case))
-
-
-def numbered(ring: Orthant, case: Case) -> Case:
-    """A case whose unknowns of no equation and no inequality are numbers at which no `nonzero`
-    polynomial is zero.
-    """
-    left = ring.occurring((*case.equations, *case.positive))
-    for at in ring.unknowns:
-        if at not in left and at not in dict(case.solved):
-            case = chosen(
-                ring, case, at, lambda k: RationalFunction(ring.number(k), ring.number(1))
-            )
-    return case
-
-
-def put_positive(
-    ring: Orthant, polynomial: fmpz_mpoly, at: int, by: RationalFunction
-) -> fmpz_mpoly:
-    """A polynomial with the sign of the value where one variable is replaced by a fraction."""
-    found, degree = ring.put(polynomial, at, by.num, by.den)
-    return found * by.den if degree % 2 and ring.sign(by.den) <= 0 else found
-
-
-def inequalities(
-    ring: Orthant, polynomials: Iterable[fmpz_mpoly]
-) -> tuple[tuple[fmpz_mpoly, ...], fmpz_mpoly | None]:
-    """The inequalities that are not seen to hold, shortened, and one that fails or contradicts
-    another, if there is one.
-    """
-    kept: list[fmpz_mpoly] = []
-    for polynomial in polynomials:
-        shorter = shortened(ring, polynomial)
-        if shorter is None or any(x == -shorter or ring.sign(x + shorter) < 0 for x in kept):
-            return (), polynomial
-        if not shorter.is_one() and shorter not in kept:
-            kept.append(shorter)
-    return tuple(kept), None
-
-
-def shortened(ring: Orthant, polynomial: fmpz_mpoly) -> fmpz_mpoly | None:
-    """What has to be positive for a polynomial to be, 1 where it always is; None where it never
-    is.
-    """
-    if polynomial.is_zero():
-        return None
-    sign, factors = ring.parts(polynomial, odd=True)
-    if not factors:
-        return ring.number(1) if sign > 0 else None
-    return sign * ring.product(factors)
-
-
-def put_ratio(
-    ring: Orthant, value: RationalFunction, at: int, by: RationalFunction
-) -> RationalFunction:
-    """A fraction with one variable replaced by another fraction."""
-    (top, above), (bottom, below) = (
-        ring.put(side, at, by.num, by.den) for side in (value.num, value.den)
-    )
-    return RationalFunction(
-        top * by.den ** max(below - above, 0), bottom * by.den ** max(above - below, 0)
-    )

@@ -22,7 +22,8 @@ from typing import Any
 from flint import ctx, fmpz_mpoly, fmpz_poly
 
 from disting.algebra.symbols import factored
-from disting.general.cases import Case, cases_of, inequalities
+from disting.general.cases import cases_of
+from disting.general.elimination import Case, inequalities
 from disting.general.orthant import Orthant, TooMuch, value_at
 from disting.model.question import Domain
 

@@ -1,4 +1,5 @@
-"""Two equations in two unknowns as one equation in one of them.
+"""Cases of equations and inequalities: values put into them, and two equations in two unknowns as
+one equation in one of them. What cases are, and why it is right, is told in `cases`.
 
 Let e and f be polynomials in x and y, irreducible and different, and let R be their resultant in y.
 R = A e + B f, so R(x) = 0 at every common zero: one of its factors h is zero there.
@@ -12,11 +13,12 @@ divides the numerators of e(x, -t/s) and f(x, -t/s); if it does not divide both 
 generic p.
 """
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from flint import fmpz_mpoly
 
-from disting.algebra.symbols import factored
+from disting.algebra.symbols import RationalFunction, factored
 from disting.general.orthant import Orthant, TooMuch
 
 SIZE = 200_000  # product of numbers of terms and degrees of both: below, less than a second
@@ -141,3 +143,113 @@ def _content(ring: Orthant, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
     for c in ring.coefficients(polynomial, at):
         found = found.gcd(c)
     return found
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """Equations left over (irreducible, in no unknown linear), polynomials that are positive,
+    unknowns that are solved for.
+
+    `nonzero`: irreducible polynomials with unknowns that are not zero.
+    """
+
+    equations: tuple[fmpz_mpoly, ...] = ()
+    positive: tuple[fmpz_mpoly, ...] = ()
+    solved: tuple[tuple[int, RationalFunction], ...] = ()
+    nonzero: tuple[fmpz_mpoly, ...] = ()
+
+
+def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | str:
+    """A case with one unknown replaced by a fraction whose denominator is not zero; else what
+    would have to hold and fails.
+    """
+    put = [ring.put(c, at, by.num, by.den)[0] for c in case.nonzero]
+    void = next((c for c, found in zip(case.nonzero, put, strict=True) if found.is_zero()), None)
+    if void is not None:
+        return f"{void} != 0"
+    positive, failing = inequalities(ring, (put_positive(ring, g, at, by) for g in case.positive))
+    if failing is not None:
+        return f"{failing} > 0"
+    equations = tuple(ring.put(e, at, by.num, by.den)[0] for e in case.equations)
+    solved = tuple((i, put_ratio(ring, value, at, by)) for i, value in case.solved)
+    return Case(equations, positive, (*solved, (at, by)), unknown_factors(ring, put))
+
+
+def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
+    """The distinct irreducible factors that contain unknowns."""
+    every = [
+        f for polynomial in polynomials for f, _ in factored(polynomial)[1] if ring.occurring([f])
+    ]
+    return tuple(f for i, f in enumerate(every) if f not in every[:i])
+
+
+def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], RationalFunction]) -> Case:
+    """A case with an unknown of no equation and no inequality replaced by the first of values(1),
+    values(2), .. that may be.
+
+    These are different fractions. A polynomial of degree d in the unknown is zero at d of them at
+    most, if it is not zero.
+    """
+    numbers = range(1, 2 + sum(int(c.degrees()[at]) for c in case.nonzero))
+    return next(c for k in numbers if isinstance(c := placed(ring, case, at, values(k)), Case))
+
+
+def numbered(ring: Orthant, case: Case) -> Case:
+    """A case whose unknowns of no equation and no inequality are numbers at which no `nonzero`
+    polynomial is zero.
+    """
+    left = ring.occurring((*case.equations, *case.positive))
+    for at in ring.unknowns:
+        if at not in left and at not in dict(case.solved):
+            case = chosen(
+                ring, case, at, lambda k: RationalFunction(ring.number(k), ring.number(1))
+            )
+    return case
+
+
+def put_positive(
+    ring: Orthant, polynomial: fmpz_mpoly, at: int, by: RationalFunction
+) -> fmpz_mpoly:
+    """A polynomial with the sign of the value where one variable is replaced by a fraction."""
+    found, degree = ring.put(polynomial, at, by.num, by.den)
+    return found * by.den if degree % 2 and ring.sign(by.den) <= 0 else found
+
+
+def inequalities(
+    ring: Orthant, polynomials: Iterable[fmpz_mpoly]
+) -> tuple[tuple[fmpz_mpoly, ...], fmpz_mpoly | None]:
+    """The inequalities that are not seen to hold, shortened, and one that fails or contradicts
+    another, if there is one.
+    """
+    kept: list[fmpz_mpoly] = []
+    for polynomial in polynomials:
+        shorter = shortened(ring, polynomial)
+        if shorter is None or any(x == -shorter or ring.sign(x + shorter) < 0 for x in kept):
+            return (), polynomial
+        if not shorter.is_one() and shorter not in kept:
+            kept.append(shorter)
+    return tuple(kept), None
+
+
+def shortened(ring: Orthant, polynomial: fmpz_mpoly) -> fmpz_mpoly | None:
+    """What has to be positive for a polynomial to be, 1 where it always is; None where it never
+    is.
+    """
+    if polynomial.is_zero():
+        return None
+    sign, factors = ring.parts(polynomial, odd=True)
+    if not factors:
+        return ring.number(1) if sign > 0 else None
+    return sign * ring.product(factors)
+
+
+def put_ratio(
+    ring: Orthant, value: RationalFunction, at: int, by: RationalFunction
+) -> RationalFunction:
+    """A fraction with one variable replaced by another fraction."""
+    (top, above), (bottom, below) = (
+        ring.put(side, at, by.num, by.den) for side in (value.num, value.den)
+    )
+    return RationalFunction(
+        top * by.den ** max(below - above, 0), bottom * by.den ** max(above - below, 0)
+    )

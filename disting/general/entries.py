@@ -2,13 +2,15 @@
 trees.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from disting.errors import InputError, shown
 from disting.general.expression import Power, Product, Sum, Tree, names, tree
+
+MOST_SYMBOLS = 300
 
 Matrix = list[list[Tree]]
 ZERO = Fraction(0)
@@ -177,3 +179,28 @@ def _is_list(entry: object) -> bool:
 
 def _listed(entry: Any) -> list[Any]:
     return list(entry) if isinstance(entry, (list, tuple)) else list(entry.tolist())
+
+
+def parameters_of(entries: Iterable[Tree], variable: str = "") -> tuple[str, ...]:
+    """All names but that of the frequency variable, sorted; raises InputError."""
+    found = tuple(sorted({n for entry in entries for n in names(entry)} - {variable}))
+    if len(found) > MOST_SYMBOLS:
+        raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(found)}")
+    foreign = [name for name in found if not (name.isascii() and name.isprintable() and name)]
+    if foreign:
+        raise InputError(f"names of parameters are ASCII, not {shown(foreign[0])}")
+    return found
+
+
+def refuse_name(name: object) -> None:
+    """Raises InputError for what no sentence can hold in one line."""
+    if not isinstance(name, str) or not name.isprintable():
+        raise InputError(f"the name of a model has printable characters only, not {shown(name)}")
+
+
+def frequency(s: object) -> str:
+    """The name of the frequency variable; raises InputError."""
+    name = tree(s)
+    if not isinstance(name, str):
+        raise InputError(f"the frequency variable is a symbol or its name, not {shown(s)}")
+    return name

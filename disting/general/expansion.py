@@ -15,7 +15,7 @@ from math import comb, lcm, prod
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.errors import InputError
 from disting.general.expression import Power, Product, Sum, Tree
 

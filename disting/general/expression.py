@@ -25,7 +25,7 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.errors import InputError, shown
 
 HIGHEST_POWER = 1000

@@ -20,6 +20,7 @@ from typing import Any
 
 from flint import fmpq_poly, fmpz_mpoly, fmpz_poly
 
+from disting.algebra.certainty import residues
 from disting.algebra.groebner.rational import (
     Basis,
     Bounds,
@@ -29,7 +30,6 @@ from disting.algebra.groebner.rational import (
     basis,
     shape,
 )
-from disting.algebra.sampling import residues
 from disting.general.equivalent import Equivalent, equivalents
 from disting.model.question import Domain
 

@@ -12,25 +12,28 @@ those of the given network.
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses
-from disting.evidence.seen import seen
+from disting.evidence.kind import seen
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import confirms_models
 from disting.general.network_model import behaviour_of
+from disting.general.orthant import BRIEF, THOROUGH, Effort
 from disting.general.replacement import simplest_network
-from disting.model.question import Domain
+from disting.model.question import Domain, Question, Settings
 from disting.network.inverse import at_inverse
 from disting.network.network import Network
 from disting.network.simplest import same_drawing
 
+WAS_BRIEF = "the search was brief, disting compare of the two alone goes on for longer"
 REMEMBERED = 1024  # pairs of simplest networks: others of a family have the same ones
 
 
@@ -47,7 +50,9 @@ class Forms:
         return Replaced(left, right, *self.larger, inner)
 
 
-def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
+def by_forms(
+    left: AnyModel, right: AnyModel, seed: str, effort: Effort = THOROUGH
+) -> Finding | None:
     """What the simplest networks tell over positive parameters, ABANDONED if they leave it open;
     None where nothing is replaced.
     """
@@ -56,7 +61,7 @@ def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
         forms = forms_of(left, right, larger)
         if forms is None:
             continue
-        found = _answered(*forms.models, seed)
+        found = _answered(*forms.models, seed, effort)
         if larger and found.outcome is not Outcome.FAILS:
             continue
         if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem):
@@ -65,14 +70,16 @@ def by_forms(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
     return told
 
 
-def by_inverse(left: AnyModel, right: AnyModel, seed: str) -> Finding | None:
+def by_inverse(
+    left: AnyModel, right: AnyModel, seed: str, effort: Effort = THOROUGH
+) -> Finding | None:
     """What the same networks tell with 1/s for s, over positive parameters; None if nothing."""
     models = inverse_of(left, right)
     if models is None:
         return None
-    found = by_forms(*models, seed)
+    found = by_forms(*models, seed, effort)
     if found is None:
-        found = _answered(*models, seed)
+        found = _answered(*models, seed, effort)
     if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem | Replaced):
         evidence = AtInverse(models[0].name, models[1].name, found.evidence)
         return replace(found, evidence=evidence)
@@ -94,8 +101,8 @@ def inverse_of(left: AnyModel, right: AnyModel) -> tuple[AnyModel, AnyModel] | N
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _answered(left: AnyModel, right: AnyModel, seed: str) -> Finding:
-    return admissible_finding(left, right, Domain.POSITIVE, seed)
+def _answered(left: AnyModel, right: AnyModel, seed: str, effort: Effort) -> Finding:
+    return admissible_finding(left, right, Domain.POSITIVE, seed, effort)
 
 
 def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
@@ -150,3 +157,48 @@ def confirms_forms(
     if isinstance(inner, Replaced):
         return confirms_forms(inner, *models, representation)
     return confirms_models(inner, *models, representation)
+
+
+def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    return admissible_finding(left, right, Domain.REAL, settings.seed)
+
+
+def over_positive(
+    left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
+) -> Finding:
+    """The finding over positive values, as far as this effort goes."""
+    found = by_forms(left, right, settings.seed, effort)
+    if found is None:
+        found = admissible_finding(left, right, Domain.POSITIVE, settings.seed, effort)
+    if found.outcome is not Outcome.ABANDONED:
+        return found
+    turned = by_inverse(left, right, settings.seed, effort)
+    return found if turned is None else turned
+
+
+def _in_brief(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    found = over_positive(left, right, settings, BRIEF)
+    if found.outcome is not Outcome.ABANDONED:
+        return found
+    return replace(found, note=f"{found.note}; {WAS_BRIEF}")
+
+
+_admissible_from_json = partial(Finding.from_json, rule=ADMISSIBLE)
+ADMISSIBLY = {
+    Domain.REAL: Question(
+        "real equivalents of general models", _over_real, Finding.to_json, _admissible_from_json
+    ),
+    Domain.POSITIVE: Question(
+        "positive equivalents of general models",
+        over_positive,
+        Finding.to_json,
+        _admissible_from_json,
+    ),
+}
+BRIEFLY = Question(
+    "positive equivalents of general models, in brief",
+    _in_brief,
+    Finding.to_json,
+    _admissible_from_json,
+)
+"""What is found within small bounds: of the pairs of a large family."""

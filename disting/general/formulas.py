@@ -4,22 +4,26 @@ from collections.abc import Iterator, Sequence
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.evidence.general import ZERO, Explicit, Formula, NoEquivalent
 from disting.general.between import End, Path
 from disting.general.boundary import Boundary, at_boundary, equivalents_without
 from disting.general.expansion import Expansion
-from disting.general.expression import names as symbols_of
-from disting.general.expression import polynomial_text, text_of, tree
+from disting.general.expression import names as symbols_of, polynomial_text, text_of, tree
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
+from disting.general.orthant import THOROUGH, Effort
 from disting.general.sections import Section
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
 
 
 def explicit(
-    ways: Sequence[Way | None], left: AnyModel, right: AnyModel, domain: Domain
+    ways: Sequence[Way | None],
+    left: AnyModel,
+    right: AnyModel,
+    domain: Domain,
+    effort: Effort = THOROUGH,
 ) -> Explicit | None:
     """The evidence of two ways in which all generic parameters have an equivalent, the left model's
     first; None where one is not known to be such.
@@ -29,7 +33,10 @@ def explicit(
         (True, False), (left, right), (right, left), ways, strict=True
     ):
         formulas = tuple(of_way(side, one)) if one else ()
-        if not formulas and domain is Domain.POSITIVE and (near := at_boundary(given, other)):
+        near = None
+        if not formulas and domain is Domain.POSITIVE:
+            near = at_boundary(given, other, effort)
+        if near:
             formulas = tuple(of_boundary(side, other, near))
         if not formulas:
             return None

@@ -20,11 +20,11 @@ from itertools import islice
 
 from flint import fmpz_mpoly, nmod_mat
 
-from disting.algebra.certainty import Certainty
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import Certainty, prime, residues
+from disting.algebra.symbols import RationalFunction
 from disting.general.behaviour import evaluated
-from disting.general.cases import ORDERS, Case, Search, orders, searched
+from disting.general.cases import ORDERS, Search, orders, searched
+from disting.general.elimination import Case
 from disting.general.expression import text_of
 from disting.general.identifiability import LocalIdentifiability, local_identifiability
 from disting.general.matrix_model import AnyModel

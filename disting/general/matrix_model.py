@@ -8,24 +8,20 @@ part of the form. So two models behave alike exactly if all their entries are eq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import symbols
+from disting.algebra.symbols import RationalFunction, symbols
 from disting.errors import InputError, listed, of_type, shown
-from disting.general.entries import polynomial, refuse_namesakes, rows_of
-from disting.general.expansion import Expansion
-from disting.general.model import (
-    Model,
-    entry_of,
-    fraction,
+from disting.general.entries import (
     frequency,
-    network_powers,
-    network_ratios,
     parameters_of,
+    polynomial,
     refuse_name,
-    transfer_functions,
-    unwritten,
+    refuse_namesakes,
+    rows_of,
 )
+from disting.general.expansion import Expansion
+from disting.general.model import Model, entry_of, unwritten
 from disting.general.powers import PLAIN, Powers
+from disting.general.response import fraction, network_powers, network_ratios, transfer_functions
 from disting.model.presentation import Shown, plural, summary
 from disting.network.forests import counts_of
 from disting.network.network import Network

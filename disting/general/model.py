@@ -9,32 +9,33 @@ controllable or not observable) is cancelled. Then G has one form but for the si
 and its coefficients say exactly which of them vanish or are constant.
 """
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.notation import printed, quotient
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import renamed, symbols
+from disting.algebra.symbols import RationalFunction, renamed, symbols
 from disting.behaviour.expanded import expanded
-from disting.errors import InputError, shown
-from disting.general.entries import polynomial, refuse_namesakes, state_space
+from disting.errors import InputError
+from disting.general.entries import (
+    frequency,
+    parameters_of,
+    polynomial,
+    refuse_name,
+    refuse_namesakes,
+)
 from disting.general.expansion import Expansion
-from disting.general.expression import LONGEST_NUMBER, Tree, names, tree
-from disting.general.powers import PLAIN, Powers, cell_in, in_v, powers_of
-from disting.general.powers import Terms as Terms
-from disting.general.response import responses
+from disting.general.expression import LONGEST_NUMBER
+from disting.general.powers import PLAIN, Powers, Terms as Terms, cell_in, in_v
+from disting.general.response import fraction, network_powers, network_ratios, transfer_functions
 from disting.model.chain import Chain
 from disting.model.names import name_of, names_another
 from disting.model.presentation import Shown, plural, summary
 from disting.network.chains import as_chain, of_chain
-from disting.network.expansion import transfer_functions as network_functions
 from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
 
-MOST_SYMBOLS = 300
 TERMS = ("numerator_terms", "denominator_terms")
 
 
@@ -253,50 +254,6 @@ class Model(Shown):
         return tuple(context.from_dict(dict(terms)) for terms in coefficients)
 
 
-def transfer_functions(
-    a: object, b: object, c: object, d: object, s: object, x0: object = None
-) -> tuple[tuple[tuple[RationalFunction, ...], ...], tuple[str, ...]]:
-    """Those of a state space, outputs x inputs, in the ring of s and the parameters, s first, and
-    the parameters; with an initial state the response to it is the last column. Raises InputError.
-    """
-    space = state_space(a, b, c, d, x0)
-    refuse_namesakes(a, b, c, d, x0, s)
-    variable = frequency(s)
-    parameters = parameters_of(space.entries)
-    if variable in parameters:
-        raise InputError(
-            f"the matrices contain the frequency variable {variable}; name another one with s=.."
-        )
-    ring = symbols([variable, *parameters])
-    return responses(space, Expansion(ring, ring[variable] ** 0), ring[variable]), parameters
-
-
-def fraction(sides: tuple[Tree, ...], expansion: Expansion) -> RationalFunction:
-    """Numerator over denominator; raises InputError where that is zero."""
-    top, bottom = map(expansion.value, sides)
-    if bottom.num.is_zero():
-        raise InputError("the denominator of the transfer function is zero")
-    return expansion.quotient(top, bottom)
-
-
-def network_ratios(network: Network) -> tuple[tuple[RationalFunction, ...], ...]:
-    """The transfer functions in lowest terms, outputs x inputs, in the ring of s, or s^(1/2), of a
-    variable for each power s^n, by the name of n, and of the parameters; raises InputError.
-    """
-    ring = symbols(["s", *network.exponents, *network.parameters])
-    expansion = Expansion(ring, ring["s"] ** 0)
-    sides = network_functions(network, ring, "s", expansion.times)
-    return tuple(tuple(expansion.ratio(*entry) for entry in row) for row in sides)
-
-
-def network_powers(ratios: Sequence[RationalFunction], network: Network) -> Powers:
-    """What the powers of v are of such functions of a network, those that are zero left out; raises
-    InputError.
-    """
-    seen = [ratio for ratio in ratios if not ratio.num.is_zero()]
-    return powers_of(seen, network.halves, network.exponents, len(network.parameters))
-
-
 def _model(
     ratio: RationalFunction, parameters: tuple[str, ...], name: str, powers: Powers = PLAIN
 ) -> Model:
@@ -340,28 +297,3 @@ def entry_of(
     ):
         raise InputError(f"numbers of a model have {LONGEST_NUMBER} bits at most in lowest terms")
     return Model(parameters, top, bottom, name, powers)
-
-
-def parameters_of(entries: Iterable[Tree], variable: str = "") -> tuple[str, ...]:
-    """All names but that of the frequency variable, sorted; raises InputError."""
-    found = tuple(sorted({n for entry in entries for n in names(entry)} - {variable}))
-    if len(found) > MOST_SYMBOLS:
-        raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(found)}")
-    foreign = [name for name in found if not (name.isascii() and name.isprintable() and name)]
-    if foreign:
-        raise InputError(f"names of parameters are ASCII, not {shown(foreign[0])}")
-    return found
-
-
-def refuse_name(name: object) -> None:
-    """Raises InputError for what no sentence can hold in one line."""
-    if not isinstance(name, str) or not name.isprintable():
-        raise InputError(f"the name of a model has printable characters only, not {shown(name)}")
-
-
-def frequency(s: object) -> str:
-    """The name of the frequency variable; raises InputError."""
-    name = tree(s)
-    if not isinstance(name, str):
-        raise InputError(f"the frequency variable is a symbol or its name, not {shown(s)}")
-    return name

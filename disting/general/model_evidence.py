@@ -2,24 +2,28 @@
 what it shows.
 """
 
+from fractions import Fraction
 from functools import partial
 
-from disting.conditions.finding import Finding
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import EXACT
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import Refuted, Solved
-from disting.evidence.kind import Kind
+from disting.evidence.kind import Kind, SeenPair, seen
 from disting.evidence.kinds import Evidence
-from disting.evidence.seen import SeenPair, seen
 from disting.fibres.ideals import Limits, seen_again
+from disting.general import listed, newton
 from disting.general.admissible import are_one_ports
-from disting.general.admissible import confirms as confirms_points
 from disting.general.any_model import is_renamed, maps_of
+from disting.general.combination import excludes
 from disting.general.formulas import is_explicit, is_without
 from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
 from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
-from disting.model.question import Settings
+from disting.general.which_models import way
+from disting.model.question import Domain, Settings
 from disting.questions.same.exact import by_labels
 
 AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradiction found again
@@ -61,7 +65,7 @@ def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
         case NoEquivalent():
             return is_without(evidence, left, right)
         case Witnesses():
-            return confirms_points(evidence, left, right)
+            return confirms(evidence, left, right)
     return False  # it speaks of other models
 
 
@@ -84,3 +88,70 @@ def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
     differ = all(a != b for a, b in zip(*found, strict=True))
     known = all(label in side for side in sides for label in evidence.labels)
     return bool(evidence.labels) and known and tuple(found) == told and differ
+
+
+def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
+    """Whether both points are what they are said to be, and all parameters near them: the search
+    is done anew.
+
+    Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
+    """
+    domain = Domain(evidence.domain)
+    with_, without = (
+        {name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)
+    )
+    if any(
+        x == 0 or (x < 0 and domain is Domain.POSITIVE)
+        for p in (with_, without)
+        for x in p.values()
+    ):
+        return False
+    sides = {True: (left, right), False: (right, left)}
+    first, second = sides[evidence.with_left_given], sides[evidence.without_left_given]
+    near = tuple(float(Fraction(x)) for _, x in evidence.equivalent)
+    return _has(*first, with_, near, domain) and _has_none(*second, without, domain)
+
+
+def _has(
+    given: AnyModel,
+    other: AnyModel,
+    values: dict[str, Fraction],
+    near: tuple[float, ...],
+    domain: Domain,
+) -> bool:
+    if domain is Domain.POSITIVE and newton.having(given, values, other, near):
+        return True
+    if domain is Domain.POSITIVE and listed.having(given, values, other):
+        return True
+    one = way(given, other, domain)
+    return bool(one and one.having(values))
+
+
+def _has_none(
+    given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
+) -> bool:
+    if domain is Domain.POSITIVE:
+        if isinstance(given, Model) and isinstance(other, Model) and excludes(given, values, other):
+            return True
+        if listed.lacking(given, values, other):
+            return True
+    one = way(given, other, domain)
+    return bool(one and one.lacking(values))
+
+
+def constants_finding(left: AnyModel, right: AnyModel) -> Finding:
+    """Transfer functions without parameters: unequal numbers, known exactly, tell the models
+    apart.
+    """
+    values = [behaviour_of(model).constants(None) for model in (left, right)]
+    differing = tuple(
+        label for label, x in values[0].items() if label in values[1] and x != values[1][label]
+    )
+    if not differing:
+        return Finding(
+            EXACT,
+            Outcome.INAPPLICABLE,
+            note="equal constant transfer functions are found by condition 7",
+        )
+    evidence = Constants(differing, *(tuple(v[x] for x in differing) for v in values))
+    return Finding(EXACT, Outcome.FAILS, evidence=evidence)

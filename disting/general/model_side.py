@@ -10,7 +10,7 @@ looked for otherwise (see `admissible`).
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
@@ -25,14 +25,17 @@ from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
-from disting.general.admissible import admissible_finding
 from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
 from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
 from disting.general.exponents import determined
-from disting.general.forms import by_forms, by_inverse, confirms_forms
+from disting.general.forms import (
+    ADMISSIBLY,
+    confirms_forms,
+)
 from disting.general.interlacing import interlace
 from disting.general.matrix_model import AnyModel
+from disting.general.model_evidence import constants_finding
 from disting.general.model_inclusions import (
     confirms_inclusion,
     inclusions_of,
@@ -43,7 +46,7 @@ from disting.general.network_model import NetworkModel, behaviour_of
 from disting.general.readings import readings, told
 from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
-from disting.model.question import Domain, Question, Relation, Settings
+from disting.model.question import Domain, Question, Relation
 from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
@@ -54,33 +57,7 @@ NETWORKS = {REPLACEMENT: replaceable, INTERLACING: interlace}
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
-def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
-    return admissible_finding(left, right, Domain.REAL, settings.seed)
-
-
-def _over_positive(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
-    found = by_forms(left, right, settings.seed)
-    if found is None:
-        found = admissible_finding(left, right, Domain.POSITIVE, settings.seed)
-    if found.outcome is not Outcome.ABANDONED:
-        return found
-    turned = by_inverse(left, right, settings.seed)
-    return found if turned is None else turned
-
-
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
-_admissible_from_json = partial(Finding.from_json, rule=ADMISSIBLE)
-ADMISSIBLY = {
-    Domain.REAL: Question(
-        "real equivalents of general models", _over_real, Finding.to_json, _admissible_from_json
-    ),
-    Domain.POSITIVE: Question(
-        "positive equivalents of general models",
-        _over_positive,
-        Finding.to_json,
-        _admissible_from_json,
-    ),
-}
 Pair = tuple["ComparedModel", "ComparedModel"]
 
 
@@ -174,7 +151,7 @@ class ComparedModel(Side[AnyModel]):
                 note="the ranks or degrees differ (conditions 2 and 4)",
             )
         if one.rank == 0:
-            return _constants(self.subject, other.subject)
+            return constants_finding(self.subject, other.subject)
         if not (self.is_writable and other.is_writable):
             return Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
         found = self.answerer(EXACTLY, _models(self, other), self.settings)
@@ -317,21 +294,3 @@ def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:
 
 def _renamed(left: ComparedModel, right: ComparedModel) -> bool:
     return left.colouring.fingerprint == right.colouring.fingerprint
-
-
-def _constants(left: AnyModel, right: AnyModel) -> Finding:
-    """Transfer functions without parameters: unequal numbers, known exactly, tell the models
-    apart.
-    """
-    values = [behaviour_of(model).constants(None) for model in (left, right)]
-    differing = tuple(
-        label for label, x in values[0].items() if label in values[1] and x != values[1][label]
-    )
-    if not differing:
-        return Finding(
-            EXACT,
-            Outcome.INAPPLICABLE,
-            note="equal constant transfer functions are found by condition 7",
-        )
-    evidence = Constants(differing, *(tuple(v[x] for x in differing) for v in values))
-    return Finding(EXACT, Outcome.FAILS, evidence=evidence)

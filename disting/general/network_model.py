@@ -18,8 +18,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import ClassVar
 
+from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, coefficient_rows
-from disting.algebra.sampling import Size
 from disting.behaviour.chain_model import UNBOUNDED
 from disting.behaviour.sample import label, shared_poles
 from disting.general.any_model import unnamed

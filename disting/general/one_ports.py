@@ -33,9 +33,9 @@ from dataclasses import replace
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import factored
-from disting.general.cases import Case, cases_of
+from disting.algebra.symbols import RationalFunction, factored
+from disting.general.cases import cases_of
+from disting.general.elimination import Case
 from disting.general.model import Model, Terms
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.sections import cover, sections

@@ -11,7 +11,7 @@ rests on that.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, reduce
 from operator import mul
@@ -19,8 +19,7 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import factored
+from disting.algebra.symbols import RationalFunction, factored
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.question import Domain
@@ -38,6 +37,24 @@ class TooMuch(Exception):
     """More cases or terms than the bounds allow."""
 
 
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """How far equivalents are looked for: `points` of either model, of `listed` of which all
+    equivalents are listed, so many `orders` of the unknowns, and in each step so many `terms` of
+    polynomials that are factored or put into each other (None: without end).
+    """
+
+    points: int = 40
+    listed: int = 24
+    orders: int = 24
+    terms: int | None = None
+
+
+THOROUGH = Effort()
+BRIEF = Effort(points=10, listed=3, orders=6, terms=5_000)
+"""So far searches a shipped family that has thousands of pairs."""
+
+
 @dataclass(frozen=True)
 class Orthant:
     """The ring Z[p, q, t] with its admissible values; t is a path's parameter, positive like
@@ -49,6 +66,8 @@ class Orthant:
     domain: Domain
     terms: int = 400  # of one polynomial: factoring stays a matter of milliseconds
     degree: int = 40
+    effort: Effort = THOROUGH
+    spent: list[int] = field(default_factory=lambda: [0], compare=False)  # terms of this step
 
     @cached_property
     def context(self) -> fmpz_mpoly_ctx:
@@ -173,6 +192,7 @@ class Orthant:
         """Sign and factors; `odd`: without factors of even multiplicity, which are not
         negative. Raises TooMuch.
         """
+        self._spend(len(polynomial))
         if len(polynomial) > self.terms or polynomial.total_degree() > self.degree:
             raise TooMuch(
                 f"a polynomial of {len(polynomial)} terms and degree {polynomial.total_degree()}"
@@ -186,6 +206,15 @@ class Orthant:
             elif power % 2 or not odd:
                 kept.append(factor)
         return sign, tuple(kept)
+
+    def begin(self) -> None:
+        """A step begins, of which terms are counted."""
+        self.spent[0] = 0
+
+    def _spend(self, terms: int) -> None:
+        self.spent[0] += terms
+        if self.effort.terms is not None and self.spent[0] > self.effort.terms:
+            raise TooMuch(f"more than {self.effort.terms} terms in one step")
 
     def product(self, factors: Iterable[fmpz_mpoly]) -> fmpz_mpoly:
         """Product, 1 of none."""
@@ -203,6 +232,7 @@ class Orthant:
         self, polynomial: fmpz_mpoly, at: int, num: fmpz_mpoly, den: fmpz_mpoly
     ) -> tuple[fmpz_mpoly, int]:
         """den^d times the value at num/den of one variable, and the degree d in this variable."""
+        self._spend(len(polynomial))
         coefficients = self.coefficients(polynomial, at)
         degree = len(coefficients) - 1
         if len(polynomial) * len(num) ** min(degree, 2) > 100 * self.terms:

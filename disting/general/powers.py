@@ -15,9 +15,9 @@ from itertools import permutations
 
 from flint import fmpz_mpoly, nmod_poly
 
+from disting.algebra.certainty import prime, residues
 from disting.algebra.notation import symbol
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.sampling import prime, residues
+from disting.algebra.symbols import RationalFunction
 from disting.conditions.side import COUNTED, HALVES
 from disting.errors import InputError
 from disting.network.network import Network

@@ -13,7 +13,7 @@ from typing import Any
 
 from flint import fmpz_mpoly, nmod_mat
 
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import prime, residues
 from disting.general.model import Model, Terms
 
 REMEMBERED = 256

@@ -1,5 +1,5 @@
 """The transfer functions of a state space with rational entries, by two determinants without any
-division.
+division, and those of a network.
 
 Multiplying row i of s I - A and of B by the common denominator r_i of their entries, and C and D
 by theirs, q, makes all entries polynomials. With P = diag(r) (s I - A) and the polynomial B', C',
@@ -10,16 +10,26 @@ D', of one input and one output,
 and both determinants share the minors of the rows [P, B'], those of all outputs too.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import reduce
 
 from flint import fmpz_mpoly
 
 from disting.algebra.determinants import minors
-from disting.algebra.rational_function import RationalFunction
-from disting.general.entries import StateSpace
+from disting.algebra.symbols import RationalFunction, symbols
+from disting.errors import InputError
+from disting.general.entries import (
+    StateSpace,
+    frequency,
+    parameters_of,
+    refuse_namesakes,
+    state_space,
+)
 from disting.general.expansion import Expansion
 from disting.general.expression import Tree
+from disting.general.powers import Powers, powers_of
+from disting.network.expansion import transfer_functions as network_functions
+from disting.network.network import Network
 
 
 def responses(
@@ -59,3 +69,47 @@ def _cleared(entries: list[Tree], expansion: Expansion) -> tuple[list[fmpz_mpoly
     values = [expansion.value(entry) for entry in entries]
     common = reduce(expansion.common, (v.den for v in values), expansion.one)
     return [expansion.times(v.num, common // v.den) for v in values], common
+
+
+def transfer_functions(
+    a: object, b: object, c: object, d: object, s: object, x0: object = None
+) -> tuple[tuple[tuple[RationalFunction, ...], ...], tuple[str, ...]]:
+    """Those of a state space, outputs x inputs, in the ring of s and the parameters, s first, and
+    the parameters; with an initial state the response to it is the last column. Raises InputError.
+    """
+    space = state_space(a, b, c, d, x0)
+    refuse_namesakes(a, b, c, d, x0, s)
+    variable = frequency(s)
+    parameters = parameters_of(space.entries)
+    if variable in parameters:
+        raise InputError(
+            f"the matrices contain the frequency variable {variable}; name another one with s=.."
+        )
+    ring = symbols([variable, *parameters])
+    return responses(space, Expansion(ring, ring[variable] ** 0), ring[variable]), parameters
+
+
+def fraction(sides: tuple[Tree, ...], expansion: Expansion) -> RationalFunction:
+    """Numerator over denominator; raises InputError where that is zero."""
+    top, bottom = map(expansion.value, sides)
+    if bottom.num.is_zero():
+        raise InputError("the denominator of the transfer function is zero")
+    return expansion.quotient(top, bottom)
+
+
+def network_ratios(network: Network) -> tuple[tuple[RationalFunction, ...], ...]:
+    """The transfer functions in lowest terms, outputs x inputs, in the ring of s, or s^(1/2), of a
+    variable for each power s^n, by the name of n, and of the parameters; raises InputError.
+    """
+    ring = symbols(["s", *network.exponents, *network.parameters])
+    expansion = Expansion(ring, ring["s"] ** 0)
+    sides = network_functions(network, ring, "s", expansion.times)
+    return tuple(tuple(expansion.ratio(*entry) for entry in row) for row in sides)
+
+
+def network_powers(ratios: Sequence[RationalFunction], network: Network) -> Powers:
+    """What the powers of v are of such functions of a network, those that are zero left out; raises
+    InputError.
+    """
+    seen = [ratio for ratio in ratios if not ratio.num.is_zero()]
+    return powers_of(seen, network.halves, network.exponents, len(network.parameters))

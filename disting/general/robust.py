@@ -27,8 +27,9 @@ from math import lcm
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.general.cases import Case, Search
+from disting.algebra.symbols import RationalFunction
+from disting.general.cases import Search
+from disting.general.elimination import Case
 from disting.general.orthant import value_at
 from disting.general.sections import Section
 from disting.general.signs_on_boxes import Box, Grid, is_empty, over_sum, root

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 from disting.general.model import Model, Terms
 from disting.general.relations import coefficients
 

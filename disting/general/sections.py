@@ -28,10 +28,10 @@ from itertools import product
 
 from flint import fmpz_mpoly
 
-from disting.algebra.rational_function import RationalFunction
-from disting.general.cases import (
+from disting.algebra.symbols import RationalFunction
+from disting.general.cases import Search
+from disting.general.elimination import (
     Case,
-    Search,
     chosen,
     inequalities,
     numbered,

@@ -13,7 +13,7 @@ left of either; whoever compares numerators and denominators as they stand, with
 in them, sees a double pole or a double zero.
 
 `special_values` says of two networks which of them gives all that the other one gives, special
-values included (`disting.network.exact`).
+values included (`disting.network.normal_form`).
 """
 
 from collections.abc import Iterable
@@ -120,23 +120,30 @@ class SpecialValues:
         """Whether one of them is known to give all that the other one gives."""
         return bool(self.left_in_right or self.right_in_left)
 
-    def sentence(self, left: str, right: str) -> str:
+    @property
+    def lower(self) -> tuple[Special, ...]:
+        """Where the one that is known to give more than the other one has a lower degree."""
+        special = self.right if self.left_in_right else self.left
+        return special or () if False in (self.left_in_right, self.right_in_left) else ()
+
+    def in_short(self, left: str, right: str) -> str:
         """Both in words; "" where neither is known to give all that the other one gives."""
         if self.is_same:
             return f"{left} and {right} give the same, for all positive values (proven)."
         if not self.is_known:
             return ""
-        inner, outer, special, back = (
-            (left, right, self.right, self.right_in_left)
-            if self.left_in_right
-            else (right, left, self.left, self.left_in_right)
-        )
+        inner, outer = (left, right) if self.left_in_right else (right, left)
         said = f"For all positive values of {inner}, {outer} can give the same (proven)"
-        if back is None:
+        if None in (self.left_in_right, self.right_in_left):
             return f"{said}; the converse is not known."
-        where = listed(f"{s.polynomial} = 0" for s in special or ())
-        few = f" {outer} has fewer poles where {where}." if where else ""
-        return f"{said}, but not the other way round.{few}"
+        return f"{said}, but not the other way round."
+
+    def sentence(self, left: str, right: str) -> str:
+        """The same, and where the one that gives more has fewer poles."""
+        where = listed(f"{s.polynomial} = 0" for s in self.lower)
+        outer = right if self.left_in_right else left
+        few = f" {outer} has fewer poles where {where}." if where and self.is_known else ""
+        return f"{self.in_short(left, right)}{few}"
 
 
 def special_values(left: AnyModel, right: AnyModel) -> SpecialValues:

@@ -7,10 +7,13 @@ These equations are linear in the coefficients of N2 and D2 and are brought to r
 form first. One more unknown t with t lead(D2(q)) = 1 keeps the order of the searched model.
 """
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from math import lcm
+from operator import add
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx
 
@@ -18,6 +21,7 @@ from disting.algebra.groebner.rational import Polynomial
 from disting.errors import InputError, listed, shown
 from disting.general.expansion import Expansion
 from disting.general.expression import names, tree
+from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 
 
@@ -31,7 +35,9 @@ class Target:
     denominator: tuple[Fraction, ...]
 
 
-def rational_values(model: Model, values: Mapping[str, object]) -> tuple[tuple[str, Fraction], ...]:
+def rational_values(
+    model: AnyModel, values: Mapping[str, object]
+) -> tuple[tuple[str, Fraction], ...]:
     """One exact number for each parameter, in the model's order; raises InputError for missing,
     foreign and inexact ones.
 
@@ -71,12 +77,36 @@ def target(model: Model, values: Sequence[tuple[str, Fraction]]) -> Target:
 
 def fibre_equations(goal: Target, other: Model) -> tuple[Polynomial, ...]:
     """The equations of this module's text, in t and the parameters of `other`."""
+    return joint_equations([goal], [other])
+
+
+def joint_equations(goals: Sequence[Target], others: Sequence[Model]) -> tuple[Polynomial, ...]:
+    """The same of several transfer functions in the same parameters, each with its goal: t times
+    the product of their different leading coefficients is 1.
+    """
+    rows = list[Polynomial]()
+    for goal, other in zip(goals, others, strict=True):
+        rows += [row for row in _rows(goal, other) if row not in rows]
+    leads = dict.fromkeys(other.denominator_terms[-1] for other in others)
+    inverse: Polynomial = {(1, *e): c for e, c in reduce(_product, map(dict, leads)).items()}
+    inverse[(0,) * (len(others[0].parameters) + 1)] = -1
+    return (*rows, inverse)
+
+
+def _product(one: Polynomial, other: Polynomial) -> Polynomial:
+    total = defaultdict[tuple[int, ...], int](int)
+    for e, c in one.items():
+        for f, d in other.items():
+            total[tuple(map(add, e, f))] += c * d
+    return {e: c for e, c in total.items() if c}
+
+
+def _rows(goal: Target, other: Model) -> Iterator[Polynomial]:
+    """Yield combinations of coefficients that are to be zero."""
     coefficients = (*other.numerator_terms, *other.denominator_terms)
     rows, rank = _conditions(goal, len(other.numerator_terms), len(other.denominator_terms)).rref()
     table = [[rows[i, j] for j in range(len(coefficients))] for i in range(rank)]
-    inverse: Polynomial = {(1, *e): c for e, c in coefficients[-1]}
-    inverse[(0,) * (len(other.parameters) + 1)] = -1
-    return (*(combined for row in table if (combined := _combined(row, coefficients))), inverse)
+    yield from (combined for row in table if (combined := _combined(row, coefficients)))
 
 
 def fraction(number: fmpq) -> Fraction:

@@ -9,12 +9,14 @@ root. Points with and without equivalents in open sets around them are looked fo
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import islice
 
 from disting.general.between import Path, by_count, odd_path, path, without_equations
-from disting.general.cases import Case, orders, searched
+from disting.general.cases import orders, searched
 from disting.general.counts import at_roots, number_of_roots
+from disting.general.elimination import Case
 from disting.general.matrix_model import AnyModel
-from disting.general.orthant import Orthant, TooMuch
+from disting.general.orthant import THOROUGH, Effort, Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
 from disting.general.sections import Section, cover, held, sections
 from disting.model.question import Domain
@@ -63,6 +65,7 @@ class Way:
 
     def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
         """An equivalent (rounded) of a point around which all have some, as far as is seen."""
+        self.parted.search.ring.begin()
         try:
             return having(self.parted, self._point(values))
         except TooMuch:
@@ -70,7 +73,11 @@ class Way:
 
     def lacking(self, values: dict[str, Fraction]) -> bool:
         """Whether no point around this one has an equivalent, as far as is seen."""
-        return lacking(self.parted, self._point(values))
+        self.parted.search.ring.begin()
+        try:
+            return lacking(self.parted, self._point(values))
+        except TooMuch:
+            return False
 
     def _point(self, values: dict[str, Fraction]) -> Point:
         return {i: values[name] for i, name in enumerate(self.given.parameters)}
@@ -79,21 +86,24 @@ class Way:
 def _first(
     ring: Orthant, cases: Sequence[Case], tried: Callable[[Orthant, Case], Path | None]
 ) -> Path | None:
+    ring.begin()
     try:
         return next((p for case in cases if (p := tried(ring, case))), None)
     except TooMuch:
         return None
 
 
-def way(given: AnyModel, other: AnyModel, domain: Domain) -> Way | None:
+def way(given: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THOROUGH) -> Way | None:
     """What is known one way, or None if the search grew too large. Both models have the same
     degrees.
 
     Unknowns are solved for in several orders, until all cases are sections; else the order with
     the fewest other cases is kept. After a few orders one equation in one unknown is good enough.
     """
-    ring, best = Orthant(len(given.parameters), len(other.parameters), domain), list[Parted]()
-    for count, order in enumerate(orders(ring.unknowns)):
+    sizes = len(given.parameters), len(other.parameters)
+    ring, best = Orthant(*sizes, domain, effort=effort), list[Parted]()
+    for count, order in enumerate(islice(orders(ring.unknowns), effort.orders)):
+        ring.begin()
         try:
             found = _parted(ring, given, other, order)
         except TooMuch:
@@ -103,6 +113,7 @@ def way(given: AnyModel, other: AnyModel, domain: Domain) -> Way | None:
             break
     if not best:
         return None
+    ring.begin()
     left = _with_roots(best[0])
     return Way(given, other, left, _covering(left))
 
@@ -158,6 +169,7 @@ def _covering(parted: Parted) -> tuple[Section, ...]:
     `nonzero` in `cases`); it is looked at once more.
     """
     ring = parted.search.ring
+    ring.begin()
     asked = [
         parted.lead,
         *(ring.generators[i] for i in ring.unknowns if ring.domain is Domain.POSITIVE),

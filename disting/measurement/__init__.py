@@ -9,21 +9,23 @@ units.
 True
 """
 
-from disting.measurement.objects import from_arrays as from_arrays
-from disting.measurement.objects import from_control as from_control
-from disting.measurement.objects import from_frame as from_frame
-from disting.measurement.objects import series_from_frame as series_from_frame
-from disting.measurement.reading import beginnings as beginnings
-from disting.measurement.reading import read as read
-from disting.measurement.reading import read_time_series as read_time_series
-from disting.measurement.repeats import are_opposite as are_opposite
-from disting.measurement.repeats import mean_of as mean_of
-from disting.measurement.response import FrequencyResponse as FrequencyResponse
-from disting.measurement.response import Signal as Signal
+from disting.measurement.files import (
+    beginnings as beginnings,
+    csv_text as csv_text,
+    read as read,
+    read_time_series as read_time_series,
+    write_csv as write_csv,
+)
+from disting.measurement.objects import (
+    from_arrays as from_arrays,
+    from_control as from_control,
+    from_frame as from_frame,
+    series_from_frame as series_from_frame,
+)
+from disting.measurement.repeats import are_opposite as are_opposite, mean_of as mean_of
+from disting.measurement.response import FrequencyResponse as FrequencyResponse, Signal as Signal
 from disting.measurement.scaling import in_si as in_si
 from disting.measurement.time_series import TimeSeries as TimeSeries
-from disting.measurement.writing import csv_text as csv_text
-from disting.measurement.writing import write_csv as write_csv
 from disting.model.presentation import offered as _offered
 
 

@@ -16,8 +16,8 @@ from disting.measurement.units import (
     gain,
     known_unit,
     motion,
+    omega_per as omega_per,
 )
-from disting.measurement.units import omega_per as omega_per
 
 
 class Role(StrEnum):

@@ -1,5 +1,6 @@
 """Which columns of a table make up a frequency response."""
 
+import re
 import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -8,9 +9,28 @@ import numpy as np
 
 from disting.errors import InputError, listed, shown
 from disting.measurement.column_words import Column, Role, meaning
+from disting.measurement.response import ASSUMED_ACCELERATION
 from disting.measurement.table import Table
-from disting.measurement.units import FREQUENCIES, LEVELS, PHASES, gain, known_unit, omega_per
+from disting.measurement.units import (
+    FREQUENCIES,
+    LEVELS,
+    PHASES,
+    gain,
+    known_unit,
+    motion,
+    omega_per,
+)
+from disting.model.chain import Sensor, as_sensor
 
+SENSOR_WORDS = {
+    Sensor.POSITION: re.compile(
+        r"\b(position|displacement|receptance|compliance|weg|lage)\b|\brad/(nm|a)\b|\bm/(n|a)\b"
+    ),
+    Sensor.VELOCITY: re.compile(r"\b(velocity|speed|mobility|geschwindigkeit|drehzahl)\b"),
+    Sensor.ACCELERATION: re.compile(
+        r"\b(acceleration|accelerance|inertance|beschleunigung)\b|/s(\^|\*\*)?2|/s²"
+    ),
+}
 # words of the option `columns` besides units of frequency, phase and gain
 WORDS = {
     "re": Column(Role.REAL),
@@ -245,3 +265,18 @@ def level_of(column: Column) -> str:
 
 def _of(columns: Sequence[Column], role: Role) -> list[int]:
     return [i for i, column in enumerate(columns) if column.role is role]
+
+
+def quantity_of(table: Table, sensor: Sensor | str | None, unit: str, notes: list[str]) -> Sensor:
+    """The quantity that is asked for, or that words or the unit of the output say."""
+    if sensor is not None:
+        return as_sensor(sensor)
+    text = " ".join((*table.headers, *table.comments)).lower()
+    found = [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
+    if len(found) == 1:
+        return found[0]
+    own = motion(unit)
+    if not found and own is not None:
+        return own.sensor
+    notes.append(ASSUMED_ACCELERATION)
+    return Sensor.ACCELERATION

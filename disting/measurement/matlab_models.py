@@ -11,7 +11,6 @@ import numpy as np
 from disting.errors import InputError, listed, shown
 from disting.measurement import mat5
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.grid import in_omega, taken_unit
 from disting.measurement.mat5_objects import OBJECT, STRUCT, Objects, Reference, objects, tree
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
@@ -19,6 +18,7 @@ from disting.measurement.response import (
     Signal,
     as_sign,
 )
+from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.source import Take
 from disting.measurement.variables import real_part
 from disting.model.chain import Sensor, as_sensor

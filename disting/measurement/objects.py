@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
-from disting.measurement.grid import factor
 from disting.measurement.response import FrequencyResponse, Signal, as_sign
+from disting.measurement.scaling import factor
 from disting.measurement.table import Table, time_series
 from disting.measurement.tabular import frequency_response
 from disting.measurement.time_series import TimeSeries

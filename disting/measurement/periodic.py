@@ -10,7 +10,8 @@ discrete Fourier transforms of period p, at every excited line
     |U_p|^2 sum_p |Y_p|^2).
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,9 +19,9 @@ import numpy as np
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
-from disting.measurement.distortion import Distortion, distortion
-from disting.measurement.outliers import left_out
-from disting.measurement.window import Window
+from disting.measurement.distortion import distortion
+from disting.measurement.repeats import left_out
+from disting.measurement.response import FrequencyResponse
 from disting.model.presentation import plural
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
@@ -33,24 +34,6 @@ ROUNDING = 1e-9  # of a correlation computed by fast Fourier transforms
 OFF_GRID = 1e-3  # of the line spacing, by which a given frequency may miss its line
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Estimated:
-    """Lines of an estimate: omega [rad/s], G, deviation and coherence, shape (n_f,), and what
-    was found on the way.
-    """
-
-    omega: Real
-    G: Complex
-    deviation: Real | None
-    coherence: Real | None
-    notes: tuple[str, ...]
-    distortion: Distortion | None = None
-    freedom: float | None = None
-    doubts: tuple[str, ...] = ()
-    window: Window | None = None
-    drive: Real | None = None
-
-
 def estimate(
     u: Real,
     y: Real,
@@ -61,8 +44,8 @@ def estimate(
     band: tuple[float, float] | None,
     excitation: Real,
     outliers: str = "keep",
-) -> Estimated:
-    """Estimate at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz];
+) -> FrequencyResponse:
+    """Response at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz];
     `excitation` = u or a reference; `outliers` among the periods as in
     `repeats.mean_of`.
 
@@ -70,9 +53,8 @@ def estimate(
     well.
     """
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
-    notes = [f"period of {length} samples ({length / rate:g} s) detected in the input"] * (
-        period is None
-    )
+    detected = f"period of {length} samples ({length / rate:g} s) detected in the input"
+    notes = [detected] * (period is None)
     inputs, outputs, exciting = (
         _spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation)
     )
@@ -96,10 +78,19 @@ def estimate(
         chosen = chosen[(chosen * spacing >= band[0]) & (chosen * spacing <= band[1])]
     notes += ["one period alone: no standard deviation and no coherence"] * (len(inputs) == 1)
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
-    return replace(
-        _estimated(inputs[:, chosen], outputs[:, chosen], omega, tuple(notes), outliers),
-        distortion=between,
-    )
+    refuse_few(omega, notes, band)
+    found = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
+    return replace(found, notes=(*notes, *found.notes), distortion=between)
+
+
+def refuse_few(omega: Real, notes: Sequence[str], band: tuple[float, float] | None) -> None:
+    """Raise InputError where a method and a band leave too few lines; `notes`: how they came."""
+    if len(omega) < FEWEST:
+        within = [f"band {band[0]:g}..{band[1]:g} Hz"] if band else []
+        raise InputError(
+            f"{len(omega)} frequencies are too few, at least {FEWEST} are needed:"
+            f" {'; '.join((*notes, *within))}"
+        )
 
 
 def detected_period(u: Real) -> int:
@@ -173,9 +164,7 @@ def _given(lines: Any, spacing: float, count: int) -> np.ndarray[tuple[int], np.
     return np.unique(numbers.astype(np.intp))
 
 
-def _estimated(
-    inputs: Complex, outputs: Complex, omega: Real, notes: tuple[str, ...], outliers: str
-) -> Estimated:
+def _mean(inputs: Complex, outputs: Complex, omega: Real, outliers: str) -> FrequencyResponse:
     periods = len(inputs)
     if np.any(inputs.mean(axis=0) == 0):
         raise InputError(
@@ -183,7 +172,7 @@ def _estimated(
         )
     if periods == 1:
         alone = outputs[0] / inputs[0]
-        return Estimated(omega, alone, None, None, notes, drive=np.abs(inputs[0]))
+        return FrequencyResponse(omega, alone, drive=np.abs(inputs[0]))
     with np.errstate(divide="ignore", invalid="ignore"):
         each = outputs / inputs
     names = [f"period {i}" for i in range(1, periods + 1)]
@@ -195,12 +184,12 @@ def _estimated(
     crossed = np.abs(np.sum(outputs * inputs.conj(), axis=0)) ** 2
     # 1 + rounding where nothing is noisy
     coherence = np.clip(crossed / np.where(power > 0, power, 1.0), 0.0, 1.0)
-    return Estimated(
+    return FrequencyResponse(
         omega=omega,
         G=mean,
         deviation=deviation,
         coherence=coherence,
-        notes=(*notes, *said),
+        notes=tuple(said),
         freedom=2.0 * (int(count.min(initial=periods)) - 1),
         drive=np.abs(inputs.mean(axis=0)),
         doubts=doubts,

@@ -1,22 +1,112 @@
 """Repeated measurements of one response: their mean, its standard deviation from their scatter,
 and whether signs agree.
+
+Which of several measurements of one response do not belong to the others.
+
+With n measurements G_i of a line, noise of one variance and the others' mean and variance,
+
+    F = |G_i - mean_{j != i} G_j|^2 (n - 1)/n / s_i^2,
+    s_i^2 = sum_{j != i} |G_j - mean_{j != i} G_j|^2 / (n - 2)
+
+has 2 and 2 (n - 2) degrees of freedom, so that -ln p = (n - 2) ln (1 + F/(n - 2)) is exponential
+with mean 1. Few measurements know their variance badly: s_i^2 is not taken below its mean over the
+`BESIDE` lines on each side, and n - 2 not below half of their number. A line of a measurement is
+named where p times the number of all of them is below `LEVEL`, which is far out, since machines
+repeat themselves less well than noise does; a whole measurement where its lines are that unlikely
+on average and `ALONE` times as unlikely as those of any other. Two measurements do not tell which
+of them is the other one.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
 
-from disting.errors import InputError
-from disting.measurement.arrays import nearest
-from disting.measurement.outliers import left_out
+from disting.errors import InputError, listed, shown
+from disting.measurement.arrays import Complex, Real, nearest
 from disting.measurement.response import FrequencyResponse
 
+CHOICES = ("keep", "drop")
+LEVEL = 1e-6  # chance of naming one where there is none, if noise is all
+LEAST = 3  # measurements: fewer do not tell which one is wrong
+BESIDE = 5  # lines on each side
+UNLIKELY = (
+    3.0  # mean of -ln p over the lines of a measurement that is named as a whole, 1 by chance
+)
+ALONE = 3.0
+NAMED = 3  # frequencies of a measurement in a sentence
+Mask = NDArray[np.bool_]
 NEAR = 0.02  # relative distance of two frequencies at which a phase is compared
 # mean cosine of the phase between responses of opposite sign: most lines are turned by more than
 # 120 degrees
 AGAINST = -0.5
 SAME = 1e-6  # relative distance of two frequencies that count as one
+
+
+def outlying(values: Complex) -> Mask:
+    """Which of n measurements are none of the others at which lines, shape (n, n_f) as `values`."""
+    n, lines = values.shape
+    if n < LEAST or not lines:
+        return np.zeros((n, lines), dtype=np.bool_)
+    surprise = np.stack([_surprise(values, i) for i in range(n)])
+    single = surprise > np.log(n * lines / LEVEL)
+    rest = np.ma.masked_array(surprise, single).mean(axis=1).filled(0.0)
+    second = np.sort(rest)[-2]
+    whole = (rest > UNLIKELY) & (rest > ALONE * second)
+    return np.asarray(single | whole[:, None])
+
+
+def left_out(
+    values: Complex, names: Sequence[str], omega: Real, outliers: str
+) -> tuple[Mask, tuple[str, ...], tuple[str, ...]]:
+    """What of n measurements is averaged, shape (n, n_f), and what is said of outliers among them:
+    notes and doubts. `outliers`: "keep" names them, "drop" leaves them out where at least two
+    others are left. Raises InputError for another choice.
+    """
+    if outliers not in CHOICES:
+        raise InputError(f"--outliers is {' or '.join(CHOICES)}, not {shown(outliers)}")
+    found = outlying(values)
+    kept, said = np.ones_like(found), [_where(row, omega) for row in found]
+    named = [f"{name} at {at}" for name, at in zip(names, said, strict=True) if at]
+    if not named:
+        return kept, (), ()
+    if outliers == "drop":
+        enough = len(values) - found.sum(axis=0) >= LEAST - 1
+        note = f"left out, as no other measurement is like it: {listed(named)}"
+        return ~(found & enough), (note,), ()
+    return (
+        kept,
+        (),
+        (
+            f"{listed(named)}: not like the other measurements, by more than they scatter; it is in"
+            " the mean: look at it, or leave it out with --outliers drop",
+        ),
+    )
+
+
+def _surprise(values: Complex, i: int) -> Real:
+    """-ln p of each line of a measurement, shape (n_f,)."""
+    n, rest = len(values), np.delete(values, i, axis=0)
+    apart = np.abs(values[i] - rest.mean(axis=0)) ** 2 * (n - 1) / n
+    own = np.sum(np.abs(rest - rest.mean(axis=0)) ** 2, axis=0) / (n - 2)
+    near = uniform_filter1d(own, 2 * BESIDE + 1, mode="nearest")
+    scatter, freedom = np.maximum(own, near), max(n - 2, BESIDE + 1)
+    alone = np.where(apart > 0, np.inf, 0.0)  # among equal numbers, which scatter by nothing
+    ratio = np.divide(apart, scatter, out=alone, where=scatter > 0)
+    return np.asarray(freedom * np.log1p(ratio / freedom))
+
+
+def _where(row: Mask, omega: Real) -> str:
+    """The frequencies of the lines that are named."""
+    hertz = omega[row] / (2 * np.pi)
+    if not len(hertz):
+        return ""
+    if len(hertz) == len(row):
+        return "all lines"
+    more = f" and {len(hertz) - NAMED} more lines" * (len(hertz) > NAMED)
+    return f"{', '.join(f'{f:.4g}' for f in hertz[:NAMED])} Hz{more}"
 
 
 def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> FrequencyResponse:

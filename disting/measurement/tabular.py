@@ -17,28 +17,19 @@ from disting.measurement.columns import (
     frequency_column,
     groups,
     level_of,
+    quantity_of,
 )
-from disting.measurement.grid import in_omega, taken_unit
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import (
-    ASSUMED_ACCELERATION,
     FrequencyResponse,
     Signal,
     as_sign,
 )
+from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import Table
-from disting.measurement.units import FREQUENCIES, LEVELS, PHASES, gain, known_unit, motion, ratio
-from disting.model.chain import Sensor, as_sensor
+from disting.measurement.units import FREQUENCIES, LEVELS, PHASES, gain, known_unit, ratio
+from disting.model.chain import Sensor
 
-SENSOR_WORDS = {
-    Sensor.POSITION: re.compile(
-        r"\b(position|displacement|receptance|compliance|weg|lage)\b|\brad/(nm|a)\b|\bm/(n|a)\b"
-    ),
-    Sensor.VELOCITY: re.compile(r"\b(velocity|speed|mobility|geschwindigkeit|drehzahl)\b"),
-    Sensor.ACCELERATION: re.compile(
-        r"\b(acceleration|accelerance|inertance|beschleunigung)\b|/s(\^|\*\*)?2|/s²"
-    ),
-}
 ESCAPED = re.compile(r"\\u(003d|002b|0040|002d|005c)")  # = + @ - and the backslash itself
 # words for what is never negative; a magnitude or gain may well be in dB
 LINEAR = re.compile(r"abs|modulus|betrag")
@@ -48,6 +39,7 @@ NEGATIVE = 0.1  # share of the lines that must be negative: fewer are damage
 HIGH, NARROW = 40.0, 10.0
 LINEAR_OF = {"1": 1.0, "%": 0.01}
 MINUS = re.compile(r"\s*[-−]\s*[A-Za-z]")
+TRANSPOSED = "the table has a line for each quantity: it is read by its columns"
 MARK = "frequency response, written by disting"
 
 
@@ -73,18 +65,16 @@ def frequency_response(
     sensor; `outliers` as in `mean_of`. Raises InputError where columns are missing, with the
     table's first rows as `detail`, and for a stated unit that is not known.
     """
-    notes, doubts = list[str](), list[str]()
-    if table.transposed:
-        notes.append("the table has a line for each quantity: it is read by its columns")
+    notes, doubts = [TRANSPOSED] * table.transposed, list[str]()
     roles = columns_of(table, columns, notes)
     at = frequency_column(table, roles)
     ours = _written(table.comments)
     grid = _grid(table, at, roles[at], roles[at].unit if ours else frequency_unit, notes, doubts)
     found = groups(table, roles)
-    several = column == "all" and "all" not in table.headers
-    used = found if several else [chosen(table, roles, found, column)]
+    whole = column == "all" and "all" not in table.headers
+    used = found if whole else [chosen(table, roles, found, column)]
     said = _units(table, roles, used[0], ours)
-    quantity = _quantity(table, sensor or ours.get("sensor"), said[0], notes)
+    quantity = quantity_of(table, sensor or ours.get("sensor"), said[0], notes)
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
     responses = [
         FrequencyResponse(
@@ -100,9 +90,8 @@ def frequency_response(
         for group in used
     ]
     unit = taken_unit(grid, table.column(at), roles[at].unit)
-    words = f"frequency in {unit} (column {at + 1})"
-    mean = mean_of(responses, outliers=outliers)
-    return mean.noted(*notes).doubted(*doubts).read_as(f"{words}, {reading.words}")
+    words = f"frequency in {unit} (column {at + 1}), {reading.words}"
+    return mean_of(responses, outliers=outliers).noted(*notes).doubted(*doubts).read_as(words)
 
 
 def response_columns(table: Table, columns: Sequence[str] | None = None) -> tuple[int, ...]:
@@ -296,18 +285,3 @@ def _written(comments: Sequence[str]) -> dict[str, str]:
 
 def _signal(ours: Mapping[str, str], role: str, foreign: Signal) -> Signal:
     return Signal(ours.get(f"{role} label", ""), ours.get(f"{role} unit", "")) if ours else foreign
-
-
-def _quantity(table: Table, sensor: Sensor | str | None, unit: str, notes: list[str]) -> Sensor:
-    """The quantity that is asked for, or that words or the unit of the output say."""
-    if sensor is not None:
-        return as_sensor(sensor)
-    text = " ".join((*table.headers, *table.comments)).lower()
-    found = [quantity for quantity, words in SENSOR_WORDS.items() if words.search(text)]
-    if len(found) == 1:
-        return found[0]
-    own = motion(unit)
-    if not found and own is not None:
-        return own.sensor
-    notes.append(ASSUMED_ACCELERATION)
-    return Sensor.ACCELERATION

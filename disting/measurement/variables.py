@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, listed, shown
 from disting.measurement.arrays import Real
-from disting.measurement.grid import in_omega, taken_unit
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
     Signal,
     as_sign,
 )
+from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import rate_of
 from disting.measurement.time_series import TimeSeries, said
 from disting.model.chain import Sensor, as_sensor

@@ -45,7 +45,8 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, shown
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.periodic import Estimated, detected_period
+from disting.measurement.periodic import detected_period, refuse_few
+from disting.measurement.response import FrequencyResponse
 from disting.measurement.window import Window
 from disting.model.presentation import plural
 
@@ -69,49 +70,41 @@ def estimate(
     reference: Real | None = None,
     least_coherence: float | None = None,
     order: int = 2,
-) -> Estimated:
-    """Estimate at the even multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half
+) -> FrequencyResponse:
+    """Response at the even multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half
     the sampling rate.
 
     Lines of a coherence below `least_coherence` are left out (default: that of chance). `order` of
     the sensor (2: acceleration).
     """
-    count = _segments(len(u), segment)
-    low, high = band or (0.0, np.inf)
-    grid: Real = np.fft.rfftfreq(segment, 1 / rate).astype(np.float64)
+    count, (low, high) = _segments(len(u), segment), band or (0.0, np.inf)
+    grid = np.fft.rfftfreq(segment, 1 / rate).astype(np.float64)
     kept = (grid > 0) & (grid < rate / 2) & (grid >= low) & (grid <= high)
     uu, yy, uy, rr, ru, ry = _spectra(u, y, reference, rate, segment, kept)
     response, effective = ry / ru, count / (1 + 2 / 36)
     unexplained = np.maximum(yy - 2 * (response.conj() * uy).real + np.abs(response) ** 2 * uu, 0.0)
     deviation = np.sqrt(unexplained * rr / effective) / np.abs(ru)
-    coherence = np.minimum(
-        *(np.abs(cross) ** 2 / (rr * power) for cross, power in ((ru, uu), (ry, yy)))
-    )
+    coherence = np.minimum(np.abs(ru) ** 2 / (rr * uu), np.abs(ry) ** 2 / (rr * yy))
     level = 1 - CHANCE ** (1 / (effective - 1)) if least_coherence is None else least_coherence
-    even = np.rint(grid[kept] * segment / rate) % 2 == 0
-    good = coherence >= level
-    notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples"]
-    notes += [_left_out(grid[kept][even], good[even], level)] * (not good[even].all())
-    coherence = np.clip(coherence, 0.0, 1.0)  # 1 + rounding where nothing is noisy
-    good &= even
+    lines = grid[kept]
+    even = np.rint(lines * segment / rate) % 2 == 0
+    good = even & (coherence >= level)
+    out = [_left_out(lines[even], good[even], level)] * (not good[even].all())
+    notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples", *out]
+    refuse_few(lines[good], notes, band)
     bias, whole, beyond = _bias(response, deviation)
     smooth = reference is None and not _repeats(u, segment)
     size, made = np.abs(response)[good], (response - bias)[good]
     ratio, share = response[good] / made, (deviation / np.maximum(whole, TINY))[good]
-    return Estimated(
-        omega=2 * np.pi * grid[kept][good],
+    relative = beyond[good] / size, deviation[good] / size
+    return FrequencyResponse(
+        omega=2 * np.pi * lines[good],
         G=made,
         deviation=whole[good],
-        coherence=coherence[good],
+        coherence=np.clip(coherence, 0.0, 1.0)[good],  # 1 + rounding where nothing is noisy
         notes=tuple(notes),
         freedom=2.0 * (effective - 1),
-        doubts=_smoothed(
-            grid[kept][good],
-            beyond[good] / size,
-            deviation[good] / size,
-            segment,
-            SEEN * smooth,
-        ),
+        doubts=_smoothed(lines[good], *relative, segment, SEEN * smooth),
         window=Window(segment / rate, order, ratio, share) if smooth else None,
     )
 

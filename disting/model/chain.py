@@ -4,6 +4,8 @@
 Index 0 is the ground, which counts as the left neighbour of mass 1. There is a spring between all
 neighbours except at the gap. The force acts with +F on mass `act_plus` and with -F on `act_minus`;
 the sensor shows x[meas_plus] - x[meas_minus].
+
+A chain in one line of text: for tables in a terminal.
 """
 
 from collections.abc import Iterable, Mapping
@@ -13,12 +15,25 @@ from functools import lru_cache
 from typing import Any
 
 from disting.errors import ConstraintViolation, InputError, listed, shown
-from disting.model.constraints import Indices, violated
 from disting.model.presentation import Drawn
-from disting.model.structure import Damper, GroundDamper, Mass, Ports, Spring, Structure
+from disting.model.structure import (
+    Damper,
+    Element,
+    GroundDamper,
+    Indices,
+    Mass,
+    Ports,
+    Spring,
+    Structure,
+    violated,
+)
 
 AS_IT_IS = "as it is"  # an experiment that changes nothing, in words
 PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothing is said
+LEGEND = (
+    "# ground, ~ spring, = spring and damper, comma: ground damper,\n"
+    "F and f: force and its reference, S and s: sensor and its reference"
+)
 
 
 class Sensor(StrEnum):
@@ -239,3 +254,30 @@ def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:
         wrong = listed(str(i) for i in chosen if not 1 <= i <= n_masses)
         raise InputError(f"ground dampers sit at masses 1 to {n_masses}, not at {wrong}")
     return chosen
+
+
+def text_drawing(chain: Chain, ports: Ports | None = None) -> str:
+    """The chain from left to right, with its own ports or others; references to the ground are not
+    drawn.
+
+    >>> ports = {"act_minus": 1, "act_plus": 2, "meas_minus": 1, "meas_plus": 3}
+    >>> text_drawing(Chain(3, gap=1, **ports, damped=True))
+    '#=[1fs]   [2F]=[3S]'
+    """
+    elements = set(chain.structure.elements)
+    parts = ["#" + _joint(elements, 0)] if Spring(0) in elements else []
+    for i in range(1, chain.n_masses + 1):
+        parts.append(f"[{i}{_roles(ports or chain, i)}]" + "," * (GroundDamper(i) in elements))
+        parts.append(_joint(elements, i) if i < chain.n_masses else "")
+    return "".join(parts)
+
+
+def _joint(elements: set[Element], i: int) -> str:
+    if Spring(i) not in elements:
+        return "   "
+    return "=" if Damper(i) in elements else "~"
+
+
+def _roles(at: Chain | Ports, i: int) -> str:
+    places = {"F": at.act_plus, "f": at.act_minus, "S": at.meas_plus, "s": at.meas_minus}
+    return "".join(sign for sign, at in places.items() if at == i)

@@ -9,14 +9,15 @@ before one is a sum of products.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.constraints import Indices, violated
 from disting.model.presentation import Shown
+from disting.model.structure import Indices, violated
 
 
+@cache  # asked for at every look-up of a pair
 def count(n: int) -> int:
     """How many models have n masses.
 

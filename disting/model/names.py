@@ -3,6 +3,9 @@ damper from mass 2 to the ground, a first-order lag and a dead time.
 
 Where the number of masses is known, A1+b2 does. Damping of the springs and the sensor quantity are
 no part of a name; they are said once for all models that are named together.
+
+Exact numbers that users write: how long they may be. A power of ten is a short text and a
+number without end.
 """
 
 import re
@@ -13,6 +16,7 @@ from disting.errors import InputError, shown
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.family import MOST_MASSES, Family
 
+MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
 NAME = re.compile(rf"(?:(\d{{1,3}}):[Aa]?|[Aa])(\d{{1,7}})({EXTRAS})")
 WORDS = ("lag", "delay")
@@ -20,6 +24,19 @@ WORDS = ("lag", "delay")
 # structures that a fit names
 DAMPED = True
 LONGEST = 60  # characters of a text that is looked at for what it may mean
+
+
+def is_too_long(text: str) -> bool:
+    """Whether the text, or the power of ten that it is written with, is too large to be computed
+    with exactly.
+
+    >>> is_too_long("1e-99"), is_too_long("1e999999999"), is_too_long("1" * 100)
+    (False, True, True)
+    """
+    exponent = re.search(r"[\d_]\.?[eE]([+-]?[\d_]+)\s*$", text)
+    return len(text) > MOST_DIGITS or bool(
+        exponent and (len(exponent[1]) > 4 or abs(int(exponent[1])) > MOST_DIGITS)
+    )
 
 
 @dataclass(frozen=True, slots=True)

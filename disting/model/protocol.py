@@ -9,8 +9,8 @@ them are, and which invariants it proves to be constant.
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
+from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient
-from disting.algebra.sampling import Size
 
 Degrees = tuple[int, int]
 """Of numerator and denominator."""

@@ -8,6 +8,8 @@ the text that a person would write for it.
     circuits-4, circuits-5    one-ports of R, L and C with up to so many elements, at most two of
                               them L or C, no two like ones side by side: series, parallel, bridges
     cells-4                   one-ports of R, C and W with up to four elements, no bridges
+    cells-5                   R in series with up to four more of R, C, W and P, no bridges: at most
+                              three of them C, W or P, one W, two P
     compartments-2, -3        flows in any direction and to the outside; every compartment is
                               reached from the input and reaches the output
 
@@ -140,14 +142,26 @@ Tree = str | tuple[str, tuple["Tree", ...]]
 
 def circuits(most: int, kinds: str, most_reactive: int) -> list[str]:
     """Texts of the one-ports with up to so many elements, of which so many are L or C."""
-    found = [
-        tree
-        for count in range(1, most + 1)
-        for tree in dict.fromkeys((*_trees(count, "S", kinds), *_trees(count, "P", kinds)))
-        if _reactive(_letters(tree)) <= most_reactive
+    found = [_circuit(t) for t in _all_trees(most, kinds) if _of(t, "LC") <= most_reactive]
+    return [*found, *(_bridges(kinds, most_reactive) if most >= len(BRIDGE) else ())]
+
+
+def cells(most: int) -> list[str]:
+    """Texts of what is fitted to the impedance of cells: the resistance of electrolyte and wires,
+    in series with what stores charge or lets it diffuse, and the resistances in between.
+    """
+    bounds = {"CWP": 3, "W": 1, "P": 2}
+    return [
+        _circuit(tree)
+        for tree in _all_trees(most, "RCWP")
+        if (tree == "R" or (tree[0] == "S" and "R" in tree[1]))
+        and all(_of(tree, kinds) <= count for kinds, count in bounds.items())
     ]
-    texts = [_circuit(tree) for tree in found]
-    return [*texts, *(_bridges(kinds, most_reactive) if most >= len(BRIDGE) else ())]
+
+
+def _all_trees(most: int, kinds: str) -> Iterator[Tree]:
+    for count in range(1, most + 1):
+        yield from dict.fromkeys((*_trees(count, "S", kinds), *_trees(count, "P", kinds)))
 
 
 @cache
@@ -179,8 +193,9 @@ def _letters(tree: Tree) -> str:
     return tree if isinstance(tree, str) else "".join(map(_letters, tree[1]))
 
 
-def _reactive(letters: str) -> int:
-    return letters.count("L") + letters.count("C")
+def _of(tree: Tree, kinds: str) -> int:
+    """How many elements are of these kinds."""
+    return sum(letter in kinds for letter in _letters(tree))
 
 
 def _circuit(tree: Tree) -> str:
@@ -206,7 +221,7 @@ def _bridges(kinds: str, most_reactive: int) -> Iterator[str]:
     known = set[str]()
     for chosen in product(kinds, repeat=len(BRIDGE)):
         form = min("".join(chosen[i] for i in twin) for twin in TWINS)
-        if form in known or _reactive(form) > most_reactive or len(set(form)) == 1:
+        if form in known or _of(form, "LC") > most_reactive or len(set(form)) == 1:
             continue
         known.add(form)
         count, lines = Counter[str](), []
@@ -259,6 +274,8 @@ def _families() -> Iterator[NetworkFamily]:
         yield NetworkFamily(f"circuits-{most}", title, partial(circuits, most, "RLC", 2))
     title = "Cells: circuits of R, C and W with up to 4 elements"
     yield NetworkFamily("cells-4", title, partial(circuits, 4, "RCW", 4))
+    title = "Cells: R in series with up to 4 of R, C, W and P, at most three of them C, W or P"
+    yield NetworkFamily("cells-5", title, partial(cells, 5))
     for n in (2, 3):
         title = f"{n} compartments with one input and one output"
         yield NetworkFamily(f"compartments-{n}", title, partial(compartments, n))

@@ -7,8 +7,7 @@ from itertools import combinations
 from disting.catalogs.dampers import DamperSets, spelled
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome, Seen
-from disting.paper.findings import Findings
+from disting.paper.claim import Claim, Findings, Found, Seen
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 
@@ -118,7 +117,6 @@ CANDIDATE_CLAIMS = (
         ),
         printed="distinguishable",
         check=dead_time,
-        outcome=Outcome.AGREES,
         reason="An exponential is no rational function, of whatever order.",
     ),
     Claim(
@@ -130,7 +128,6 @@ CANDIDATE_CLAIMS = (
         ),
         printed="all eleven",
         check=lag,
-        outcome=Outcome.AGREES,
         reason="Read as the first-order lag of the torque control.",
     ),
     Claim(
@@ -142,7 +139,6 @@ CANDIDATE_CLAIMS = (
         ),
         printed="figure lost",
         check=figure_14,
-        outcome=Outcome.AGREES,
         reason="The figure is lost; what the text says of it holds.",
     ),
     Claim(
@@ -154,7 +150,6 @@ CANDIDATE_CLAIMS = (
         ),
         printed="all distinguishable",
         check=candidates,
-        outcome=Outcome.AGREES,
         reason="Conditions 1 to 9 leave some of these pairs open; the exact decision settles them.",
     ),
     Claim(
@@ -166,6 +161,5 @@ CANDIDATE_CLAIMS = (
         ),
         printed="not possible",
         check=model_a3,
-        outcome=Outcome.AGREES,
     ),
 )

@@ -7,8 +7,8 @@ import numpy as np
 from disting.conditions.rule import DEPENDENCES
 from disting.paper.claim import (
     Claim,
+    Findings,
     Found,
-    Outcome,
     Pair,
     Seen,
     counted,
@@ -21,7 +21,6 @@ from disting.paper.claim import (
     undecided,
 )
 from disting.paper.family_claims import coefficients
-from disting.paper.findings import Findings
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -130,7 +129,6 @@ DAMPED_CLAIMS = (
         ),
         printed="both leave pairs open",
         check=figure_11,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="non-constant",
@@ -141,7 +139,6 @@ DAMPED_CLAIMS = (
         ),
         printed="7 to 9, 7 for A3 only; 3 to 5",
         check=non_constant,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="beyond",
@@ -152,7 +149,6 @@ DAMPED_CLAIMS = (
         ),
         printed="indistinguishability",
         check=beyond_coefficients,
-        outcome=Outcome.DIFFERS,
         reason=MISREAD,
     ),
     Claim(
@@ -161,7 +157,6 @@ DAMPED_CLAIMS = (
         text="A1 and A4 are such a case.",
         printed="decided by the MPA only",
         check=figure_12_pair,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="figure-12-frequencies",
@@ -169,7 +164,6 @@ DAMPED_CLAIMS = (
         text="“the frequencies of resonances and antiresonances are in agreement”",
         printed="in agreement",
         check=figure_12_frequencies,
-        outcome=Outcome.AGREES,
         reason=(
             "A1 with damped first coupling (Fig. 12 below); the paper's parameters are not given."
         ),
@@ -182,7 +176,6 @@ DAMPED_CLAIMS = (
         ),
         printed="not possible",
         check=figure_12_damping,
-        outcome=Outcome.AGREES,
         reason=(
             "The best fit of many starts; the proof is the verdict on A1 and A4. "
             "Dampers in proportion to the springs are an exception: then A4 matches exactly."
@@ -194,7 +187,6 @@ DAMPED_CLAIMS = (
         text="“For 8 Markov parameters the same pattern results” (damped)",
         printed="same pattern",
         check=eight_as_seven,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="fewer-than-7",
@@ -202,6 +194,5 @@ DAMPED_CLAIMS = (
         text="“6 or fewer Markov parameters lead to larger unknown areas.”",
         printed="larger",
         check=fewer_than_seven,
-        outcome=Outcome.AGREES,
     ),
 )

@@ -3,10 +3,9 @@
 from dataclasses import replace
 
 from disting.model.chain import Chain, Sensor
-from disting.model.constraints import Indices, violated
 from disting.model.family import Family
-from disting.paper.claim import Claim, Found, Outcome, families, models, named
-from disting.paper.findings import Findings
+from disting.model.structure import Indices, violated
+from disting.paper.claim import Claim, Findings, Found, families, models, named
 
 FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 
@@ -110,7 +109,6 @@ FAMILY_CLAIMS = (
         text="“Number of possible models for different numbers of masses”, 1 to 5.",
         printed="1, 3, 11, 29 and 73",
         check=table_2,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="numbering",
@@ -121,7 +119,6 @@ FAMILY_CLAIMS = (
         ),
         printed="A3; 11 and 13",
         check=numbering,
-        outcome=Outcome.AGREES,
         reason=(
             "Table 3 itself did not survive in the text; this order fits every statement that names"
             " a model."
@@ -136,7 +133,6 @@ FAMILY_CLAIMS = (
         ),
         printed="second of (37), both of (38)",
         check=figure_9,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="figure-1",
@@ -147,7 +143,6 @@ FAMILY_CLAIMS = (
         ),
         printed="special case",
         check=figure_1_models,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="collocated",
@@ -158,7 +153,6 @@ FAMILY_CLAIMS = (
         ),
         printed="asterisks, lost with the table",
         check=collocated,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="sensors",
@@ -169,6 +163,5 @@ FAMILY_CLAIMS = (
         ),
         printed="shifted by one (two)",
         check=sensors,
-        outcome=Outcome.AGREES,
     ),
 )

@@ -12,8 +12,8 @@ from disting.model.chain import Sensor
 from disting.model.family import Family
 from disting.paper.claim import (
     Claim,
+    Findings,
     Found,
-    Outcome,
     counted,
     families,
     models,
@@ -21,7 +21,6 @@ from disting.paper.claim import (
     told,
     undecided,
 )
-from disting.paper.findings import Findings
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -117,7 +116,6 @@ VERDICT_CLAIMS = (
         text="“For velocity (position) sensors, the same results can be obtained …”",
         printed="same results",
         check=same_pictures,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="figure-10-left",
@@ -128,7 +126,6 @@ VERDICT_CLAIMS = (
         ),
         printed="0 of 55 open",
         check=figure_10_left,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="figure-10-right",
@@ -139,7 +136,6 @@ VERDICT_CLAIMS = (
         ),
         printed="all indistinguishable pairs open",
         check=figure_10_right,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="determinable",
@@ -148,7 +144,6 @@ VERDICT_CLAIMS = (
         text="“the 5 determinable parameters” (3 masses, undamped)",
         printed="5 determinable parameters",
         check=determinable,
-        outcome=Outcome.DIFFERS,
         reason=(
             "Five is the number of parameters; several transfer functions determine fewer"
             " combinations of them."
@@ -163,7 +158,6 @@ VERDICT_CLAIMS = (
         ),
         printed="condition 7 not applicable",
         check=more_markov_than_parameters,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="fewer-than-8",
@@ -173,7 +167,6 @@ VERDICT_CLAIMS = (
         ),
         printed="expands",
         check=fewer_than_eight,
-        outcome=Outcome.AGREES,
     ),
     Claim(
         key="all-12",
@@ -182,7 +175,6 @@ VERDICT_CLAIMS = (
         text="“for significantly more than 8, up to 12 the computation time would be formidable”",
         printed="out of reach",
         check=all_twelve,
-        outcome=Outcome.DIFFERS,
         reason=(
             "At random points modulo primes all 12 take a fraction of a second for the whole"
             " family; condition 6 then applies."
@@ -197,6 +189,5 @@ VERDICT_CLAIMS = (
         ),
         printed="none",
         check=no_additional_information,
-        outcome=Outcome.AGREES,
     ),
 )

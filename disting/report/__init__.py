@@ -4,16 +4,16 @@ formulas out for people.
 
 from disting.model.presentation import offered as _offered
 from disting.report.damper_page import damper_page as damper_page
-from disting.report.drawing import chain_png as chain_png
-from disting.report.drawing import chain_svg as chain_svg
-from disting.report.drawing import describe as describe
+from disting.report.drawing import (
+    chain_png as chain_png,
+    chain_svg as chain_svg,
+    describe as describe,
+)
 from disting.report.index import index as index
-from disting.report.matrix import matrix_png as matrix_png
-from disting.report.matrix import matrix_svg as matrix_svg
+from disting.report.matrix import matrix_png as matrix_png, matrix_svg as matrix_svg
 from disting.report.model import model_page as model_page
 from disting.report.model_list import write_family as write_family
-from disting.report.network_drawing import network_png as network_png
-from disting.report.network_drawing import network_svg as network_svg
+from disting.report.network_drawing import network_png as network_png, network_svg as network_svg
 from disting.report.page import page as page
 from disting.report.write import write_report as write_report
 

@@ -82,7 +82,7 @@ def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
     """HTML of a family with sets of ground dampers; `beside`: the pages of pairs beside it (see
     `families`).
 
-    >>> from disting.catalogs.damper_files import damper_catalog
+    >>> from disting.catalogs.damper_family import damper_catalog
     >>> damper_page(damper_catalog(3, damped=True))[:15]
     '<!DOCTYPE html>'
     """

@@ -14,7 +14,7 @@ from itertools import product
 
 from disting.catalogs import Catalog
 from disting.model.chain import Chain
-from disting.model.constraints import Indices, violated
+from disting.model.structure import Indices, violated
 from disting.report.domains import one_sided
 from disting.report.drawing import draw
 from disting.report.graph_drawing import hatched

@@ -270,9 +270,8 @@ def sensor_bar(
         Path(((a, y), (b, y)), Ink.SENSOR, line=2)
         for a, b in _pieces(x0 + 2 * (not ends[0]), x1, _stems(at))
     ]
-    dots = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] * bool(ends[0]) + [
-        Circle(x1, y, 4.5, Ink.SENSOR)
-    ]
+    dots = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] * bool(ends[0])
+    dots += [Circle(x1, y, 4.5, Ink.SENSOR)]
     box = (
         Rect(centre - 8, y - 8, 16, 16, Ink.PAPER, Ink.SENSOR),
         Text(centre, y - 1, sign, 12 if len(sign) == 1 else 10.5, Ink.SENSOR, bold=True),

@@ -22,7 +22,6 @@ from disting.report.drawing import (
     RISE,
     WALL,
     Layout,
-    describe,
     draw,
     force_bar,
     sensor_bar,
@@ -41,31 +40,31 @@ Port = tuple[int, int]
 @dataclass(frozen=True, slots=True)
 class Sketch:
     """The small drawing of a model of a catalogue under experiments, made of what the page holds:
-    `parts` are their names, `label` says what is seen.
+    `parts` are their names, `label` says what is seen; `size` in pixels at scale 1.
     """
 
-    scene: Scene
+    size: tuple[float, float]
     parts: tuple[str, ...]
     label: str
 
     @property
     def width(self) -> str:
         """Width [px]."""
-        return number(SMALL * self.scene.width)
+        return number(SMALL * self.size[0])
 
     @property
     def box(self) -> str:
         """viewBox."""
-        return f"0 0 {number(self.scene.width)} {number(self.scene.height)}"
+        return f"0 0 {number(self.size[0])} {number(self.size[1])}"
 
 
 def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
     """The drawing of a model that its page holds, with what these items add."""
     moved = any(item.kind == FORCE for item in items)
-    names = (f"more-{added(chain, item).name}" for item in items)
+    below = draw(chain, sum(item.kind == SENSOR for item in items))
     text = " and ".join(item.text for item in items)
-    parts = (f"{'rest' if moved else 'chain'}-{model}", *names)
-    return Sketch(with_items(chain, items), parts, f"A{model}: {text}")
+    parts = (f"{'rest' if moved else 'chain'}-{model}", *(f"more-{_name(i)}" for i in items))
+    return Sketch((below.width, below.height), parts, f"A{model}: {text}")
 
 
 def definitions(used: Iterable[tuple[Chain, Item]]) -> list[Markup]:
@@ -75,19 +74,6 @@ def definitions(used: Iterable[tuple[Chain, Item]]) -> list[Markup]:
         Markup(f'<g id="more-{name}">{body(Scene(0, 0, (layer,)), PAGE_PALETTE)}</g>')
         for name, layer in sorted(found.items())
     ]
-
-
-def with_items(chain: Chain, items: Sequence[Item]) -> Scene:
-    """The drawing of a chain with what these items add."""
-    more = sum(item.kind == SENSOR for item in items)
-    scene = draw(chain, more)
-    kept = scene.layers[:-1] if any(i.kind == FORCE for i in items) else scene.layers
-    said = "; ".join(item.text for item in items)
-    return replace(
-        scene,
-        layers=(*kept, *(added(chain, item) for item in items)),
-        title=f"{describe(chain).removesuffix('.')}; {said}.",
-    )
 
 
 def state(
@@ -122,12 +108,16 @@ def added(chain: Chain, item: Item) -> Layer:
     of the size.
     """
     at, node = Layout(chain), item.at
-    name = f"{item.kind.name}-{node}"
+    name = _name(item)
     if item.kind == SENSOR:
         return Layer(name, further_sensor(at, (node, 0), 1, "y2"))
     if item.kind == FORCE:
         return Layer(name, (*_wall(at.axis - RISE), *force_bar(at, (0, node))))
     return Layer(name, on_mass(at, item.kind, node))
+
+
+def _name(item: Item) -> str:
+    return f"{item.kind.name}-{item.at}"
 
 
 def on_mass(at: Layout, kind: Kind, node: int, height: int = 0) -> tuple[Shape, ...]:

@@ -3,8 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from disting.catalogs import Catalog
-from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.damper_files import name_of
+from disting.catalogs.damper_family import DamperFamily, damper_name
 from disting.catalogs.sizes_files import SizesCatalog
 from disting.report.model import folder_of
 
@@ -31,7 +30,7 @@ def families(
         c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
     }
     found |= {
-        name_of(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
+        damper_name(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
     }
     return found | {
         s.name: {"sizes": [(c.n_masses, len(c.family)) for c in s.catalogs]} for s in across

@@ -14,10 +14,10 @@ from functools import cache
 from markupsafe import Markup
 
 from disting.algebra.notation import Sum, latex, latex_symbol
-from disting.algebra.rational_function import RationalFunction
 from disting.algebra.symbols import (
     Content,
     Polynomial,
+    RationalFunction,
     coefficients,
     content,
     factors,
@@ -27,11 +27,11 @@ from disting.algebra.symbols import (
 )
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
-from disting.equivalence.images import images
+from disting.equivalence.reached import Piece
+from disting.equivalence.theorems import images
 from disting.evidence.general import Formula
 from disting.general.expansion import Expansion
-from disting.general.expression import names as symbols_of
-from disting.general.expression import tree
+from disting.general.expression import names as symbols_of, tree
 from disting.general.model import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination
@@ -180,15 +180,40 @@ def _typed(text: str) -> str:
     return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(found))
 
 
-def typeset(polynomial: str) -> Markup:
-    """A polynomial that is zero, as an equation of its positive and its negative terms."""
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """Where a model has equivalents: `positive` inequalities; an `equation` with a positive `root`
+    at which these hold, the value of a `parameter`.
+    """
+
+    positive: tuple[Markup, ...]
+    equation: Markup
+    root: Markup
+    parameter: Markup
+
+
+def written_conditions(piece: Piece) -> Conditions:
+    """Conditions on the values of a model, typeset."""
+    return Conditions(
+        tuple(typeset(text, "&gt;") for text in piece.positive),
+        typeset(piece.equation) if piece.equation else Markup(),
+        math(symbol(piece.root)) if piece.root else Markup(),
+        math(primed(piece.parameter)) if piece.parameter else Markup(),
+    )
+
+
+def typeset(polynomial: str, relation: str = "=") -> Markup:
+    """A polynomial that is zero, or positive (`relation`: &gt;), as an equation or an inequality of
+    its positive and its negative terms.
+    """
     ring = symbols(sorted({*symbols_of(tree(polynomial))}))
     value = Expansion(ring, next(iter(ring.values())) ** 0).value(tree(polynomial)).num
     sides = [
         [(abs(c), powers) for c, powers in terms(value) if (c > 0) is sign]
         for sign in (True, False)
     ]
-    return equation(*("".join(summands(side)) for side in sides))
+    left, right = ("".join(summands(side)) or "<mn>0</mn>" for side in sides)
+    return math(f"{left}<mo>{relation}</mo>{right}")
 
 
 def combinations(basis: Sequence[Combination]) -> tuple[Markup, ...]:

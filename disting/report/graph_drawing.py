@@ -7,18 +7,14 @@ round its node or joint where it meets least of what is drawn before it.
 """
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
-from itertools import combinations, pairwise
+from collections.abc import Iterator, Sequence
+from itertools import combinations
 from math import cos, pi, sin
-
-import numpy as np
-from numpy.typing import NDArray
 
 from disting.network.element import Element, Sort
 from disting.network.graph import edges
 from disting.network.network import Network
-from disting.report.network_symbols import Track, drawn, gear
+from disting.report.network_symbols import Sheet, Track, drawn, gear
 from disting.report.scene import (
     Anchor,
     Circle,
@@ -30,7 +26,6 @@ from disting.report.scene import (
     Shape,
     Text,
     arrow,
-    extent,
 )
 
 COLUMN, ROW = 112.0, 84.0  # from one node to the next; more where joints are parallel
@@ -39,7 +34,6 @@ ASIDE = 20.0  # between parallel joints
 ARM = 62.0  # length of what hangs at a node, from its rim
 DIRECTIONS = 16
 LETTERS = 11.0
-STEP = 4.0  # between the points by which what is drawn is remembered
 
 
 def port_signs(network: Network) -> tuple[list[str], list[str]]:
@@ -56,58 +50,11 @@ def port_signs(network: Network) -> tuple[list[str], list[str]]:
     )  # type: ignore[return-value]
 
 
-@dataclass(slots=True)
-class _Sheet:
-    """What is drawn so far, as layers and as a cloud of points that covers it."""
-
-    layers: list[Layer] = field(default_factory=list)
-    clouds: list[NDArray[np.float64]] = field(default_factory=list)
-
-    def add(self, name: str, shapes: Iterable[Shape]) -> None:
-        """Draw something."""
-        found = tuple(shapes)
-        self.layers.append(Layer(name, found))
-        self.clouds += [_cloud(shape) for shape in found]
-
-    def crowd(self, track: Track, half: float) -> int:
-        """How many points lie within a distance of a track."""
-        points = np.concatenate(self.clouds) - np.array(track.start)
-        ux, uy = track.direction
-        along, aside = points @ (ux, uy), points @ (-uy, ux)
-        inside = (along > 0) & (along < track.length) & (abs(aside) < half)
-        return int(inside.sum())
-
-    def crowd_of(self, text: Text) -> int:
-        """How many points lie where a text is to stand."""
-        left, top, right, bottom = extent(text)
-        return self.crowd(
-            Track((left, (top + bottom) / 2), (right + 0.1, (top + bottom) / 2)),
-            (bottom - top) / 2 + 2,
-        )
-
-    def clearest(self, texts: Sequence[Text]) -> Text:
-        """The first of the texts that meet least."""
-        return min(texts, key=self.crowd_of)
-
-
-def _cloud(shape: Shape) -> NDArray[np.float64]:
-    """Points on a shape: on a line every few pixels, in a box or a text a raster of them."""
-    if isinstance(shape, Path):
-        pieces = [
-            np.linspace(a, b, 2 + int(max(abs(a[0] - b[0]), abs(a[1] - b[1])) / STEP))
-            for a, b in pairwise(shape.points)
-        ]
-        return np.concatenate(pieces)
-    left, top, right, bottom = extent(shape)
-    xs, ys = (np.arange(low, high + STEP, STEP) for low, high in ((left, right), (top, bottom)))
-    return np.stack(np.meshgrid(xs, ys), -1).reshape(-1, 2)
-
-
 def graph_layers(network: Network) -> list[Layer]:
     """Layers of the drawing as a graph."""
     places = _places(network)
     radius = RADIUS[network.sort]
-    sheet = _Sheet()
+    sheet = Sheet()
     for i, place in places.items():
         sheet.add(f"node-{i}", _node(network, i, place))
     nodes, sheet.layers = sheet.layers, []
@@ -272,7 +219,7 @@ def _ends_of_ports(network: Network, places: dict[int, Point]) -> Iterator[tuple
                     yield places[i], "port" if both else kind, said
 
 
-def _arm_of_port(sheet: _Sheet, at: Track, kind: str, sign: str, radius: float) -> None:
+def _arm_of_port(sheet: Sheet, at: Track, kind: str, sign: str, radius: float) -> None:
     """An arrow to a node for a force, a line with a dot and a box for a sensor, a terminal."""
     ink = {"force": Ink.FORCE, "sensor": Ink.SENSOR, "port": Ink.LINE}[kind]
     first = 0.5 if kind == "force" or sign == "+" else 0.0
@@ -302,7 +249,7 @@ def _arm_of_port(sheet: _Sheet, at: Track, kind: str, sign: str, radius: float) 
 
 
 def _arm_to_ground(
-    sheet: _Sheet, place: Point, found: Sequence[Element], radius: float, sort: Sort
+    sheet: Sheet, place: Point, found: Sequence[Element], radius: float, sort: Sort
 ) -> None:
     """Joints of one node to the ground, side by side, with the piece of ground; flows outside."""
     half = 13.0 + ASIDE / 2 * (len(found) - 1)

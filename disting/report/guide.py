@@ -20,8 +20,7 @@ from markupsafe import Markup, escape
 
 from disting.errors import InputError, shown
 from disting.report.environment import render, source
-from disting.report.markdown import ADDRESS, NOTHING, GuidePage, guide_page
-from disting.report.markdown import PREFIX as PREFIX
+from disting.report.markdown import ADDRESS, NOTHING, PREFIX as PREFIX, GuidePage, guide_page
 from disting.report.reference.commands import command_page
 from disting.report.reference.python_pages import python_pages
 

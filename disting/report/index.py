@@ -7,8 +7,7 @@ from itertools import groupby
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
-from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.damper_files import name_of
+from disting.catalogs.damper_family import DamperFamily, damper_name
 from disting.catalogs.sizes_files import SizesCatalog
 from disting.report.damper_page import family_title
 from disting.report.describe_machine import machines, parts
@@ -157,7 +156,7 @@ def damper_card(found: DamperFamily) -> Card:
     kind = found.family.n_masses, found.family.damped
     groups, counts = len(found.classes()), found.found.counts()
     return _card(
-        name_of(*kind), family_title(*kind), len(found), groups, counts, damper_thumbnail(found)
+        damper_name(*kind), family_title(*kind), len(found), groups, counts, damper_thumbnail(found)
     )
 
 

@@ -2,7 +2,10 @@
 formulas, its transfer function, what can be determined.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+
+from markupsafe import Markup
 
 from disting.equivalence.duplicates import duplicate
 from disting.general.any_model import measured
@@ -11,7 +14,15 @@ from disting.general.model import Model
 from disting.network.element import Sort
 from disting.network.network import Network
 from disting.report.environment import render
-from disting.report.formulas import TransferFunction, Values, written_model, written_values
+from disting.report.formulas import (
+    Conditions,
+    TransferFunction,
+    Values,
+    typeset,
+    written_conditions,
+    written_model,
+    written_values,
+)
 from disting.report.listing import Card, Listing
 from disting.report.model import told_apart
 from disting.report.words import plural
@@ -33,6 +44,8 @@ SEEN = {
 class Twin:
     """A model that is not told from this one for all positive parameters: `said` in a sentence, its
     `values` in those of this one where formulas are known, and the `command` that gives numbers.
+    `parts`: of the two models, this one first, where they have equivalents in the other one.
+    `special`: what is told of special values, and the equations of these.
     """
 
     card: Card
@@ -41,6 +54,21 @@ class Twin:
     said: str
     values: tuple[Values, ...]
     command: str
+    parts: tuple["Part", ...]
+    special: str
+    equations: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Which values of a model, called by its `label`, have equivalents in the `other` one: all, or
+    those where any of the `conditions` hold.
+    """
+
+    label: str
+    other: str
+    everything: bool
+    conditions: tuple[Conditions, ...]
 
 
 def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str:
@@ -103,6 +131,7 @@ def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
     if shown.numbered:
         values = ",".join(f"{p}=.." for p in shown.cards[number - 1].model.parameters)
         command = f'disting equivalents "{names[0]}" --to "{names[1]}" --set {values}'
+    special, equations = _special(shown, number, other)
     return Twin(
         shown.cards[other - 1],
         verdict.relation,
@@ -110,7 +139,31 @@ def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
         said,
         _values(shown, number, other) if verdict.relation is Relation.INDISTINGUISHABLE else (),
         command,
+        tuple(_parts(shown, number, other)),
+        special,
+        equations,
     )
+
+
+def _special(shown: Listing, number: int, other: int) -> tuple[str, tuple[Markup, ...]]:
+    found = shown.found.at_special_values(number, other)
+    if found is None:
+        return "", ()
+    names = shown.label(number), shown.label(other)
+    equations = tuple(typeset(s.polynomial) for s in found.lower) if found.is_known else ()
+    outer = names[1] if found.left_in_right else names[0]
+    few = f" {outer} has fewer poles where" if equations else ""
+    return f"{found.in_short(*names)}{few}", equations
+
+
+def _parts(shown: Listing, number: int, other: int) -> Iterator[Part]:
+    for pair in ((number, other), (other, number)):
+        found = shown.found.reached(*pair)
+        if found and found.pieces:
+            pieces = () if found.is_everything else found.pieces
+            conditions = tuple(map(written_conditions, pieces))
+            names = shown.label(pair[0]), shown.label(pair[1])
+            yield Part(*names, found.is_everything, conditions)
 
 
 def _values(shown: Listing, number: int, other: int) -> tuple[Values, ...]:

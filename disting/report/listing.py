@@ -2,18 +2,21 @@
 each is called, drawn, and what it determines.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, permutations
 
+from disting.equivalence.reached import REACHED, Reached
 from disting.errors import InputError
 from disting.general.any_model import unnamed
 from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_files import ModelList
+from disting.general.model_side import ComparedModel
+from disting.general.special_values import SpecialValues, special_values
 from disting.model.presentation import plural
 from disting.network.notation import network_of, notations_of
 from disting.report.domains import VIEWS, Over, over
@@ -32,6 +35,7 @@ class JudgedList:
     family: tuple[AnyModel, ...]
     decisions: Mapping[View, Decisions]
     identifiabilities: tuple[GlobalIdentifiability, ...]
+    conditions: Mapping[tuple[int, int], Reached]
 
     def relation(self, left: int, right: int, view: View) -> Relation:
         """Relation of two models."""
@@ -40,6 +44,32 @@ class JudgedList:
     def verdict(self, left: int, right: int, view: View) -> Verdict:
         """The verdict with its evidence."""
         return self.decisions[view].verdict(left - 1, right - 1)
+
+    def reached(self, given: int, other: int) -> Reached | None:
+        """Which positive values of the one model have equivalents in the other one, where only
+        some have, and the conditions are short.
+        """
+        return self.conditions.get((given, other))
+
+    def at_special_values(self, left: int, right: int) -> SpecialValues | None:
+        """What two models that are the same for almost all positive values give at special ones;
+        None where they are not, and where the verdict leaves none out.
+        """
+        verdict = self.verdict(min(left, right), max(left, right), View.POSITIVE)
+        if verdict.relation is not Relation.INDISTINGUISHABLE or not verdict.has_exceptions:
+            return None
+        return special_values(self.family[left - 1], self.family[right - 1])
+
+    def said_of(self, low: int, high: int, view: View) -> str:
+        """What part of each of two models the other one reaches, {L} being the first one."""
+        if view is not View.POSITIVE:
+            return ""
+        special = self.at_special_values(low, high)
+        if special:
+            return special.sentence("{L}", "{R}")
+        named = ((low, high), "{L}", "{R}"), ((high, low), "{R}", "{L}")
+        told = (found.sentence(*names) for pair, *names in named if (found := self.reached(*pair)))
+        return " ".join(filter(None, told))
 
     def pairs(self, view: View) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""
@@ -172,7 +202,26 @@ def judged(
     asked = [(unnamed(subject.subject),) for subject in subjects]
     engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
     known = tuple(engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked)
-    return JudgedList(found.models, decided, known)
+    conditions = _conditions(subjects, decided[View.POSITIVE], engine, executor, progress)
+    return JudgedList(found.models, decided, known, conditions)
+
+
+def _conditions(
+    subjects: Sequence[ComparedModel],
+    over_positive: Decisions,
+    engine: Engine,
+    executor: Executor | None,
+    progress: Progress,
+) -> dict[tuple[int, int], Reached]:
+    """Of the pairs that are the same for some positive values, both ways."""
+    asked = {
+        (i + 1, j + 1): (unnamed(subjects[i].subject), unnamed(subjects[j].subject))
+        for i, j in permutations(range(len(subjects)), 2)
+        if over_positive.relation(*sorted((i, j))) is Relation.SOMETIMES
+    }
+    engine.answer_all(REACHED, list(asked.values()), executor=executor, progress=progress)
+    found = {pair: engine.answer(REACHED, m, engine.settings) for pair, m in asked.items()}
+    return {pair: known for pair, known in found.items() if known}
 
 
 def _is_named_by_its_text(model: AnyModel) -> bool:

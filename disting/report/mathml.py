@@ -15,8 +15,7 @@ from itertools import starmap
 from markupsafe import Markup
 
 from disting.algebra.notation import split_name
-from disting.algebra.rational_function import RationalFunction
-from disting.algebra.symbols import Polynomial, Term, factors, terms
+from disting.algebra.symbols import Polynomial, RationalFunction, Term, factors, terms
 from disting.questions.identifiability.formula import Formula
 
 

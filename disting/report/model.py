@@ -21,8 +21,7 @@ from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
 from disting.report.formulas import Correspondence, combinations, correspondence, written
 from disting.report.next_steps import advice, drawn, found_for, page_of
-from disting.report.page_drawing import Drawing, shared
-from disting.report.page_drawing import definitions as held
+from disting.report.page_drawing import Drawing, definitions as held, shared
 from disting.report.words import plural, rule_in_words, short_title
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict

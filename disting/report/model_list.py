@@ -106,6 +106,7 @@ def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) 
         shown.domains,
         VIEWS,
         what=measured(found.family),
+        aside=found.said_of,
         names=[model.name for model in found.family],
         numbered=shown.numbered,
         folder=shown.folder,

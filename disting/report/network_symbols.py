@@ -4,11 +4,17 @@ A sign stands in the middle of its track; the rest of the track is a plain line.
 of `disting.network.element`; a kind without a sign here is a box.
 """
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
 from math import cos, hypot, pi, sin
 
-from disting.report.scene import Circle, Ink, Path, Point, Shape
+import numpy as np
+from numpy.typing import NDArray
+
+from disting.report.scene import Circle, Ink, Layer, Path, Point, Shape, Text, extent
+
+STEP = 4.0  # between the points by which what is drawn is remembered
 
 HALF = 15.0  # of the length of a sign
 THICK = 9.0  # half of its height at most
@@ -157,3 +163,50 @@ SIGNS: dict[str, Callable[[Track], tuple[Shape, ...]]] = {
     "j": _inerter,
     "a": _flow,
 }
+
+
+@dataclass(slots=True)
+class Sheet:
+    """What is drawn so far, as layers and as a cloud of points that covers it."""
+
+    layers: list[Layer] = field(default_factory=list)
+    clouds: list[NDArray[np.float64]] = field(default_factory=list)
+
+    def add(self, name: str, shapes: Iterable[Shape]) -> None:
+        """Draw something."""
+        found = tuple(shapes)
+        self.layers.append(Layer(name, found))
+        self.clouds += [_cloud(shape) for shape in found]
+
+    def crowd(self, track: Track, half: float) -> int:
+        """How many points lie within a distance of a track."""
+        points = np.concatenate(self.clouds) - np.array(track.start)
+        ux, uy = track.direction
+        along, aside = points @ (ux, uy), points @ (-uy, ux)
+        inside = (along > 0) & (along < track.length) & (abs(aside) < half)
+        return int(inside.sum())
+
+    def crowd_of(self, text: Text) -> int:
+        """How many points lie where a text is to stand."""
+        left, top, right, bottom = extent(text)
+        return self.crowd(
+            Track((left, (top + bottom) / 2), (right + 0.1, (top + bottom) / 2)),
+            (bottom - top) / 2 + 2,
+        )
+
+    def clearest(self, texts: Sequence[Text]) -> Text:
+        """The first of the texts that meet least."""
+        return min(texts, key=self.crowd_of)
+
+
+def _cloud(shape: Shape) -> NDArray[np.float64]:
+    """Points on a shape: on a line every few pixels, in a box or a text a raster of them."""
+    if isinstance(shape, Path):
+        pieces = [
+            np.linspace(a, b, 2 + int(max(abs(a[0] - b[0]), abs(a[1] - b[1])) / STEP))
+            for a, b in pairwise(shape.points)
+        ]
+        return np.concatenate(pieces)
+    left, top, right, bottom = extent(shape)
+    xs, ys = (np.arange(low, high + STEP, STEP) for low, high in ((left, right), (top, bottom)))
+    return np.stack(np.meshgrid(xs, ys), -1).reshape(-1, 2)

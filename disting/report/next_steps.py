@@ -120,12 +120,12 @@ def _sentences(found: NextCatalog) -> Iterator[tuple[str, str]]:
 
 def advice_of(found: Further[Chain], structure: int, members: tuple[int, ...]) -> Advice:
     """For a structure of a group, counted from 0; `members`: the numbers of all."""
-    masses = found.places(structure)
+    masses, items = found.places(structure), tuple(found.items(structure))
     rows = tuple(
         (
             kind.title,
             f"{found.costs.cost(kind):g}",
-            tuple(_cell(found, structure, members, Item(kind, at)) for at in masses),
+            tuple(_cell(found, structure, members, Item(kind, at), items) for at in masses),
         )
         for kind in found.kinds
     )
@@ -133,7 +133,7 @@ def advice_of(found: Further[Chain], structure: int, members: tuple[int, ...]) -
     return Advice(
         members[structure],
         found.structures[structure],
-        tuple(found.items(structure)),
+        items,
         others,
         rows,
         anywhere(found),
@@ -146,8 +146,14 @@ def drawn(advice: Iterable[Advice]) -> Iterator[tuple[Chain, Item]]:
     return ((one.chain, item) for one in advice for item in one.items)
 
 
-def _cell(found: Further[Chain], structure: int, members: tuple[int, ...], item: Item) -> Cell:
-    worth = item in found.items(structure)
+def _cell(
+    found: Further[Chain],
+    structure: int,
+    members: tuple[int, ...],
+    item: Item,
+    items: tuple[Item, ...],
+) -> Cell:
+    worth = item in items
     sure = worth and not left_over(found, structure, item)
     text = "surely" if sure else in_words(found, structure, item)
     chain = found.structures[structure]

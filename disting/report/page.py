@@ -3,6 +3,8 @@
 The verdicts are drawn by the page's script from a compact payload: below the diagonal one view,
 above it another. What the drawing shows is said in text too: by the field under the cursor, by the
 panel of a pair, and by the table of groups.
+
+A page with what to measure next for all groups of a catalogue.
 """
 
 from collections.abc import Sequence
@@ -11,7 +13,7 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import damper_name
 from disting.catalogs.next_files import NextCatalog
 from disting.catalogs.sizes_files import name_of as sizes_name
 from disting.conditions.rule import EXACT, RULES, Role, Rule
@@ -25,7 +27,16 @@ from disting.report.families import Families, families
 from disting.report.matrix import has_slides, slide_name
 from disting.report.model import folder_of, model_of, motion_of
 from disting.report.motion import start_values
-from disting.report.next_steps import for_pairs, found_for, menu_of, page_of, sketches_for_pairs
+from disting.report.next_steps import (
+    Advice,
+    advice_of,
+    for_pairs,
+    found_for,
+    menu_of,
+    named,
+    page_of,
+    sketches_for_pairs,
+)
 from disting.report.page_drawing import Drawing
 from disting.report.payload import payload
 from disting.report.words import (
@@ -38,11 +49,40 @@ from disting.report.words import (
     title,
     totals,
 )
+from disting.verdict.further_words import anywhere
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
 LISTED_PAIRS = 60  # undecided pairs up to this number are listed one by one
 BELOW, ABOVE = VIEWS  # shown first
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A group of structures, drawn, what tells all of them apart, and the advice for each."""
+
+    drawings: tuple[Drawing, ...]
+    anywhere: str
+    advice: tuple[Advice, ...]
+
+
+def next_page(catalog: Catalog, found: NextCatalog) -> str:
+    """HTML of the page."""
+    groups = []
+    for members in found.groups:
+        whole = named(found, members)
+        drawings = tuple(model_of(catalog, m).drawing for m in members)
+        told = tuple(advice_of(whole, k, members) for k in range(len(members)))
+        groups.append(Group(drawings, anywhere(whole), told))
+    return render(
+        "next.html",
+        catalog=catalog,
+        family=short_title(catalog),
+        folder=folder_of(catalog),
+        groups=groups,
+        additions=definitions(menu_of(found)),
+        plural=plural,
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ neighbours are counted (`packed`).
 """
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 
@@ -18,8 +18,7 @@ from disting.evidence.conditions import capital
 from disting.evidence.positive import Share
 from disting.model.question import Domain
 from disting.report.domains import Over
-from disting.report.words import SAID as RELATIONS_SAID
-from disting.report.words import VIEW_TITLES, Decided, raised
+from disting.report.words import SAID as RELATIONS_SAID, VIEW_TITLES, Decided, raised
 from disting.verdict.meaning import RESPONSE, shown
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
@@ -79,14 +78,20 @@ def payload(
     domains: Sequence[Over],
     views: Iterable[View] = VIEW_TITLES,
     what: str = RESPONSE,
+    aside: Callable[[int, int, View], str] = lambda low, high, view: "",
     **more: object,
 ) -> Markup:
     """JSON text that is safe inside a script element: the views, groups by domain, and what
-    else the script is to know; `what` is measured of the models.
+    else the script is to know; `what` is measured of the models, `aside` says more of a pair.
     """
     texts, entries = Pool(), Pool()
     numbers = {
-        view.value: packed([entries.number(_entry(v, what)) for v in _triangle(decided, view)])
+        view.value: packed(
+            [
+                entries.number(_entry(v, what, aside(low, high, view)))
+                for low, high, v in _triangle(decided, view)
+            ]
+        )
         for view in views
     }
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
@@ -131,12 +136,13 @@ def script_json(data: object) -> Markup:
     return Markup(text)
 
 
-def _triangle(decided: Decided, view: View) -> Iterable[Verdict]:
-    numbers = range(1, len(decided.family) + 1)
-    return (decided.verdict(low, high, view) for high in numbers for low in range(1, high))
+def _triangle(decided: Decided, view: View) -> Iterator[tuple[int, int, Verdict]]:
+    for high in range(1, len(decided.family) + 1):
+        for low in range(1, high):
+            yield low, high, decided.verdict(low, high, view)
 
 
-def _entry(verdict: Verdict, what: str) -> Entry:
+def _entry(verdict: Verdict, what: str, reached: str) -> Entry:
     evidence = verdict.evidence
     why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
     certainty = f"{capital(raised(verdict.sure))}." if evidence else ""
@@ -153,7 +159,7 @@ def _entry(verdict: Verdict, what: str) -> Entry:
     )
     sentence = shown(replace(verdict, left="{L}", right="{R}"), what)
     aside = ", special values aside" * verdict.has_exceptions
-    return *graded, sentence, why, formula, verdict.rule, more, aside
+    return *graded, f"{sentence} {reached}".strip(), why, formula, verdict.rule, more, aside
 
 
 def _shares(verdict: Verdict) -> Iterator[str]:

@@ -22,8 +22,11 @@ from disting.report.scene import (
     Scene,
     Shape,
     Text,
+    extent,
 )
 
+BAND = 128  # pixels
+SLACK = 8  # pixels that a shape may reach beyond its extent, with its line
 ANCHORS = {Anchor.START: "ls", Anchor.MIDDLE: "ms", Anchor.END: "rs"}
 
 
@@ -42,43 +45,55 @@ def png(
     if not 0 < scale < inf:
         raise InputError(f"the scale of a picture is a positive number, not {shown(scale)}")
     width, height = (max(1, round(side * scale)) for side in (scene.width, scene.height))
-    canvas = Image.new("RGB", (width * oversample, height * oversample), palette[Ink.PAPER])
-    pen = ImageDraw.Draw(canvas)
-    for shape in scene.shapes:
-        _draw(pen, shape, palette, scale * oversample)
+    image = Image.new("RGB", (width, height), palette[Ink.PAPER])
+    shapes = [(shape, extent(shape)) for shape in scene.shapes]
+    # band by band: drawn larger as a whole, the widest figures take 100 MB
+    for top in range(0, height, BAND):
+        first, last = max(0, top - SLACK), min(top + BAND, height)
+        canvas = Image.new(
+            "RGB", (width * oversample, (last - first) * oversample), palette[Ink.PAPER]
+        )
+        pen = ImageDraw.Draw(canvas)
+        for shape, (_, upper, _, lower) in shapes:
+            if upper * scale < last + SLACK and lower * scale > first - SLACK:
+                _draw(pen, shape, palette, scale * oversample, first * oversample)
+        # what begins above the canvas is rounded otherwise: not in the band itself
+        band = canvas.reduce(oversample).crop((0, top - first, width, last - first))
+        image.paste(band, (0, top))
     out = BytesIO()
     # 6: a twentieth larger than at 9, which takes half of the time of all figures
-    image = canvas.reduce(oversample)
     if colours:
         image = image.quantize(colours, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     image.save(out, "PNG", compress_level=6)
     return out.getvalue()
 
 
-def _draw(pen: ImageDraw.ImageDraw, shape: Shape, palette: Palette, k: float) -> None:
+def _draw(pen: ImageDraw.ImageDraw, shape: Shape, palette: Palette, k: float, top: int) -> None:
+    """Draw a shape, k pixels a unit, on a canvas that begins so many pixels below the scene's."""
     fill = _colour(palette, shape.fill)
     match shape:
         case Text(x, _, text):
             bold = round(0.03 * shape.size * k) if shape.bold else 0
             font, anchor = _font(shape.size * k), ANCHORS[shape.anchor]
-            pen.text((x * k, shape.baseline * k), text, fill, font, anchor, stroke_width=bold)
+            pen.text((x * k, shape.baseline * k - top), text, fill, font, anchor, stroke_width=bold)
         case Rect(x, y, width, height):
             half = _half(shape, k)
             box = (
                 x * k - half,
-                y * k - half,
+                y * k - half - top,
                 (x + width) * k - 1 + half,
-                (y + height) * k - 1 + half,
+                (y + height) * k - 1 + half - top,
             )
             pen.rounded_rectangle(
                 box, shape.radius * k + half, fill, _colour(palette, shape.stroke), round(2 * half)
             )
         case Circle(x, y, radius):
             reach = radius * k + _half(shape, k)
-            box = (x * k - reach, y * k - reach, x * k + reach, y * k + reach)
+            middle = y * k - top
+            box = (x * k - reach, middle - reach, x * k + reach, middle + reach)
             pen.ellipse(box, fill, _colour(palette, shape.stroke), round(2 * _half(shape, k)))
         case Path(points):
-            _draw_path(pen, shape, [(x * k, y * k) for x, y in points], palette, k)
+            _draw_path(pen, shape, [(x * k, y * k - top) for x, y in points], palette, k)
 
 
 def _draw_path(

@@ -9,13 +9,14 @@ from itertools import product
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
-from disting.catalogs.damper_files import damper_catalog
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import (
+    SHIPPED_SIZES as DAMPER_SIZES,
+    DamperFamily,
+    damper_catalog,
+    damper_name,
+)
 from disting.catalogs.files import SHIPPED_SIZES, name_of
-from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
-from disting.catalogs.sizes_files import name_of as sizes_name
+from disting.catalogs.sizes_files import SizesCatalog, name_of as sizes_name, sizes_catalog
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
@@ -28,9 +29,8 @@ from disting.report.matrix import figure, figure_png, has_slides, slide_name, sl
 from disting.report.model import folder_of, model_page, motion_of
 from disting.report.model_list import lists_beside
 from disting.report.motion import motion_page
-from disting.report.next_page import next_page
 from disting.report.next_steps import found_for, page_of
-from disting.report.page import page
+from disting.report.page import next_page, page
 from disting.report.search import ADDRESS, search_script
 from disting.report.sizes import sizes_page
 from disting.report.svg import svg
@@ -158,23 +158,38 @@ def write_report(
     together = [*across, *_across_beside(across, listed, out)]
     parts = guide(commands, _notebooks(out))
     site = Site(catalogs, dampers, across, parts, families(listed, damped, together))
-    files = [file for c in catalogs for file in _files(c, site.pages)]
-    files += [_damper_file(f, site.pages) for f in dampers]
-    files += [file for page in PAGES for file in page.files(site)]
-    here = {name for name, _ in files}
+    # each file is written when it is made: together they take more memory than all catalogues
+    names = [_write(out, file) for file in _pages(site)]
+    here = set(names)
     links = [p.link for p in PAGES if p.link[0] in here or (out / p.link[0]).is_file()]
     links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
     lists = list(lists_beside(out))
     links += [link for link, _ in lists]
     listed_models = [model for _, models in lists for model in models]
     script = search_script(parts, site.pages, [*links, *listed_models])
-    files.append((ADDRESS, script.encode()))
     style = "".join(map(source, ("style.css", "model.css", "next.css")))
     start = index(listed, links, damped, together)
-    files += [(STYLE, style.encode()), ("index.html", start.encode())]
-    for folder in {(out / name).parent for name, _ in files}:
-        folder.mkdir(parents=True, exist_ok=True)
-    return [write_whole(out / name, content) for name, content in files]
+    for name, text in ((ADDRESS, script), (STYLE, style), ("index.html", start)):
+        names.append(_write(out, (name, text.encode())))
+    return [out / name for name in names]
+
+
+def _pages(site: Site) -> Iterator[File]:
+    """The pages of what a site is written from, with the files beside them."""
+    for c in site.catalogs:
+        yield from _files(c, site.pages)
+    for family in site.dampers:
+        yield _damper_file(family, site.pages)
+    for known in PAGES:
+        yield from known.files(site)
+
+
+def _write(out: Path, file: File) -> str:
+    """Write a file below the folder, and return its address there."""
+    name, content = file
+    (out / name).parent.mkdir(parents=True, exist_ok=True)
+    write_whole(out / name, content)
+    return name
 
 
 def _link(notebook: GuidePage) -> Link:

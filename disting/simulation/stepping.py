@@ -6,7 +6,7 @@ side is smooth and the integration converges. Dead time and lag act on the force
 reaches the masses; the force is a trigonometric polynomial, known at every instant.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,17 +78,23 @@ def stepped(
         at = 2 * steps * (sample % samples)
         result[:, sample] = x, v, acceleration(x, v, push[at])
         for i in range(at, at + 2 * steps, 2):
-            first, middle, last = push[i], push[i + 1], push[(i + 2) % len(push)]
-            a1 = acceleration(x, v, first)
-            v2 = v + h / 2 * a1
-            a2 = acceleration(x + h / 2 * v, v2, middle)
-            v3 = v + h / 2 * a2
-            a3 = acceleration(x + h / 2 * v2, v3, middle)
-            v4 = v + h * a3
-            a4 = acceleration(x + h * v3, v4, last)
-            x = x + h / 6 * (v + 2 * v2 + 2 * v3 + v4)
-            v = v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+            x, v = _next(acceleration, x, v, h, push[[i, i + 1, (i + 2) % len(push)]])
     return result
+
+
+def _next(
+    acceleration: Callable[[Real, Real, Real], Real], x: Real, v: Real, h: float, push: Real
+) -> tuple[Real, Real]:
+    """One step of Runge and Kutta; `push`: the force at its start, middle and end."""
+    first, middle, last = push
+    a1 = acceleration(x, v, first)
+    v2 = v + h / 2 * a1
+    a2 = acceleration(x + h / 2 * v, v2, middle)
+    v3 = v + h / 2 * a2
+    a3 = acceleration(x + h / 2 * v2, v3, middle)
+    v4 = v + h * a3
+    a4 = acceleration(x + h * v3, v4, last)
+    return x + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
 
 
 def _steps(m: Matrices, slope: Real, highest: float, sample: float) -> int:

@@ -2,5 +2,4 @@
 workers.
 """
 
-from disting.store.store import CacheWarning as CacheWarning
-from disting.store.store import Store as Store
+from disting.store.store import CacheWarning as CacheWarning, Store as Store

@@ -20,8 +20,13 @@ from disting.model.question import Domain, Question
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
-from disting.questions.inclusion import CLOSURE, IMAGE, Inclusions, inclusions
-from disting.questions.inclusion import confirms as confirms_inclusion
+from disting.questions.inclusion import (
+    CLOSURE,
+    IMAGE,
+    Inclusions,
+    confirms as confirms_inclusion,
+    inclusions,
+)
 from disting.questions.inclusion.decide import (
     IDEALS,
     asked_closure,

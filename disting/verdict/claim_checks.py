@@ -15,7 +15,7 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.verdict.cascade import decide, follows, over_domain
-from disting.verdict.proof import proven_again
+from disting.verdict.comparison import proven_again
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import Sides

@@ -22,7 +22,7 @@ from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
 from disting.experiments import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
-from disting.general.any_model import on_one_variable
+from disting.general.any_model import of_network, on_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
 from disting.general.network_model import behaviour_of
@@ -32,6 +32,7 @@ from disting.model.presentation import summary
 from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical
+from disting.network.network import Network
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
 from disting.store.code import digest
 from disting.store.scheduling import mapped as mapped
@@ -79,15 +80,18 @@ class Engine:
         return ComparedChain(name, chain, self.settings, self.profile, self.answer)
 
     def general_subjects(
-        self, models: Sequence[AnyModel], names: Sequence[str] = ()
+        self, models: Sequence[AnyModel | Network], names: Sequence[str] = ()
     ) -> list[ComparedModel]:
-        """The same for general models that are compared with each other, all in one variable."""
+        """The same for general models and networks that are compared with each other, all in one
+        variable.
+        """
 
         def profile_of(model: AnyModel) -> Profile:
             """That of its transfer functions."""
             return self.profile(behaviour_of(model), Representation.TF, 0, self.settings)
 
-        matched = [settled(model, profile_of) for model in on_one_variable(models)]
+        plain = [of_network(m) if isinstance(m, Network) else m for m in models]
+        matched = [settled(model, profile_of) for model in on_one_variable(plain)]
         named = zip(names or [m.name for m in models], matched, strict=True)
         return [
             ComparedModel(name, model, self.settings, self.profile, self.answer)

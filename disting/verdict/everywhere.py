@@ -10,13 +10,12 @@ from typing import Any
 
 from disting.errors import DistingError, InputError, of_type, shown
 from disting.experiments import Experiment, Named, Places, moved, named, ways
-from disting.files import __version__
+from disting.files import Format, __version__
 from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.presentation import plural, summary
-from disting.schemas import Format
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query

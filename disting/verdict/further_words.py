@@ -6,9 +6,9 @@ from typing import Any
 
 from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING
 from disting.experiments.menu import Gain, Item
+from disting.files import Format
 from disting.model.chain import Chain
 from disting.network.network import Network
-from disting.schemas import Format
 from disting.verdict.further import Further, Option
 from disting.verdict.placement_record import REPEATS
 from disting.verdict.result import Relation, error_bound

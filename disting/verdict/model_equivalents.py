@@ -7,10 +7,14 @@ from dataclasses import dataclass
 
 from disting.errors import InputError, shown
 from disting.general.alternatives import Alternatives, alternatives
-from disting.general.any_model import of_network
+from disting.general.any_model import of_network, on_one_variable
+from disting.general.balls import Synthesis, positive_sets
+from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.synthesis import NoFormulas
+from disting.general.target import rational_values
 from disting.model.presentation import Shown, summary
+from disting.model.question import Domain
 from disting.network.element import as_number
 from disting.network.network import Network
 from disting.verdict.comparison import compare
@@ -18,17 +22,22 @@ from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 
+MOST_SOLVED = 6  # parameters of models of which all values are looked for at once
+
 
 @dataclass(frozen=True, slots=True)
 class ModelEquivalent(Shown):
     """Another model, what is known of the pair, and its values where those of the given one are
-    said; `exponents`: those of its constant phase elements, each with the one of the given network
-    that it equals, or with the value of that.
+    said: all of them, or of larger networks the positive ones by `synthesis`.
+
+    `exponents`: those of its constant phase elements, each with the one of the given network that
+    it equals, or with the value of that.
     """
 
     model: AnyModel
     verdict: Verdict
     values: Alternatives | None = None
+    synthesis: Synthesis | None = None
     exponents: tuple[tuple[str, str], ...] = ()
 
     def __repr__(self) -> str:
@@ -36,21 +45,27 @@ class ModelEquivalent(Shown):
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; values rounded to 15 digits where they are irrational."""
-        points = () if self.values is None else self.values.equivalents
+        extent, sets = self.sets
         return {
             "name": self.model.name,
             "relation": self.verdict.relation.value,
             "sentence": self.verdict.sentence,
             **({"exponents": dict(self.exponents)} if self.exponents else {}),
-            "extent": "" if self.values is None else self.values.extent.value,
+            "extent": extent,
             "values": [
-                {
-                    "domain": x.domain.value,
-                    "parameters": {name: str(value) for name, value in x.values.items()},
-                }
-                for x in points
+                {"domain": domain.value, "parameters": {n: str(x) for n, x in values.items()}}
+                for domain, values in sets
             ],
         }
+
+    @property
+    def sets(self) -> tuple[str, list[tuple[Domain, Mapping[str, object]]]]:
+        """How many sets of values there are, and those that are known, each with its domain."""
+        if self.synthesis is not None:
+            return self.synthesis.extent, [(Domain.POSITIVE, x) for x in self.synthesis.sets]
+        if self.values is None:
+            return "", []
+        return self.values.extent.value, [(x.domain, x.values) for x in self.values.equivalents]
 
 
 def model_equivalents(
@@ -73,26 +88,45 @@ def model_equivalents(
     ('indistinguishable', 'C1 = 2/9, R0 = 3, R1 = 3/2')
     """
     model = _as_model(given)
-    if values is not None and not isinstance(model, Model):
-        raise InputError("values are found of models with one input and one output")
     engine = Engine() if engine is None else engine
     exponents = model.network.exponents if model.network is not None else ()
     phases = {n: _phase(n, (values or {}).get(n, n)) for n in exponents}
     numbers = None if values is None else {n: x for n, x in values.items() if n not in phases}
     equivalents = []
     for there in map(_as_model, others):
-        if (there.name, there) == (model.name, model) or there.shape != model.shape:
+        if there.shape != model.shape:
             continue
         verdict = compare(model, there, query=query, engine=engine)
         if verdict.relation is not Relation.DISTINGUISHABLE:
             mine, others_form = (s.subject for s in engine.general_subjects([model, there]))
-            at = None
-            if numbers is not None and isinstance(mine, Model) and isinstance(others_form, Model):
-                at = alternatives(mine, numbers, others_form)
+            at, lots = (None, None) if numbers is None else _sets(mine, numbers, others_form)
             named = zip(others_form.powers.exponents, mine.powers.exponents, strict=False)
             equal = tuple((name, phases[given_name]) for name, given_name in named)
-            equivalents.append(ModelEquivalent(there, verdict, at, equal))
+            equivalents.append(ModelEquivalent(there, verdict, at, lots, equal))
     return equivalents
+
+
+def _sets(
+    given: AnyModel, values: Mapping[str, object], other: AnyModel
+) -> tuple[Alternatives | None, Synthesis | None]:
+    """All values of small models; of larger ones the positive ones by synthesis, where these are
+    all, or nothing else is found.
+    """
+    found = _synthesized(given, values, other) if len(other.parameters) > MOST_SOLVED else None
+    if found is not None and found.complete:
+        return None, found
+    solved = alternatives(given, values, other)
+    return (None, found) if found and solved.extent is Extent.UNKNOWN else (solved, None)
+
+
+def _synthesized(
+    given: AnyModel, values: Mapping[str, object], other: AnyModel
+) -> Synthesis | None:
+    one, two = on_one_variable([given, other])
+    try:
+        return positive_sets(one, dict(rational_values(given, values)), two)
+    except NoFormulas:
+        return None
 
 
 def _as_model(given: Network | AnyModel) -> AnyModel:

@@ -6,14 +6,12 @@ from disting.algebra.certainty import Certainty, bits_in_words
 from disting.conditions.rule import EXACT, RULES, Role, Stage
 from disting.conditions.side import COUNTED, GENERIC
 from disting.evidence.conditions import capital
-from disting.evidence.kinds import Evidence
-from disting.evidence.kinds import evidence_from as evidence_from
+from disting.evidence.kinds import Evidence, evidence_from as evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
 from disting.model.chain import Premise
 from disting.model.presentation import Shown, summary
-from disting.model.question import Domain
-from disting.model.question import Relation as Relation
+from disting.model.question import Domain, Relation as Relation
 from disting.questions.inclusion import (
     Inclusion,
     Inclusions,

@@ -16,18 +16,17 @@ from typing import Any
 from disting.errors import DistingError, InputError, shown
 from disting.evidence.kind import is_well_typed
 from disting.experiments import Experiment
-from disting.files import __version__
+from disting.files import Format, __version__
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
-from disting.general.model_files import LARGEST_CHAIN, as_entry, read_entry
+from disting.general.model_entries import LARGEST_CHAIN, as_entry, read_entry
 from disting.model.chain import Chain, Sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES
 from disting.model.names import name_of, names_another
 from disting.model.question import Domain, Settings
 from disting.questions.inclusion import Inclusion, Inclusions
-from disting.schemas import Format
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View

@@ -20,8 +20,7 @@ from disting.model.question import Domain
 from disting.questions.inclusion import Inclusion
 from disting.verdict.claim_checks import CHECKS, LIMITS, SHARES, Check, Claim
 from disting.verdict.engine import Engine
-from disting.verdict.everywhere import FORMAT as EVERYWHERE
-from disting.verdict.everywhere import differing_everywhere, read_everywhere
+from disting.verdict.everywhere import FORMAT as EVERYWHERE, differing_everywhere, read_everywhere
 from disting.verdict.result import Relation
 from disting.verdict.sides import Sides
 from disting.verdict.verdict_file import (

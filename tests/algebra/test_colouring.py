@@ -6,8 +6,7 @@ from itertools import permutations
 
 import pytest
 from flint import Ordering, fmpz_mpoly_ctx
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from disting.algebra.colouring import colouring, renamings
 from disting.algebra.symbols import coefficients, renamed, symbols

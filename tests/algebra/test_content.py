@@ -4,8 +4,8 @@ from fractions import Fraction
 from itertools import combinations
 
 from disting import Chain, Experiment, Family, Model, Query, Settings, View
+from disting.algebra.certainty import about
 from disting.algebra.content import written
-from disting.algebra.sampling import about
 from disting.behaviour.sample import Representation
 from disting.experiments.experiment import MeasuredChain
 from disting.verdict.engine import profile_key

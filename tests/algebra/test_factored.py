@@ -4,8 +4,7 @@ from math import prod
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.algebra.symbols import factored, symbols
 

@@ -5,9 +5,9 @@ from itertools import chain, combinations
 import numpy as np
 import pytest
 from flint import nmod_mat
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
+from disting.algebra.certainty import residues
 from disting.algebra.matroid import (
     Component,
     Matroid,
@@ -17,7 +17,6 @@ from disting.algebra.matroid import (
     separating_rows,
 )
 from disting.algebra.matroid_circuits import dependent_flats, search_size
-from disting.algebra.sampling import residues
 
 P = 2**31 - 1
 LIMIT = 10**6

@@ -4,8 +4,7 @@ from fractions import Fraction
 
 import pytest
 from flint import nmod_poly
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from sympy import Poly, cancel, fraction, series, symbols
 
 from disting.algebra.quotient import (

@@ -4,11 +4,10 @@ it.
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.algebra.notation import expression, latex, latex_symbol, text
-from disting.algebra.rational_function import RationalFunction, variables
+from disting.algebra.symbols import RationalFunction, variables
 
 RING = variables(["m1", "m2", "k12"])
 leaves = st.sampled_from([*RING.values(), RING["m1"] / RING["m1"]])

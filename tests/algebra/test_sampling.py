@@ -8,11 +8,10 @@ from math import log2
 
 import pytest
 from flint import fmpz
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from disting.algebra.certainty import LEAST_SAFETY
-from disting.algebra.sampling import (
+from disting.algebra.certainty import (
+    LEAST_SAFETY,
     PROOF_BITS,
     SEARCH_BITS,
     Size,

@@ -4,11 +4,10 @@ polynomials.
 
 import pytest
 from flint import fmpz_poly
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from sympy import Matrix
 
-from disting.algebra.tridiagonal import Tridiagonal
+from disting.algebra.determinants import Tridiagonal
 
 numbers = st.integers(-5, 5)
 

@@ -7,12 +7,11 @@ from itertools import combinations
 from math import ceil, comb, log2
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Engine, Family, Settings
+from disting.algebra.certainty import Size, prime, safety
 from disting.algebra.matroid import rank_in
-from disting.algebra.sampling import Size, prime, safety
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, degrees, is_sign_free
 from disting.behaviour.expanded import expanded

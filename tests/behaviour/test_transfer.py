@@ -10,7 +10,7 @@ from flint import fmpz_mpoly
 from hypothesis import given, settings
 
 from disting import Chain, Family, Sensor
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, quotient
 from disting.behaviour.expanded import expanded

@@ -7,8 +7,7 @@ from random import Random
 import numpy as np
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Family, Model, transfer_function
 from tests.laws.strategies import chains

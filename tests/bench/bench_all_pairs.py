@@ -8,7 +8,7 @@ from math import comb
 import pytest
 
 from disting import Chain, Engine, Family
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Representation, samples
 from disting.model.symmetry import canonical

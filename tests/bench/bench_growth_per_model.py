@@ -7,7 +7,7 @@ import statistics
 import pytest
 
 from disting import Chain
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import prime, residues
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Representation, at_point, seen_at
 from tests.bench.measure import seconds, table

@@ -11,7 +11,7 @@ from itertools import combinations
 import pytest
 
 from disting import Engine, Experiment, Family, Query, View, compare
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import prime, residues
 from disting.experiments import MeasuredChain
 from disting.experiments.exact import LIMITS, by_ideals, exact_finding
 from disting.experiments.maps import matched

@@ -19,31 +19,32 @@ from disting import (
     catalog,
     compare,
 )
-from disting.catalogs.damper_family import DamperFamily, damper_family
-from disting.catalogs.damper_files import (
+from disting.catalogs.damper_family import (
     SHIPPED_SIZES,
+    DamperFamily,
     _read,
     _written,
     damper_catalog,
-    name_of,
+    damper_family,
+    damper_name,
     read,
     text_of,
     write,
 )
-from disting.catalogs.damper_settled import FILE, append, holds, read_settled
-from disting.catalogs.damper_verify import (
+from disting.catalogs.files import SETTLED, append, read_settled, shipped_folder
+from disting.catalogs.verify import (
     DECIDES,
     false_settled,
     settle_dampers,
     verify_dampers,
 )
-from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.model.family import Family
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
+from disting.questions.same.evidence_check import finding_holds
 from disting.questions.same.low_cost import quick_finding, quick_profile
 from disting.store.scheduling import executor
 from disting.verdict.grouping import classes
@@ -55,7 +56,7 @@ ALL = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
 
 
 def shipped_text(n, damped):
-    return (shipped_folder() / f"{name_of(n, damped)}.jsonl").read_text(encoding="utf-8")
+    return (shipped_folder() / f"{damper_name(n, damped)}.jsonl").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("n", "damped"), ALL)
@@ -149,7 +150,7 @@ def test_a_file_that_was_written_is_read(tmp_path):
     ],
 )
 def test_a_damaged_file_is_refused_with_the_remedy(tmp_path, damage):
-    path = tmp_path / f"{name_of(3, True)}.jsonl"
+    path = tmp_path / f"{damper_name(3, True)}.jsonl"
     path.write_text("\n".join(damage(shipped_text(3, True).splitlines())), encoding="utf-8")
     with pytest.raises(CatalogError, match="disting catalog dampers 3"):
         read(tmp_path, 3, True)
@@ -196,7 +197,7 @@ def test_models_that_are_not_there_are_refused():
 
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
-    name = f"{name_of(3, damped)}.jsonl"
+    name = f"{damper_name(3, damped)}.jsonl"
     text = shipped_text(3, damped)
     (tmp_path / name).write_text(text, encoding="utf-8")
     engine = Engine()
@@ -205,7 +206,7 @@ def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
         text.replace('"undecided":[]', '"undecided":[[0,1]]'), encoding="utf-8"
     )
     assert verify_dampers(3, damped=damped, folder=tmp_path, engine=engine) == [
-        f"{name_of(3, damped)} is not what is computed now"
+        f"{damper_name(3, damped)} is not what is computed now"
     ]
 
 
@@ -227,13 +228,15 @@ def test_what_was_settled_once_is_sure_and_holds(damped, kinds):
     known = settled(damped)
     assert all(f.safety >= 100 and f.outcome in DECIDES for f in known.values())
     assert one_of_each(known).keys() >= kinds
-    assert all(holds(*of_one, Settings()) for of_one in one_of_each(known).values())
+    assert all(finding_holds(*of_one, Settings()) for of_one in one_of_each(known).values())
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("damped", [False, True])
 def test_what_was_settled_once_holds(damped):
-    assert all(holds(found, *pair, Settings()) for pair, found in [*settled(damped).items()][::9])
+    assert all(
+        finding_holds(found, *pair, Settings()) for pair, found in [*settled(damped).items()][::9]
+    )
 
 
 def forged(found):
@@ -256,14 +259,14 @@ def forged(found):
 @pytest.mark.parametrize("kind", ["shared", "solved", "refuted"])
 def test_what_says_more_than_its_evidence_shows_does_not_hold(kind):
     found, *pair = one_of_each(settled(False))[kind]
-    assert [x for x in forged(found) if holds(x, *pair, Settings())] == []
+    assert [x for x in forged(found) if finding_holds(x, *pair, Settings())] == []
 
 
 def test_what_is_settled_of_another_pair_does_not_hold():
     known = settled(False)
     for found, *pair in one_of_each(known).values():
         others = (other for other in known if other[0] != pair[0])
-        assert not holds(found, *next(others), Settings())
+        assert not finding_holds(found, *next(others), Settings())
 
 
 def test_what_is_settled_is_taken_over_from_a_folder_of_ones_own(tmp_path):
@@ -294,7 +297,7 @@ def test_what_is_settled_and_what_contradicts_the_file_is_said_by_the_names_of_t
         "4:3+b1 and 4:7+b1, damped: distinguishable",
         "4:8+b1 and 4:19+b1, damped: indistinguishable",
     ]
-    assert len((tmp_path / FILE).read_text(encoding="utf-8").splitlines()) == 2
+    assert len((tmp_path / SETTLED).read_text(encoding="utf-8").splitlines()) == 2
     assert list(false_settled(found, tmp_path, Settings())) == [
         "4:3+b1 and 4:7+b1, damped: settled, but not in the file",
         "4:8+b1 and 4:19+b1, damped: settled, but not in the file",

@@ -1,6 +1,7 @@
 """Shipped verdicts on families of networks: what is computed now, byte for byte, and no lies."""
 
 import json
+import random
 from itertools import combinations
 
 import pytest
@@ -9,6 +10,7 @@ from disting.catalogs.network_files import (
     POSITIVE,
     SHIPPED,
     name_of,
+    read,
     recall,
     verify_networks,
 )
@@ -16,6 +18,7 @@ from disting.cli.run import main
 from disting.errors import CatalogError
 from disting.files import shipped_folder
 from disting.general.any_model import of_network
+from disting.general.model_side import BRIEFLY, WAS_BRIEF, positive_question
 from disting.network.families import family_of
 from disting.verdict.engine import Engine
 from disting.verdict.result import Relation
@@ -46,12 +49,30 @@ def test_what_is_looked_up_is_what_is_decided(name):
             assert looked_up.verdict(i, j).to_dict() == decided.verdict(i, j).to_dict()
 
 
-def test_circuits_of_four_elements_are_all_decided():
-    text = (shipped_folder() / f"{name_of('circuits-4')}.jsonl").read_text(encoding="utf-8")
+@pytest.mark.parametrize(
+    ("name", "count"), [("circuits-4", 96), ("circuits-5", 1590), ("cells-4", 142), ("cells-5", 62)]
+)
+def test_circuits_are_all_decided(name, count):
+    text = (shipped_folder() / f"{name_of(name)}.jsonl").read_text(encoding="utf-8")
     header, *records = map(json.loads, text.splitlines())
     pairs = [r["positive"]["relation"] for r in records[header["models"] :]]
-    assert len(pairs) == 96
+    assert len(pairs) == count
     assert Relation.UNDECIDED.value not in pairs
+
+
+def test_a_large_family_is_searched_in_brief():
+    """Some of its pairs, found again; those that are left open say that the search was brief."""
+    header, *records = read(shipped_folder() / f"{name_of('machines-3')}.jsonl")
+    pairs = records[header["models"] :]
+    open_ = [r for r in pairs if r["positive"]["relation"] == "undecided"]
+    assert (len(pairs), len(open_)) == (2817, 121)
+    assert all(WAS_BRIEF in r["finding"][-1] for r in open_)
+    engine = Engine()
+    sides = engine.general_subjects([of_network(n) for n in family_of("machines-3").networks])
+    for r in random.Random("brief").sample(pairs, 4):
+        _, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
+        found = engine.answer(BRIEFLY, models, engine.settings)
+        assert json.loads(found.to_json()) == r["finding"]
 
 
 def lied(record):

@@ -13,7 +13,7 @@ import pytest
 from disting import Family
 from disting.cli import main
 from disting.cli.compare import LESS, LONGER
-from disting.cli.effort import LONG, Work, announced, pairs_by_size, told_if_long
+from disting.cli.workers import LONG, Work, announced, pairs_by_size, told_if_long
 from disting.measurement import write_csv
 from disting.simulation import demo
 from tests.cli.process import COMMAND, called

@@ -124,7 +124,6 @@ BAD = [
     (("compare", "MODELS:nobody", "3:1"), "no model is called 'nobody'"),
     (("compare", "MODELS:", "3:1"), "no model is called ''"),
     (("equivalents", "MODELS:nobody", "--to", "MODELS"), "no model is called 'nobody'"),
-    (("equivalents", "MODELS:drive", "--to", "2:1", "--formulas"), "values are listed, not formulas"),
     (("compare", "MODELS:drive", "3:1", "--bound", "m1=1..2"), "belongs to numbered chains"),
     (("compare", "MODELS:drive", "MODELS:by hand", "--damped"), "belongs to numbered chains"),
     (("compare", "MODELS:two leaks", "3:1+delay"), "no rational function"),

@@ -237,3 +237,51 @@ def test_special_values_are_left_aside_only_where_they_are() -> None:
         said = called("compare", *models).stdout
         (first,) = (line for line in said.splitlines() if line.startswith("For every "))
         assert ("special values aside" in first) == aside and "special    " in said
+
+
+VOIGT, LADDER = "R0-p(R1,C1)-p(R2,C2)-p(R3,C3)", "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"
+
+
+def test_formulas_in_three_languages():
+    said = called("equivalents", VOIGT, "--to", LADDER, "--formulas").stdout
+    assert said.startswith(f"{VOIGT}: of 1 other network 1 can do the same for all positive values")
+    assert f"\n\n{LADDER}   (primed)\nidentity checked, probability of error" in said
+    assert "R0' = R0\n" in said
+    assert r"R_{0}' &= R_{0} " in called("equivalents", VOIGT, "--to", LADDER, "--latex").stdout
+    source = called("equivalents", VOIGT, "--to", LADDER, "--sympy").stdout
+    space = {}
+    exec(source, space)
+    assert sorted(space["equivalent"]) == ["C1", "C2", "C3", "R0", "R1", "R2", "R3"]
+
+
+def test_where_formulas_are_not_known_it_is_said():
+    done = called("equivalents", LADDER, "--to", VOIGT, "--formulas")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "no formulas: roots of a polynomial of degree 3 are needed" in done.stdout
+
+
+def test_values_of_several_sensors():
+    values = "m1=1,m2=2,m3=3,m4=1,k12=1,k23=5,k34=2"
+    one, two = "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"
+    done = called("equivalents", one, "--to", two, "--set", values)
+    assert "k12 = 1, k23 = 10/7, k24 = 25/7, m1 = 1, m2 = 2, m3 = 3/7, m4 = 25/7" in done.stdout
+
+
+def test_values_of_large_circuits_by_synthesis():
+    values = "R0=1,R1=2,R2=3,R3=1,C1=1,C2=1/2,C3=3"
+    done = called("equivalents", LADDER, "--to", VOIGT, "--set", values)
+    assert "R0 = 1, R1 = 5.56471, R2 = 0.35171, R3 = 0.0835808" in done.stdout
+    assert "all positive ones, but for exchanges of branches that are alike" in done.stdout
+    told = json.loads(
+        called("equivalents", LADDER, "--to", VOIGT, "--set", values, "--json").stdout
+    )
+    (found,) = told["equivalents"]
+    assert (found["extent"], found["values"][0]["domain"]) == ("positive", "positive")
+
+
+def test_other_values_of_the_same_network():
+    cell, values = "R0-p(R1,C1)-p(R2,C2)", "R0=1,R1=2,R2=3,C1=1,C2=1"
+    done = called("equivalents", cell, "--to", cell, "--set", values)
+    assert done.returncode == 0
+    assert "C1 = 1, C2 = 1, R0 = 1, R1 = 3, R2 = 2" in done.stdout
+    assert done.stdout.startswith(f"{cell}: of 1 network 1 can do the same")

@@ -2,7 +2,7 @@
 these.
 """
 
-from disting.algebra.sampling import Size
+from disting.algebra.certainty import Size
 from disting.behaviour.profile import from_samples
 from disting.behaviour.sample import Sample
 from disting.model.question import Settings

@@ -7,8 +7,7 @@ from dataclasses import replace
 from itertools import combinations
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import (
     Certainty,
@@ -31,8 +30,7 @@ from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.question import Domain, Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability

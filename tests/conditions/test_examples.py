@@ -8,7 +8,7 @@ a prime; phases in turns, so that pi/4 is 1/8, and sqrt 2 = 2^31 modulo 2^61 - 1
 import pytest
 
 from disting import Outcome
-from disting.algebra.sampling import Size, residues
+from disting.algebra.certainty import Size, residues
 from disting.behaviour.profile import from_samples
 from disting.conditions.necessary import (
     condition_1,

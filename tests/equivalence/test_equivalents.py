@@ -6,13 +6,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.equivalence import Origin, Signs, equivalents, explicit_map
 from disting.equivalence.inputs import point_of
 from disting.errors import InputError
-from disting.fibres.synthesis.result import Status
+from disting.fibres.synthesis.task import Status
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from tests.equivalence.mechanics import agree

@@ -9,7 +9,7 @@ import pytest
 
 from disting.equivalence import Origin, Signs, assignments, chains_of, equivalents
 from disting.errors import InputError
-from disting.fibres.synthesis.result import Status
+from disting.fibres.synthesis.task import Status
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of

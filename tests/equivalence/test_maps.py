@@ -5,9 +5,9 @@ import sympy
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.notation import text
-from disting.algebra.rational_function import variables
+from disting.algebra.symbols import variables
 from disting.equivalence import equivalents, explicit_map
-from disting.equivalence.identity import holds_at_random, is_identity
+from disting.equivalence.checks import holds_at_random, is_identity
 from disting.model.chain import Chain
 from disting.model.family import Family
 

@@ -10,9 +10,8 @@ from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.positive import OnlyOne
 from disting.experiments import MeasuredChain, confirms
-from disting.experiments.exact import LIMITS, by_ideals, exact_finding
+from disting.experiments.exact import LIMITS, by_ideals, exact_finding, positive_finding
 from disting.experiments.listing import by_list
-from disting.experiments.positive import positive_finding
 
 A = Family(3, damped=True)
 U = Family(3, damped=False)

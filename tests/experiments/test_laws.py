@@ -4,8 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 from disting import Chain, Engine, Experiment, Family, Model, Query, View, compare
 from disting.behaviour.chain_model import ChainModel

@@ -7,22 +7,20 @@ from itertools import product
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Family, View
 from disting.catalogs import catalog
 from disting.cli.run import main
 from disting.errors import InputError
 from disting.experiments.menu import Costs, Gain
-from disting.experiments.on_networks import measured
 from disting.model.kinds import ALL_KINDS, CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS
 from disting.network import network_of
 from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
 from disting.verdict.further import further, places_of
 from disting.verdict.further_words import rows
-from disting.verdict.network_placement import further_networks
+from disting.verdict.network_placement import further_networks, measured
 from disting.verdict.result import Relation
 
 EVERY = Costs.read("spring=2,brake=2")

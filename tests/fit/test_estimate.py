@@ -21,8 +21,7 @@ from disting.fit.search.exchange import (
     estimates,
     with_smaller,
 )
-from disting.fit.search.neighbours import carried, neighbours
-from disting.fit.search.pairs import conspicuous, paired
+from disting.fit.search.neighbours import carried, conspicuous, neighbours, paired
 from disting.fit.search.starts import cauer, extrema, merged, scale, shortened
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from disting.fit.judge.admissible import Rule
-from disting.fit.judge.explanation import LARGEST, chi2, explanation
-from disting.fit.judge.responses import yardsticks
+from disting.fit.judge.explanation import LARGEST, chi2, explanation, yardsticks
 from disting.fit.noise.scatter import changed, scatter
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost
-from disting.fit.search.whitened import Whitened
+from disting.fit.search.data import Whitened
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.measurement.tabular import ASSUMED_LINEAR
@@ -22,9 +21,7 @@ from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
 from disting.simulation import Bench, Friction, simulate
 from tests.fit.drives import OMEGA, bench, response, truth
-from tests.fit.monte_carlo import drive as bench_drive
-from tests.fit.monte_carlo import measured as bench_data
-from tests.fit.monte_carlo import truth as bench_truth
+from tests.fit.monte_carlo import drive as bench_drive, measured as bench_data, truth as bench_truth
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,))
 VALUES = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "b2": 20.0}

@@ -12,7 +12,7 @@ from disting.fit import confidence, fit_percent, select
 from disting.fit.judge.candidate import judged, witnessed
 from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.practical import covariance
-from disting.fit.results.confidence import response_of
+from disting.fit.results.selection import response_of
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Estimate, Task

@@ -9,9 +9,18 @@ import pytest
 from disting.equivalence import equivalents
 from disting.experiments.menu import Costs, Item
 from disting.fit.plan.fit_file import named_by
-from disting.fit.plan.further import MOVES, STILL, Bench, bench_of, foretold, shown, step
+from disting.fit.plan.further import (
+    MOVES,
+    STILL,
+    Bench,
+    Standing,
+    bench_of,
+    foretold,
+    shown,
+    step,
+    stood,
+)
 from disting.fit.plan.power import power
-from disting.fit.plan.relations import Standing, stood
 from disting.fit.results.export import predicted
 from disting.model.chain import Chain
 from disting.model.family import Family

@@ -20,10 +20,12 @@ from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from tests.fit.drives import OMEGA, response
-from tests.fit.monte_carlo import drive as bench_drive
-from tests.fit.monte_carlo import measured as bench_data
-from tests.fit.monte_carlo import response_at
-from tests.fit.monte_carlo import truth as bench_truth
+from tests.fit.monte_carlo import (
+    drive as bench_drive,
+    measured as bench_data,
+    response_at,
+    truth as bench_truth,
+)
 
 TWO = Chain(2, damped=True, ground_dampers=(1,))
 THREE = Chain(3, damped=True, ground_dampers=(1,))

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.errors import InputError
 from disting.experiments.machine_model import rank_by
 from disting.fit.judge.alternatives import representatives
+from disting.fit.judge.explanation import JointNoise, noises, scatters, together
 from disting.fit.judge.joint_verdicts import (
     behaves_alike,
     is_same_under_all,
@@ -20,14 +20,13 @@ from disting.fit.judge.joint_verdicts import (
 )
 from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.practical import covariance
-from disting.fit.judge.responses import JointNoise, noises, scatters, together
 from disting.fit.noise.covariance import expected
 from disting.fit.search.cost import Case, Cost, lines_by_deviation
+from disting.fit.search.data import joint_cost
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import Further, JointCost
 from disting.fit.search.setup import Setup, measured_chain
-from disting.fit.search.weighing import joint_cost
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor

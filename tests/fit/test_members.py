@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.fit.judge.admissible import Rule, undetermined
 from disting.fit.judge.alternatives import limits_of

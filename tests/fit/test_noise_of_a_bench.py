@@ -23,7 +23,7 @@ from disting.fit.noise.covariance import Noise
 from disting.fit.noise.line_variance import coefficients
 from disting.fit.noise.scatter import changed, scatter
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.whitened import Whitened
+from disting.fit.search.data import Whitened
 from disting.measurement import FrequencyResponse, TimeSeries, mean_of
 from disting.model.chain import Chain
 from disting.model.question import Settings

@@ -14,14 +14,13 @@ from disting.fit.plan.power import (
     POWER,
     Answer,
     joined,
-    needed,
     plan,
     power,
     surplus,
     typical,
 )
 from disting.fit.plan.rival import Trust, fitted_rival, gain
-from disting.fit.plan.sample import simulated
+from disting.fit.plan.sample import ideal, simulated
 from disting.fit.results.export import predicted
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -53,8 +52,8 @@ def test_power_of_one_parameter_is_that_of_a_two_sided_normal_test():
     for size in (0.3, 5.0, 17.8, 40.0):
         shift = np.sqrt(size)
         assert power(size) == pytest.approx(norm.sf(limit - shift) + norm.cdf(-limit - shift))
-    assert power(0.0, 3) == LEVEL and needed() == pytest.approx(17.814, abs=1e-3)
-    assert power(needed(4), 4) == pytest.approx(POWER, abs=1e-9)
+    assert power(0.0, 3) == LEVEL and ideal().needed() == pytest.approx(17.814, abs=1e-3)
+    assert power(ideal(4).needed(), 4) == pytest.approx(POWER, abs=1e-9)
 
 
 def test_power_of_several_parameters_is_what_sampling_shows():

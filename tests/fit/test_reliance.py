@@ -15,9 +15,7 @@ from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.report.fit.selection_json import selection_to_dict
 from tests.fit.drives import response
-from tests.fit.monte_carlo import drive as bench_drive
-from tests.fit.monte_carlo import measured as bench_data
-from tests.fit.monte_carlo import truth as bench_truth
+from tests.fit.monte_carlo import drive as bench_drive, measured as bench_data, truth as bench_truth
 
 ROW = Chain(3, damped=True)
 VALUES = {"m1": 1.0, "m2": 0.6, "m3": 0.4, "k12": 3e4, "k23": 2e4, "d12": 8.0, "d23": 3.0}

@@ -15,7 +15,7 @@ from disting.fit.judge.modes import oscillating, physical, poles, zeros
 from disting.fit.judge.practical import Thresholds
 from disting.fit.results.export import predicted
 from disting.fit.results.model_file import model_from_dict
-from disting.fit.results.sweep import CRITERIA, profile, sweep
+from disting.fit.results.selection import CRITERIA, profile, sweep
 from disting.fit.search.candidates import figure_1, variants
 from disting.fit.search.cost import lines_by_deviation
 from disting.fit.select import select

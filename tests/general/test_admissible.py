@@ -7,16 +7,18 @@ from dataclasses import replace
 import pytest
 
 from disting import Certainty, Query, Relation, View, compare
-from disting.algebra.rational_function import RationalFunction
+from disting.algebra.symbols import RationalFunction
 from disting.conditions.finding import Outcome
 from disting.errors import ContradictionError
 from disting.evidence.conditions import Renaming
 from disting.evidence.general import NoEquivalent, Witnesses
-from disting.general.admissible import confirms, of_ways, points
+from disting.general.admissible import of_ways, points
 from disting.general.alternatives import alternatives
-from disting.general.cases import Case, Search
+from disting.general.cases import Search
+from disting.general.elimination import Case
 from disting.general.formulas import is_explicit, is_without
 from disting.general.model import Model
+from disting.general.model_evidence import confirms
 from disting.general.orthant import Orthant
 from disting.general.sections import sections
 from disting.general.which_models import way

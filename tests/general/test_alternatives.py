@@ -9,20 +9,21 @@ from itertools import product
 import pytest
 import sympy as sp
 from flint import fmpq
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from disting import Family, InputError
 from disting.algebra.groebner.rational import TooLarge, basis
 from disting.conditions.finding import Outcome
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target as chain_target
+from disting.fibres.synthesis.task import Answer, Status, target as chain_target
 from disting.general.alternatives import AT_ONCE, alternatives
+from disting.general.any_model import of_network
 from disting.general.fibre import Extent
+from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
 from disting.general.target import fibre_equations, rational_values, target
 from disting.model.question import Domain
+from disting.network.notation import network_of
 from tests.general.certificate import certified
 
 IRREVERSIBLE = Model.from_state_space(
@@ -296,6 +297,52 @@ def test_a_larger_ideal_is_solved_in_a_process_of_its_own_or_given_up():
     given_up = alternatives(two, values, five, seconds=0.01)
     assert (given_up.extent, given_up.exist(Domain.POSITIVE)) == (Extent.UNKNOWN, Outcome.ABANDONED)
     assert "out of time" in given_up.reason and "was not decided" in given_up.sentence
+
+
+MULTIPORTS = (
+    ("1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2", 2),
+    ("1~2~3~4; F1 F2; S2 S1", "1~2, 2~3, 2~4; F1 F2; S2 S1", 2),
+    ("1=2~3~4; F1; S1 S2", "1=2, 2~3, 2~4; F1; S1 S2", 2),
+    ("1<>2, 1>0; in 1; out 1, 2", "1<>2, 1>0, 2>0; in 1; out 1, 2", 0),
+    ("1>2, 1>0, 2>0; in 1; out 1, 2", "1>2, 1>0, 2>0; in 1; out 1, 2", 1),
+)
+
+
+# at which the trees have rational values
+RATIONAL = {"m1": 1, "m2": 2, "m3": 3, "m4": 1, "k12": 1, "k23": 5, "k34": 2}
+
+
+@pytest.mark.parametrize(("given_text", "other_text", "count"), MULTIPORTS)
+def test_several_ports(given_text, other_text, count):
+    """All positive sets: each gives every transfer function exactly."""
+    one, two = (of_network(network_of(text)) for text in (given_text, other_text))
+    values = {n: RATIONAL.get(n, Fraction(i + 2, 5)) for i, n in enumerate(one.parameters)}
+    found = alternatives(one, values, two)
+    sets = [x.values for x in found.within(Domain.POSITIVE)]
+    assert (found.extent is not Extent.UNKNOWN, len(sets)) == (True, count)
+    pairs = list(zip(one.entries, two.entries, strict=True))
+    for x in sets:
+        for here, there in pairs:
+            exact = {n: Fraction(v) for n, v in values.items()}
+            assert target(here, list(exact.items())) == target(there, list(x.items()))
+
+
+def test_several_ports_have_what_each_of_them_has():
+    """Two sensors are two conditions: the sets of values are those that serve for both."""
+    model = MatrixModel.from_transfer_functions([["1/((s + a)*(s + b))"], ["a/((s + a)*(s + b))"]])
+    both = alternatives(model, {"a": 2, "b": 3}, model).equivalents
+    alone = [
+        [x.values for x in alternatives(entry, {"a": 2, "b": 3}, entry).equivalents]
+        for entry in model.entries
+    ]
+    assert [x.values for x in both] == [x for x in alone[0] if x in alone[1]]
+    assert [len(both), *map(len, alone)] == [1, 2, 1]
+
+
+def test_other_ports_are_refused():
+    one, two = (of_network(network_of(f"1~2; F1; {s}")) for s in ("S1 S2", "S2"))
+    with pytest.raises(InputError, match="other numbers of inputs and outputs"):
+        alternatives(one, {"m1": 1, "m2": 1, "k12": 1}, two)
 
 
 @pytest.mark.parametrize("numbers", [(3, 7, 2, 5, 11), (1, 2, 9, 4, 6)])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from disting import Domain
-from disting.general.cases import Case
 from disting.general.counts import number_of_roots
+from disting.general.elimination import Case
 from disting.general.orthant import Orthant
 
 RING = Orthant(2, 1, Domain.POSITIVE)

@@ -7,8 +7,7 @@ from fractions import Fraction
 
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, InputError, Model, ModelList, Sensor, read_models, write_models
 from disting.general.model_files import LARGEST, MOST_MODELS, models_of, models_text

@@ -5,7 +5,7 @@ vary, signs that never meet.
 import pytest
 
 from disting import InputError, Model, Query, Relation, View, compare
-from disting.algebra.sampling import prime
+from disting.algebra.certainty import prime
 
 MODEL = Model.from_transfer_function
 FIRST = prime("disting:0")

@@ -5,8 +5,7 @@ import json
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.linalg import expm
 
 from disting import InputError, MatrixModel, compare, identifiability, read_models

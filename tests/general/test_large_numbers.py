@@ -5,8 +5,7 @@ other. (One of the two may be open: points with large numbers are not drawn.)
 
 from fractions import Fraction
 
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Relation, compare
 from disting.general.model import Model

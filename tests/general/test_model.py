@@ -10,8 +10,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Family, InputError, Relation, compare
 from disting.general.model import Model

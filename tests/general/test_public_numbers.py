@@ -7,7 +7,7 @@ from math import prod
 import pytest
 
 from disting import Relation, compare
-from disting.algebra.sampling import prime
+from disting.algebra.certainty import prime
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation, drawn, samples
 from disting.fibres.ideals import decide

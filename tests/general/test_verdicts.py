@@ -17,9 +17,9 @@ from disting import (
     Store,
     View,
     compare,
+    compare as compare_chains,
     findings,
 )
-from disting import compare as compare_chains
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome

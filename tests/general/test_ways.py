@@ -11,18 +11,19 @@ import networkx as nx
 import pytest
 import sympy as sp
 
-from disting import Certainty, Family, Query, Relation, View, compare
-from disting import compare as compare_chains
-from disting.algebra.rational_function import RationalFunction
+from disting import Certainty, Family, Query, Relation, View, compare, compare as compare_chains
+from disting.algebra.symbols import RationalFunction
 from disting.conditions.finding import Outcome
 from disting.errors import InputError
 from disting.evidence.general import Explicit
-from disting.general.admissible import confirms, points
+from disting.general.admissible import points
 from disting.general.alternatives import alternatives
 from disting.general.between import path
-from disting.general.cases import Case, Search
+from disting.general.cases import Search
+from disting.general.elimination import Case
 from disting.general.formulas import fit, is_explicit
 from disting.general.model import Model
+from disting.general.model_evidence import confirms
 from disting.general.orthant import Orthant, value_at
 from disting.general.robust import Parted
 from disting.general.sections import held, sections

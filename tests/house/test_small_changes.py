@@ -1,5 +1,6 @@
 """A format of measured data is a module and a row of its table, a page of the site a module, a
-template and a row, a unit a row: written into a copy of the package, they are at work.
+template and a row, a unit and a family of networks a row: written into a copy of the package, they
+are at work.
 """
 
 import json
@@ -106,3 +107,21 @@ def test_a_unit_is_a_row(tmp_path):
     script = "from disting.measurement import read; from disting.measurement.scaling import in_si; "
     script += "found = in_si(read('press.csv')); print(found.sensor, found.G[0].round(12))"
     assert said(folder, "-c", script) == "acceleration (0.001-0.001j)\n"
+
+
+def test_a_family_of_networks_is_a_row(tmp_path):
+    """Two motors with one load each, the second through a gear: listed, judged, on pages."""
+    start = "def _families() -> Iterator[NetworkFamily]:\n"
+    row = """    texts = ("1=2; F1; S1", "1=2*i; F1; S1")
+    yield NetworkFamily("motors-2", "Motors with a load", lambda: texts)
+"""
+    folder = copied(tmp_path, {"network/families.py": [(start, start + row)]})
+    listed = said(folder, "-m", "disting", "models", "motors-2").splitlines()
+    assert [line.split(": ")[0] for line in listed] == ["1=2; F1; S1", "1=2*i; F1; S1"]
+    verdicts = said(folder, "-m", "disting", "verdicts", "motors-2")
+    assert verdicts.startswith(
+        "2 models, 1 pair, over positive parameters: 0 distinguishable, 1 ind"
+    )
+    said(folder, "-m", "disting", "report", "motors-2", "--out", "site")
+    page = (folder / "site" / "list-motors-2.html").read_text(encoding="utf-8")
+    assert "Motors with a load" in page and "1=2*i; F1; S1" in page

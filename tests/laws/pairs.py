@@ -4,8 +4,7 @@ from dataclasses import replace
 from functools import cache
 from itertools import combinations
 
-from hypothesis import example, settings
-from hypothesis import strategies as st
+from hypothesis import example, settings, strategies as st
 
 from disting import Chain, Engine, Family, Query, View, compare
 from disting.questions.same.evidence_check import Witness

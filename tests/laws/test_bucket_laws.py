@@ -5,8 +5,7 @@ from dataclasses import replace
 from itertools import combinations
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Engine, Family, Query, Sensor, Settings, View
 from disting.verdict.cascade import decide

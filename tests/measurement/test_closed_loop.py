@@ -9,7 +9,7 @@ from scipy.signal import butter, chirp, freqz, lfilter
 
 from disting.errors import InputError
 from disting.measurement import TimeSeries, read
-from disting.measurement.closed_loop import follows_output
+from disting.measurement.time_series import follows_output
 from tests.measurement.bench_data import measured_data
 
 RATE, N = 1000.0, 100_000

@@ -6,7 +6,7 @@ import scipy.io
 
 from disting.errors import InputError
 from disting.measurement import read, read_time_series
-from disting.measurement.reading import guessed
+from disting.measurement.files import guessed
 from tests.measurement.bench_data import measured_data
 
 TIME = np.arange(6000) / 1000

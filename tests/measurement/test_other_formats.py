@@ -5,8 +5,7 @@ from contextlib import suppress
 import numpy as np
 import pytest
 import scipy.io
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 from disting.errors import InputError
 from disting.measurement import Signal, from_arrays, from_control, read, read_time_series

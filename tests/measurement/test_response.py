@@ -7,8 +7,7 @@ from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from disting.errors import InputError
 from disting.measurement import FrequencyResponse, Signal, are_opposite

@@ -14,9 +14,8 @@ from disting.measurement import (
     read,
     read_time_series,
 )
-from disting.measurement.grid import in_omega
-from disting.measurement.outliers import outlying
-from disting.measurement.scaling import scaled, with_constant
+from disting.measurement.repeats import outlying
+from disting.measurement.scaling import in_omega, scaled, with_constant
 from disting.measurement.units import DRIVES, MOTIONS, motion, ratio
 from disting.model.chain import Sensor
 from disting.report.fit.words import unit_of

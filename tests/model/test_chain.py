@@ -17,7 +17,7 @@ from disting import (
     View,
     compare,
 )
-from disting.model.constraints import CONSTRAINTS, Indices, violated
+from disting.model.structure import CONSTRAINTS, Indices, violated
 from tests.laws.strategies import chains
 
 VALID = (3, 1, 1, 2, 1, 3)

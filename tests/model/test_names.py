@@ -1,8 +1,7 @@
 """One name for a model: what is read, what is written, what is refused with its remedy."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from disting import (
     Family,
@@ -15,7 +14,7 @@ from disting import (
     prove,
     transfer_function,
 )
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes import combined_family
 from disting.catalogs.sizes_files import sizes_catalog

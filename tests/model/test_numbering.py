@@ -3,14 +3,13 @@
 from itertools import pairwise, product
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from disting import Family, InputError, Sensor, compare, verify
 from disting.model.chain import Chain
-from disting.model.constraints import Indices, violated
 from disting.model.family import MOST_MASSES, after, before, count
 from disting.model.names import name_of, read
+from disting.model.structure import Indices, violated
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Standing
 from tests.cli.process import called

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 
 from disting import Chain, Family, InputError
-from disting.model.drawing import LEGEND, text_drawing
+from disting.model.chain import LEGEND, text_drawing
 from disting.model.minors import embeddings
 from disting.model.structure import GroundDamper, Spring, Structure
 from tests.laws.strategies import chains

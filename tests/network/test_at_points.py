@@ -6,11 +6,10 @@ import pickle
 import random
 
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from hypothesis import assume, given, strategies as st
 
 from disting import Query, View, compare
-from disting.algebra.sampling import prime
+from disting.algebra.certainty import prime
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.errors import InputError

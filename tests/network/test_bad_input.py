@@ -6,8 +6,7 @@ import json
 
 import networkx as nx
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.errors import InputError
 from disting.network import Network, network_of

@@ -13,6 +13,7 @@ from sympy import Matrix, Rational
 from disting import local_identifiability
 from disting.general.any_model import of_network
 from disting.network.families import FAMILIES, family_of
+from disting.network.notation import network_of
 
 COUNTS = {
     "machines-2": 13,
@@ -24,6 +25,7 @@ COUNTS = {
     "circuits-4": 63,
     "circuits-5": 148,
     "cells-4": 119,
+    "cells-5": 215,
     "compartments-2": 12,
     "compartments-3": 284,
 }
@@ -206,14 +208,62 @@ def test_circuits_are_all_matroids_without_like_elements_side_by_side(name, kind
         and is_reduced(bases, letters)
         and (form := canonical(bases, letters))
     }
-    listed = [
-        canonical(
-            bases_of([(1, 0), *(e.nodes for e in n.elements)]), [e.letter for e in n.elements]
-        )
-        for n in family_of(name).networks
-    ]
+    listed = [form_of(n) for n in family_of(name).networks]
     assert len(listed) == len(set(listed))
     assert set(listed) == expected
+
+
+def form_of(network):
+    """A one-port up to its numbering and the order of what commutes."""
+    edges = [(1, 0), *(e.nodes for e in network.elements)]
+    return canonical(bases_of(edges), [e.letter for e in network.elements])
+
+
+def test_cells_are_all_matroids_with_a_resistor_in_series():
+    expected = {
+        form
+        for count in range(1, 6)
+        for bases in shapes(count)
+        for letters in combinations_with_replacement("CPRW", count)
+        if (letters.count("W") <= 1 and letters.count("P") <= 2)
+        and "R" in letters
+        and count - letters.count("R") <= 3
+        for order in set(permutations(letters))
+        if is_reduced(bases, order)
+        and any(x == "R" and all({0, i} & {*b} for b in bases) for i, x in enumerate(order, 1))
+        and (form := canonical(bases, order))
+    }
+    listed = [form_of(n) for n in family_of("cells-5").networks]
+    assert len(listed) == len(set(listed))
+    assert set(listed) == expected
+
+
+FITTED = [
+    "R0-C1",
+    "R0-CPE1",
+    "R0-p(R1,C1)",
+    "R0-p(R1,CPE1)",
+    "R0-p(R1,C1)-W1",  # a layer and diffusion behind it
+    "R0-p(R1,CPE1)-W1",
+    "R0-p(C1,R1-W1)",  # Randles
+    "R0-p(CPE1,R1-W1)",
+    "R0-p(R1-W1-C2,C1)",  # a film in which what diffuses stays
+    "R0-p(R1,C1)-p(R2,C2)",  # Voigt
+    "R0-p(R1,CPE1)-p(R2,CPE2)",
+    "R0-p(R1,C1)-p(R2,CPE1)",
+    "R0-p(C1,R1-p(R2,C2))",  # a coating
+    "R0-p(CPE1,R1-p(R2,CPE2))",
+    "R1-[R2-W3,P4]",  # as AutoEIS writes them
+    "[R1,C2]-[R3,P4]-R5",
+    "P1-[R2,P3]-R4",
+]
+
+
+def test_cells_have_what_is_fitted_to_impedance():
+    known = set(map(form_of, family_of("cells-5").networks))
+    assert [text for text in FITTED if form_of(network_of(text)) not in known] == []
+    six = network_of("R0-p(R1,C1)-p(R2-W1,C2)")
+    assert form_of(six) not in known
 
 
 def shapes(count):

@@ -10,8 +10,9 @@ from scipy.optimize import least_squares
 from disting import Model, compare, network_of
 from disting.conditions.finding import Outcome
 from disting.general import listed
-from disting.general.admissible import admissible_finding, confirms, points
+from disting.general.admissible import admissible_finding, points
 from disting.general.any_model import of_network
+from disting.general.model_evidence import confirms
 from disting.model.question import Domain
 from disting.network.families import family_of
 from disting.verdict.result import Relation

@@ -9,8 +9,7 @@ from itertools import combinations, permutations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import InputError, Query, View, compare, identifiability, network_of, verify
 from disting.fit.search.network_plant import NetworkPlant

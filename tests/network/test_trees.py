@@ -6,10 +6,9 @@ from itertools import combinations
 
 import networkx
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from disting.network.trees import forests
+from disting.network.forests import forests
 
 NODES = range(6)
 EDGES = st.sets(st.sampled_from(list(combinations(NODES, 2))), min_size=1, max_size=9)

@@ -24,15 +24,22 @@ from typing import TypeVar
 
 from flint import acb, acb_poly, ctx, fmpq
 
-from disting.algebra.sampling import residues
-from disting.fibres.synthesis.ball import Ball, Imprecise, Receptance, roots, shifted
-from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf
-from disting.fibres.synthesis.construction import exact_rows, is_untested
+from disting.algebra.certainty import residues
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    Ball,
+    Dead,
+    Imprecise,
+    Leaf,
+    Receptance,
+    roots,
+    shifted,
+)
 from disting.fibres.synthesis.fibre import PRECISIONS, fibre
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import Target, is_regular, target
+from disting.fibres.synthesis.task import Answer, Status, Target, is_regular, target
+from disting.fibres.synthesis.theorems import exact_rows, is_untested
 from disting.fibres.synthesis.undamped import neighbours_at
 from disting.model.chain import Chain
 from disting.model.row import Row, grounded_and_free

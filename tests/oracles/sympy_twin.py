@@ -13,8 +13,7 @@ import random
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain as flatten
-from itertools import combinations, permutations, product
+from itertools import chain as flatten, combinations, permutations, product
 from typing import Any, NamedTuple
 
 from sympy import (

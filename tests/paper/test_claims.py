@@ -8,16 +8,14 @@ fibre, and what the conditions reach is stated beside it.
 from collections import Counter
 from dataclasses import replace
 from functools import cache
-from itertools import chain as flatten
-from itertools import combinations
+from itertools import chain as flatten, combinations
 
 import numpy as np
 import pytest
 
 from disting import Chain, Engine, Family, Outcome, Query, Relation, Sensor, View, compare
 from disting.behaviour.sample import Representation
-from disting.conditions.structural import condition_9
-from disting.conditions.sufficient import condition_7
+from disting.conditions.sufficient import condition_7, condition_9
 from tests.paper.fibre import fibre_is_empty
 
 ENGINE = Engine()

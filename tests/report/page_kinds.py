@@ -6,7 +6,7 @@ from pathlib import Path
 
 from disting import Engine
 from disting.catalogs import catalog
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.network_files import recall
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.parser import parser

@@ -10,8 +10,7 @@ import pytest
 from PIL import Image, ImageChops
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_files import SHIPPED_SIZES as DAMPER_SIZES
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.parser import parser

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import DamperFamily, damper_family
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import DamperFamily, damper_catalog, damper_family
 from disting.catalogs.dampers import DamperSets
 from disting.errors import InputError
 from disting.report import damper_page

@@ -1,6 +1,7 @@
 """Drawings of experiments: over any chain, nothing outside, nothing covered, all of it on pages."""
 
 import re
+from dataclasses import replace
 from itertools import product
 
 from disting.catalogs import catalog
@@ -12,9 +13,9 @@ from disting.model.family import Family
 from disting.model.kinds import FORCE, KINDS, LOCK, SENSOR
 from disting.report import model_page
 from disting.report.drawing import draw
-from disting.report.experiment_drawing import added, definitions, sketch, state, with_items
-from disting.report.next_page import next_page
+from disting.report.experiment_drawing import added, definitions, sketch, state
 from disting.report.next_steps import advice, found_for, sketches_for_pairs
+from disting.report.page import next_page
 from disting.report.scene import Text, extent
 from tests.report.shapes import meet
 
@@ -31,10 +32,17 @@ def items(chain):
     return [Item(k, at) for k in kinds for at in range(1, chain.n_masses + 1)]
 
 
+def with_item(chain, item):
+    """The drawing of a chain that a page holds, with what an item adds."""
+    below = draw(chain, item.kind == SENSOR)
+    kept = below.layers[:-1] if item.kind == FORCE else below.layers
+    return replace(below, layers=(*kept, added(chain, item)))
+
+
 def test_nothing_leaves_the_picture_and_no_letters_overlap():
     for chain in CHAINS:
         for item in items(chain):
-            scene = with_items(chain, (item,))
+            scene = with_item(chain, item)
             for shape in scene.shapes:
                 left, top, right, bottom = extent(shape)
                 assert 0 <= left <= right <= scene.width, (chain, item, shape)
@@ -48,13 +56,13 @@ def test_nothing_leaves_the_picture_and_no_letters_overlap():
 
 def test_every_experiment_is_drawn_differently_and_said():
     for chain in CHAINS:
-        scenes = [with_items(chain, (item,)) for item in items(chain)]
-        assert len({scene.title for scene in scenes}) == len(scenes)
-        assert len({added(chain, item) for item in items(chain)}) == len(scenes)
-        for item, scene in zip(items(chain), scenes, strict=True):
-            assert item.text in scene.title and added(chain, item) in scene.layers
-            moved = item.kind == FORCE
-            assert [layer.name for layer in scene.layers].count("force") == 1 - moved
+        found = [sketch(1, chain, (item,)) for item in items(chain)]
+        assert len({one.label for one in found}) == len(found)
+        assert len({added(chain, item) for item in items(chain)}) == len(found)
+        for item, one in zip(items(chain), found, strict=True):
+            scene = with_item(chain, item)
+            assert item.text in one.label and one.size == (scene.width, scene.height)
+            assert one.parts[1] == f"more-{added(chain, item).name}"
 
 
 def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():

@@ -10,14 +10,13 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from markdown_it import MarkdownIt
 
 from disting.catalogs import catalog
 from disting.cli.parser import parser
 from disting.errors import InputError
-from disting.model.drawing import text_drawing
+from disting.model.chain import text_drawing
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.network.notation import network_of, notations_of

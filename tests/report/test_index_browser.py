@@ -12,11 +12,11 @@ import pytest
 
 from disting import Family, compare, network_of
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.model.chain import Chain
-from disting.model.constraints import violated
 from disting.model.names import chain_of
+from disting.model.structure import violated
 from disting.model.symmetry import Symmetry, forms
 from disting.report import write_report
 from disting.report.describe_machine import descriptions, machines, part_name, parts

@@ -14,7 +14,7 @@ from scipy.signal import lsim
 
 from disting.catalogs import catalog
 from disting.equivalence import explicit_map
-from disting.equivalence.images import images
+from disting.equivalence.theorems import images
 from disting.fit.search.cost import Cost
 from disting.fit.search.estimate import Task
 from disting.fit.search.exchange import estimates

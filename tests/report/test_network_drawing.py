@@ -9,8 +9,7 @@ from pathlib import Path as File
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from PIL import Image
 
 from disting import Network, network_of

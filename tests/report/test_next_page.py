@@ -7,8 +7,8 @@ import pytest
 from disting.catalogs import catalog
 from disting.catalogs.next_files import next_catalog
 from disting.report import model_page, write_report
-from disting.report.next_page import next_page
 from disting.report.next_steps import advice, for_pairs, found_for
+from disting.report.page import next_page
 
 DAMPED = catalog(3, damped=True)
 

@@ -16,8 +16,8 @@ from disting.errors import InputError
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, Share
 from disting.fit.networks import fit_networks
+from disting.fit.plan.further import Standing
 from disting.fit.plan.power import Answer
-from disting.fit.plan.relations import Standing
 from disting.fit.plan.rival import Limit, Trust
 from disting.fit.search.setup import Setup
 from disting.general.any_model import of_network

@@ -7,8 +7,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 import sympy
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from scipy.signal import cont2discrete
 
 from disting.errors import InputError

@@ -5,8 +5,7 @@ import sqlite3
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.errors import InputError
 from disting.store.database_file import APPLICATION_ID, SCHEMA_VERSION

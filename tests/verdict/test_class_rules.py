@@ -11,7 +11,7 @@ from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.damper_family import damper_family
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
-from disting.conditions.structural import condition_8, condition_9
+from disting.conditions.sufficient import condition_8, condition_9
 from disting.questions.same.low_cost import QUICKLY
 from disting.verdict.engine import question_key
 from disting.verdict.grouping import classes

@@ -7,16 +7,15 @@ from itertools import combinations, product
 from typing import get_args
 
 import pytest
-from hypothesis import Phase, given, settings
-from hypothesis import strategies as st
+from hypothesis import Phase, given, settings, strategies as st
 
 from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
-from disting.evidence.decision import THEOREMS, Theorem
+from disting.evidence.decision import THEOREMS, Excluded, Theorem
 from disting.evidence.general import AtInverse, Replaced
 from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
-from disting.evidence.positive import Empirical, Excluded, PositiveEvidence, PositiveFinding, Share
+from disting.evidence.positive import Empirical, PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays, RealWitnesses
 from disting.experiments import MeasuredChain
 from disting.general.model_files import read_models

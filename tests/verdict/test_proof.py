@@ -19,7 +19,7 @@ from disting import (
     local_identifiability,
     network_of,
 )
-from disting.algebra.fractionfree import OutOfTimeError, rank
+from disting.algebra.determinants import OutOfTimeError, rank
 from disting.algebra.symbols import symbols
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import coefficients_have_rank, rank_is_at_most
@@ -27,7 +27,7 @@ from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.general.any_model import of_network
 from disting.model.question import Settings
-from disting.verdict.proof import prove, prove_all
+from disting.verdict.comparison import prove, prove_all
 
 
 def decided(n, damped):

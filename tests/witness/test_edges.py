@@ -11,8 +11,7 @@ from disting import Chain, Engine, Family, Query, Relation, Settings, View
 from disting.algebra.matroid import matroid
 from disting.fibres.synthesis.decide import point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Exclusions, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Exclusions, Status, target
 
 # --- fibres
 # ----------------------------------------------------------------------------------------------------------

@@ -6,14 +6,12 @@ from itertools import permutations
 
 import pytest
 from flint import acb, ctx, fmpq
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Family
-from disting.fibres.synthesis.duality import are_dual, dual
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Fibre, Solution, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Fibre, Solution, Status, target
+from disting.fibres.synthesis.theorems import are_dual, dual
 from tests.witness.mechanics import response
 
 Point = dict[str, Fraction]

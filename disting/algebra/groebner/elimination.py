@@ -16,8 +16,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import SupportsInt
 
-from disting.algebra.groebner.modular import MAX_DEGREE, Order
-from disting.algebra.groebner.modular import matrix as modular_matrix
+from disting.algebra.groebner.modular import MAX_DEGREE, Order, matrix as modular_matrix
 
 Sparse = Mapping[tuple[int, ...], int]  # exponents -> coefficient
 Multiple = tuple[list[int], tuple[int, ...]]  # codes and coefficients of a row of the matrix

@@ -32,15 +32,10 @@ def matrix(rows: int, columns: int, entries: Sequence[int], modulus: int) -> Mat
     return fmpz_mod_mat(rows, columns, entries, _context(modulus))
 
 
-def polynomial(coefficients: Sequence[int], modulus: int) -> Polynomial:
-    """A polynomial by its coefficients, ascending."""
-    if modulus.bit_length() <= WORD:
-        return nmod_poly(coefficients, modulus)
-    return _polynomials(modulus)(list(coefficients))
-
-
 def long_polynomial(coefficients: Sequence[int], modulus: int) -> fmpz_mod_poly:
-    """The same in long integers whatever the prime, for what words do not offer."""
+    """A polynomial by its coefficients, ascending, in long integers whatever the prime, for what
+    words do not offer.
+    """
     return _polynomials(modulus)(list(coefficients))
 
 

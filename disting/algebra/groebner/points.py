@@ -12,8 +12,8 @@ from collections.abc import Iterator
 
 from flint import nmod_mat
 
+from disting.algebra.certainty import residues
 from disting.algebra.groebner.elimination import Basis, Row
-from disting.algebra.sampling import residues
 
 MAX_SOLUTIONS = 600
 

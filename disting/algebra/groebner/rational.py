@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 
 FORMS = 5  # linear forms that are tried
 Vector = dict[tuple[int, ...], fmpq]

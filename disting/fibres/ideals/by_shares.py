@@ -22,9 +22,8 @@ from dataclasses import replace
 
 from disting.evidence.ideals import Shared
 from disting.fibres.ideals.factored import factored
-from disting.fibres.ideals.monodromy import poles_are_inseparable
 from disting.fibres.ideals.shares import TRIES, Try, told_apart
-from disting.fibres.ideals.splits import gap
+from disting.fibres.ideals.splits import gap, poles_are_inseparable
 from disting.model.row import rows_of
 from disting.model.structure import Structure
 

@@ -24,13 +24,13 @@ from disting.fibres.decision import Decision
 from disting.fibres.ideals.confirm import confirms
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.membership import Limits, decide
-from disting.fibres.ideals.monodromy import poles_are_inseparable
 from disting.fibres.ideals.splits import (
     Receptances,
     Split,
     gap,
     has_relation,
     is_plain,
+    poles_are_inseparable,
     power,
     receptances,
     relative_degree,
@@ -40,7 +40,6 @@ from disting.fibres.ideals.system import CoefficientMap
 from disting.model.question import Membership
 from disting.model.structure import Structure
 
-PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 # for up to eight statements: at most two rows in three splits, and the ranks that they rest on
 SPARE_BITS = 3
 Pair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there

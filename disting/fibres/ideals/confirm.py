@@ -2,22 +2,73 @@
 
 The labels of the evidence stand for random primes and points (`fibre_ideal.drawn`). The error bound
 is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
+
+Contradictions by plain Macaulay matrices: slow, simple, and independent of the search for
+Gröbner bases.
+
+The span of the generators of degree up to D is multiplied by the variables, as long as a product
+of degree up to D is new, elements whose degree fell included. If 1 lies in the span, there are no
+common zeros.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import comb
 
 from flint import fmpz_mpoly, nmod_poly
 
-from disting.algebra.groebner.macaulay import reaches_one
+from disting.algebra.groebner.modular import matrix as modular_matrix
 from disting.evidence.ideals import Refuted, Solved
-from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
+from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
 
+Polynomial = Mapping[tuple[int, ...], int]
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
+
+
+def reaches_one(generators: Iterable[Polynomial], size: int, modulus: int, degree: int) -> bool:
+    """Whether 1 is found in that degree.
+
+    >>> reaches_one([{(1, 1): 1, (0, 0): -1}, {(1, 0): 1}], 2, 101, 2)
+    True
+    """
+    rows = [dict(g) for g in generators if max(map(sum, g)) <= degree]
+    multiplied: set[tuple[int, ...]] = set()
+    while True:
+        rows = _echelon(rows, modulus)
+        fresh = [row for row in rows if _lead(row) not in multiplied and sum(_lead(row)) < degree]
+        if any(not any(_lead(row)) for row in rows):
+            return True
+        if not fresh:
+            return False
+        multiplied |= {_lead(row) for row in fresh}
+        rows += [{_times(e, i): c for e, c in row.items()} for row in fresh for i in range(size)]
+
+
+def _lead(row: Polynomial) -> tuple[int, ...]:
+    return max(row, key=_rank)
+
+
+def _rank(exponents: tuple[int, ...]) -> tuple[int, tuple[int, ...]]:
+    return sum(exponents), exponents
+
+
+def _times(exponents: tuple[int, ...], at: int) -> tuple[int, ...]:
+    return tuple(e + (i == at) for i, e in enumerate(exponents))
+
+
+def _echelon(
+    rows: list[dict[tuple[int, ...], int]], modulus: int
+) -> list[dict[tuple[int, ...], int]]:
+    columns = sorted({e for row in rows for e in row}, key=_rank, reverse=True)
+    table = [row.get(e, 0) % modulus for row in rows for e in columns]
+    matrix, rank = modular_matrix(len(rows), len(columns), table, modulus).rref()
+    return [
+        {e: int(matrix[i, j]) for j, e in enumerate(columns) if int(matrix[i, j])}
+        for i in range(rank)
+    ]
 
 
 def seen_again(
@@ -88,7 +139,8 @@ def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: Pol
             len(q) == len(other.parameters) and agree(given, point, other, q, modulus)
             for (modulus, point), q in ((drawn(given, label), q) for label, q in runs)
         )
-    ideals = (fibre_ideal(given, other, label, evidence.tangent) for label in evidence.labels)
+    bits = bits_of(given, other, evidence.tangent)
+    ideals = (fibre_ideal(given, other, label, evidence.tangent, bits) for label in evidence.labels)
     return bool(evidence.labels) and all(
         reaches_one(i.generators, len(i.unknowns), i.modulus, evidence.degree) for i in ideals
     )
@@ -111,7 +163,9 @@ def safety_of(
         return 0
     if isinstance(evidence, Solved):
         return safety_of_member(given, other) * count - 1
-    return safety_of_empty(given, other, True) * count - 1 if evidence.tangent else 0
+    if not evidence.tangent:
+        return 0
+    return safety_of_empty(given, other, True, bits_of(given, other, True)) * count - 1
 
 
 def _agree(

@@ -49,8 +49,6 @@ from disting.fibres.ideals.fibre_ideal import Polynomial, derivative, evaluated
 from disting.fibres.ideals.system import CoefficientMap, Terms, determinants, separated
 from disting.model.row import Row
 
-Point = tuple[int, ...]
-
 
 @dataclass(frozen=True, slots=True)
 class Share:

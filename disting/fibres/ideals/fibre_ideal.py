@@ -18,15 +18,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from flint import nmod_mat
-
-from disting.algebra.sampling import about, prime, residues
+from disting.algebra.certainty import about, prime, residues
+from disting.algebra.groebner.modular import Matrix, matrix, null_space
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, Terms
 
 Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
 REMEMBERED = 512  # ranks: a row is asked for in many pairs
 # of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
 BITS = 64
+LONG_BITS = 192  # of models so large that the others give no useful bound: slower, but one run does
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,10 +131,10 @@ def derivative(terms: Terms, at: int) -> Terms:
     return tuple(((*e[:at], e[at] - 1, *e[at + 1 :]), c * e[at]) for e, c in terms if e[at])
 
 
-def jacobian(model: PolynomialMap, point: Sequence[int], modulus: int) -> nmod_mat:
+def jacobian(model: PolynomialMap, point: Sequence[int], modulus: int) -> Matrix:
     """Jacobian matrix (coordinates x parameters) at a point modulo a prime."""
     rows = [_gradient(c, point, modulus) for c in model.coordinates]
-    return nmod_mat(len(rows), len(point), [x for row in rows for x in row], modulus)
+    return matrix(len(rows), len(point), [x for row in rows for x in row], modulus)
 
 
 def _gradient(terms: Terms, point: Sequence[int], modulus: int) -> list[int]:
@@ -155,9 +155,9 @@ def _gradient(terms: Terms, point: Sequence[int], modulus: int) -> list[int]:
     return [x % modulus for x in total]
 
 
-def pivots(echelon: nmod_mat, rank: int) -> list[int]:
+def pivots(echelon: Matrix, rank: int) -> list[int]:
     """Columns of the leading entries of an echelon form."""
-    return [next(j for j in range(echelon.ncols()) if echelon[i, j]) for i in range(rank)]
+    return [next(j for j in range(echelon.ncols()) if int(echelon[i, j])) for i in range(rank)]
 
 
 def _slice(model: PolynomialMap, there: Sequence[int], modulus: int) -> dict[str, int]:
@@ -178,7 +178,8 @@ def _tangents(
         [derivative(c, j) for j in range(len(other.parameters))] for c in other.coordinates
     ]
     rows = [
-        {i: int(normals[r, k]) for k, i in enumerate(order) if normals[r, k]} for r in range(rank)
+        {i: int(normals[r, k]) for k, i in enumerate(order) if int(normals[r, k])}
+        for r in range(rank)
     ]
     return [
         _combined(row, gradients, j, modulus) for row in rows for j in range(len(other.parameters))
@@ -189,17 +190,11 @@ def _degree(terms: Terms) -> int:
     return max((sum(e) for e, _ in terms), default=0)
 
 
-def _left_null_space(matrix: nmod_mat, order: list[int], modulus: int) -> tuple[nmod_mat, int]:
-    """Basis of {w: w matrix = 0} in echelon form, columns in the given order."""
-    ordered = nmod_mat(
-        matrix.ncols(),
-        len(order),
-        [matrix[i, j] for j in range(matrix.ncols()) for i in order],
-        modulus,
-    )
-    columns, nullity = ordered.nullspace()
-    entries = [columns[i, j] for j in range(nullity) for i in range(len(order))]
-    echelon: tuple[nmod_mat, int] = nmod_mat(nullity, len(order), entries, modulus).rref()
+def _left_null_space(of: Matrix, order: list[int], modulus: int) -> tuple[Matrix, int]:
+    """Basis of {w: w of = 0} in echelon form, columns in the given order."""
+    basis = null_space([[int(of[i, j]) for i in order] for j in range(of.ncols())], modulus)
+    entries = [x for row in basis for x in row]
+    echelon: tuple[Matrix, int] = matrix(len(basis), len(order), entries, modulus).rref()
     return echelon
 
 

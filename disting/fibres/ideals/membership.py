@@ -20,21 +20,27 @@ from dataclasses import dataclass
 from math import ceil
 from time import process_time
 
+from disting.algebra.certainty import about, residues
 from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
 from disting.algebra.groebner.points import free_variable, solution
-from disting.algebra.sampling import about, residues
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.decision import Decision
-from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
-from disting.fibres.ideals.fibre_ideal import FibreIdeal, agree, fibre_ideal, generic_rank
+from disting.fibres.ideals.bounds import LEAST, bits_of, safety_of_empty, safety_of_member
+from disting.fibres.ideals.fibre_ideal import (
+    BITS,
+    FibreIdeal,
+    agree,
+    fibre_ideal,
+    generic_rank,
+)
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
 from disting.model.question import Membership
 
-LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 # draws for one solution modulo the prime: each square root that it needs halves the chance that
 # there is one
 SPARE = 32
+TWO_ANSWERS = "one random point refutes, another does not"
 NO_BOUND = "primes of 64 bits give no useful bound for models of this size"
 
 
@@ -43,15 +49,21 @@ class Limits:
     """`entries` of one matrix (about 1 microsecond each), `safety` wanted bits, `seconds` for the
     whole decision.
 
-    The seconds are those of this process, whatever else the machine does.
+    The seconds are those of this process, whatever else the machine does. `long`: whether primes
+    longer than a word are taken where words give no useful bound; a run takes ten times as long.
     """
 
     seconds: float = 60.0
     entries: int = 20_000_000
     safety: int = 100
+    long: bool = False
 
 
 Told = Decision[Solved | Refuted]
+
+
+def _unknown(reason: str) -> Told:
+    return Decision(Membership.UNKNOWN, reason=reason)
 
 
 class _GivenUp(Exception):
@@ -92,7 +104,9 @@ class _Question:
         """The Gröbner basis of the fibre in this direction, at the point of this label, ready
         to be computed step by step.
         """
-        ideal = fibre_ideal(*self.sides(left_given), label, self.equal_rank)
+        sides = self.sides(left_given)
+        bits = bits_of(*sides, self.equal_rank)
+        ideal = fibre_ideal(*sides, label, self.equal_rank, bits)
         return _Run(
             left_given,
             label,
@@ -119,7 +133,7 @@ def decide(
     one.
     """
     if given.degrees[1] != other.degrees[1]:
-        return Decision(Membership.UNKNOWN, reason="the numbers of poles differ")
+        return _unknown("the numbers of poles differ")
     return decide_matched(
         *matched(given, other), equal_rank=equal_rank, seed=seed, limits=limits, members=members
     )
@@ -139,28 +153,21 @@ def decide_matched(
     """
     _refuse(left, right, equal_rank, seed)
     seed = _of_maps(seed, left, right)
-    if safety_of_empty(left, right, equal_rank) < LEAST:
-        return Decision(
-            Membership.UNKNOWN,
-            reason=NO_BOUND,
-        )
-    question = _Question(
-        left=left,
-        right=right,
-        equal_rank=equal_rank,
-        limits=limits,
-        deadline=process_time() + limits.seconds,
-    )
+    bits = bits_of(left, right, equal_rank)
+    too_long = bits > BITS and not limits.long
+    if too_long or safety_of_empty(left, right, equal_rank, bits) < LEAST:
+        return _unknown(NO_BOUND)
+    question = _Question(left, right, equal_rank, limits, process_time() + limits.seconds)
     try:
         ways = (True, False) if equal_rank else (True,)
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
         if basis.is_one:
             return _excluded(question, run, basis, seed)
-        if not members:
-            return Decision(Membership.UNKNOWN, reason="a random point has solutions")
+        if not members or run.ideal.modulus.bit_length() > BITS:
+            return _unknown("a random point has solutions")
         return _member(question, run, basis, seed)
     except _GivenUp as why:
-        return Decision(Membership.UNKNOWN, reason=str(why))
+        return _unknown(str(why))
 
 
 def is_empty(
@@ -170,14 +177,8 @@ def is_empty(
     one run, in this direction. Raises NotSeenError where the limits end it.
     """
     _refuse(given, other, equal_rank, "verify")
-    question = _Question(
-        left=given,
-        right=other,
-        equal_rank=equal_rank,
-        limits=limits,
-        deadline=process_time() + limits.seconds,
-    )
-    if safety_of_empty(given, other, equal_rank) < LEAST:
+    question = _Question(given, other, equal_rank, limits, process_time() + limits.seconds)
+    if safety_of_empty(given, other, equal_rank, bits_of(given, other, equal_rank)) < LEAST:
         raise NotSeenError(NO_BOUND)
     try:
         return _race(question, [question.run(True, label)])[1].is_one
@@ -228,7 +229,8 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
 
 
 def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
-    each = safety_of_empty(*question.sides(run.left_given), question.equal_rank)
+    bits = run.ideal.modulus.bit_length()
+    each = safety_of_empty(*question.sides(run.left_given), question.equal_rank, bits)
     labels, degree, reason = [run.label], basis.degree, ""
     try:
         while len(labels) < _needed(question, each):
@@ -236,9 +238,7 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
                 question, [question.run(run.left_given, _label(seed, len(labels)))]
             )
             if not found.is_one:
-                return Decision(
-                    Membership.UNKNOWN, reason="one random point refutes, another does not"
-                )
+                return _unknown(TWO_ANSWERS)
             labels.append(again.label)
             degree = max(degree, found.degree)
     except _GivenUp as why:
@@ -253,9 +253,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     try:
         for number in range(1, SPARE * wanted + 1):
             if basis.is_one:
-                return Decision(
-                    Membership.UNKNOWN, reason="one random point refutes, another does not"
-                )
+                return _unknown(TWO_ANSWERS)
             solved = _solution(question, run, basis)
             found |= {run.label: solved} if solved else {}
             if len(found) == wanted:
@@ -264,10 +262,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     except _GivenUp as why:
         reason = str(why)
     if not found:
-        return Decision(
-            Membership.UNKNOWN,
-            reason=reason or "no solution with coordinates modulo the prime was found",
-        )
+        return _unknown(reason or "no solution with coordinates modulo the prime was found")
     evidence = Solved(run.left_given, tuple(found), tuple(found.values()))
     return Decision(Membership.MEMBER, each * len(found) - question.price, evidence, reason)
 

@@ -39,13 +39,12 @@ from dataclasses import dataclass
 from math import ceil, log2
 from time import process_time
 
-from disting.algebra.certainty import LEAST_SAFETY
+from disting.algebra.certainty import LEAST_SAFETY, about
 from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
-from disting.algebra.sampling import about
 from disting.errors import ContradictionError
-from disting.fibres.ideals.bounds import safety_of_one_value, safety_of_other_values
+from disting.fibres.ideals.bounds import LEAST, safety_of_one_value, safety_of_other_values
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
-from disting.fibres.ideals.membership import LEAST, Limits
+from disting.fibres.ideals.membership import Limits
 from disting.fibres.ideals.system import PolynomialMap
 
 LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)

@@ -31,9 +31,9 @@ from math import ceil, inf, lcm, log2
 
 from flint import fmpz, fmpz_mod_poly
 
+from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
 from disting.algebra.groebner.modular import long_polynomial
-from disting.algebra.sampling import prime, residues
 from disting.evidence.ideals import Shared
 from disting.fibres.ideals.bounds import safety_of_empty
 from disting.fibres.ideals.factored import FactoredMap, Share, Values, shared_fibre, values

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
 
-from disting.algebra.sampling import digest
+from disting.algebra.certainty import digest
 from disting.fibres.ideals.system import SCALE, Terms
 
 Fraction = tuple[tuple[Terms, ...], tuple[Terms, ...]]

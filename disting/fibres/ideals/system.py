@@ -29,7 +29,7 @@ from typing import Protocol
 
 from flint import fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.sampling import digest
+from disting.algebra.certainty import digest
 from disting.algebra.symbols import renamed, symbols
 from disting.behaviour.expanded import expanded
 from disting.errors import InputError

@@ -20,10 +20,8 @@ from dataclasses import dataclass, replace
 from flint import acb, acb_mat, acb_poly, arb, ctx
 
 from disting.behaviour.transfer import Rational, plain_receptance, receptance
-from disting.fibres.synthesis.ball import TOLERANCE, Ball, Imprecise
-from disting.fibres.synthesis.branch_ends import NONZERO, Dead
-from disting.fibres.synthesis.result import Answer, Confirmation, Solution
-from disting.fibres.synthesis.target import Exact, Target
+from disting.fibres.synthesis.branch import NONZERO, TOLERANCE, Ball, Dead, Imprecise
+from disting.fibres.synthesis.task import Answer, Confirmation, Exact, Solution, Target
 from disting.model.chain import Chain
 
 Matrix = list[list[Ball]]

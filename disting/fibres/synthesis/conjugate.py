@@ -18,13 +18,19 @@ conjugates are all transpositions of zeros of N_i, which generate the symmetric 
 found holds without any chance.
 """
 
+from collections import defaultdict
+from collections.abc import Iterable
 from functools import cache
-from itertools import chain
+from itertools import chain, combinations
 
-from flint import fmpq_poly, fmpz, fmpz_poly, nmod_poly
+from flint import acb_poly, fmpq_poly, fmpz, fmpz_poly, nmod_poly
+
+from disting.fibres.synthesis.branch import Ball, Receptance, roots
 
 PRIMES = 400  # tried; a degree m needs about m of them, and r factors about 2^r times as many
 FIRST = 1 << 20
+# which zero is -rho, which are those of A and of B
+Way = tuple[int, tuple[int, ...], tuple[int, ...]]
 Shown = set[tuple[int, str]]  # number of the factor, and what is known of its zeros
 
 
@@ -83,3 +89,24 @@ def _primes() -> tuple[int, ...]:
         primes += [candidate] if fmpz(candidate).is_prime() else []
         candidate += 2
     return tuple(primes)
+
+
+def zeros_of(data: Receptance, degree: int) -> list[tuple[int, Ball]]:
+    """The zeros of N, each with the number of its kind; those of one kind are proven conjugate."""
+    factors = () if data.exact is None else conjugate_factors(data.exact)
+    if not factors:
+        return list(enumerate(roots(data.numerator, degree)))
+    return [(kind, z) for kind, f in enumerate(factors) for z in roots(acb_poly(f), f.degree())]
+
+
+def conjugate_ways(kinds: list[int], size: int) -> Iterable[list[Way]]:
+    """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in
+    each place stand together.
+    """
+    ways = defaultdict[tuple[int, ...], list[Way]](list)
+    for rho in range(len(kinds)):
+        others = [i for i in range(len(kinds)) if i != rho]
+        for left in combinations(others, size):
+            right = tuple(i for i in others if i not in left)
+            ways[kinds[rho], *sorted(kinds[i] for i in left)].append((rho, left, right))
+    return ways.values()

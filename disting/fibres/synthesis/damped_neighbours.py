@@ -20,7 +20,6 @@ Dampers to the ground on the left side alone change nothing but that D has a sim
 that L = 0.
 """
 
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, partial, reduce
@@ -28,14 +27,20 @@ from itertools import combinations
 from math import comb, inf, log2
 from operator import mul
 
-from flint import acb, acb_mat, acb_poly, ctx, fmpq
+from flint import acb_mat, ctx
 
 from disting.fibres.synthesis import friction
-from disting.fibres.synthesis.ball import (
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
     Ball,
     Imprecise,
+    Leaf,
     Poly,
     Receptance,
+    RowValues,
+    circle,
+    combined,
     cut,
     enclosed,
     is_boundary,
@@ -43,18 +48,16 @@ from disting.fibres.synthesis.ball import (
     product,
     roots,
     shifted,
+    through,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues, combined
-from disting.fibres.synthesis.conjugate import conjugate_factors
+from disting.fibres.synthesis.conjugate import conjugate_ways, zeros_of
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.model.row import Row
 
 DEGREE_LIMIT = 40  # of E(d): the time grows with its square
 ALONE_LIMIT = 60  # where it is done once: the poles need not be shared out between two rows
 QUICK_BITS = 128  # tried first where a candidate for d is to be refuted
-# which zero is -rho, which are those of A and of B
-Way = tuple[int, tuple[int, ...], tuple[int, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,9 +109,9 @@ def inner_neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
     """Yield every damped row with b = a + 1 and this receptance; a way that is refuted
     speaks for all its conjugates.
     """
-    zeros, gain = _zeros(data, row.numerator_degree), data.gain(row)
+    zeros, gain = zeros_of(data, row.numerator_degree), data.gain(row)
     seen: dict[int, list[Seen]] = {}
-    for same in _conjugate_ways([kind for kind, _ in zeros], 2 * (row.a - 1)):
+    for same in conjugate_ways([kind for kind, _ in zeros], 2 * (row.a - 1)):
         for way in same:
             (rho,), left, right = ([zeros[i][1] for i in some] for some in ((way[0],), *way[1:]))
             leaves = list(
@@ -117,27 +120,6 @@ def inner_neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
             yield from leaves
             if way is same[0] and leaves and all(leaf == NONZERO for leaf in leaves):
                 break
-
-
-def _zeros(data: Receptance, degree: int) -> list[tuple[int, Ball]]:
-    """The zeros of N, each with the number of its kind; those of one kind are proven conjugate."""
-    factors = () if data.exact is None else conjugate_factors(data.exact)
-    if not factors:
-        return list(enumerate(roots(data.numerator, degree)))
-    return [(kind, z) for kind, f in enumerate(factors) for z in roots(acb_poly(f), f.degree())]
-
-
-def _conjugate_ways(kinds: list[int], size: int) -> Iterable[list[Way]]:
-    """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in
-    each place stand together.
-    """
-    ways = defaultdict[tuple[int, ...], list[Way]](list)
-    for rho in range(len(kinds)):
-        others = [i for i in range(len(kinds)) if i != rho]
-        for left in combinations(others, size):
-            right = tuple(i for i in others if i not in left)
-            ways[kinds[rho], *sorted(kinds[i] for i in left)].append((rho, left, right))
-    return ways.values()
 
 
 def _branch(branch: Branch, seen: list["Seen"]) -> Iterator[Leaf]:
@@ -226,31 +208,6 @@ def _radius(branch: Branch) -> float:
     if not 0 < size < inf:
         raise Imprecise("coefficients vanish at a special point")
     return float(2.0 ** round(log2(size)))
-
-
-def interpolated(value: Callable[[Ball], Ball], degree: int, radius: float = 1.0) -> Poly:
-    """The polynomial of this degree from its values on a circle (radius: a power of two)."""
-    return through([value(d) for d in circle(degree, radius)], radius)
-
-
-def circle(degree: int, radius: float) -> list[Ball]:
-    """As many points on a circle as a polynomial of this degree has coefficients."""
-    return [radius * u for u in _unit(degree + 1)]
-
-
-def through(values: list[Ball], radius: float) -> Poly:
-    """The polynomial with these values on the `circle`."""
-    count, unit = len(values), _unit(len(values))
-    sums = [
-        sum((v * unit[-i * k % count] for k, v in enumerate(values)), acb(0)) / count
-        for i in range(count)
-    ]
-    return poly([c / acb(radius) ** i for i, c in enumerate(sums)])
-
-
-def _unit(count: int) -> list[Ball]:
-    """The roots of unity."""
-    return [acb.exp_pi_i(acb(fmpq(2 * j, count))) for j in range(count)]
 
 
 def _with_damper(

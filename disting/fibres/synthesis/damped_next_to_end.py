@@ -18,12 +18,16 @@ row has no tests (every mass but one at the wall has a damper), beta is a free c
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from disting.algebra.sampling import residues
+from disting.algebra.certainty import residues
 from disting.fibres.synthesis import friction
-from disting.fibres.synthesis.ball import (
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
     Ball,
+    Leaf,
     Poly,
     Receptance,
+    RowValues,
     cut,
     is_boundary,
     poly,
@@ -33,7 +37,6 @@ from disting.fibres.synthesis.ball import (
     splits,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.model.row import Row
 

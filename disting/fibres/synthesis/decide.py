@@ -17,16 +17,14 @@ from math import ceil, log2
 
 from flint import fmpq
 
-from disting.algebra.sampling import about, residues
+from disting.algebra.certainty import about, residues
 from disting.errors import ContradictionError, InputError
 from disting.evidence.decision import FibreAt
 from disting.fibres.decision import Decision
-from disting.fibres.synthesis.construction import is_constructed, is_untested
-from disting.fibres.synthesis.duality import are_dual
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import cost
-from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Status, target
+from disting.fibres.synthesis.theorems import are_dual, is_constructed, is_untested
 from disting.model.chain import Chain
 from disting.model.question import Membership
 from disting.model.row import rows_of

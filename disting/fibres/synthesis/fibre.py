@@ -26,20 +26,31 @@ from dataclasses import replace
 
 from flint import acb, ctx, fmpq, fmpq_poly
 
-from disting.fibres.synthesis.ball import Ball, Imprecise, Receptance, poly, product, roots, shifted
-from disting.fibres.synthesis.branch_ends import BOUNDARY, Dead, Leaf, Reason, RowValues, combined
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    Ball,
+    Dead,
+    Imprecise,
+    Leaf,
+    Reason,
+    Receptance,
+    RowValues,
+    combined,
+    poly,
+    product,
+    roots,
+    shifted,
+)
 from disting.fibres.synthesis.confirm import Checked, checked, listed
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
-from disting.fibres.synthesis.result import (
+from disting.fibres.synthesis.task import (
     Answer,
     Confirmation,
     Exclusions,
     Fibre,
     Solution,
     Status,
-)
-from disting.fibres.synthesis.target import (
     Target,
     degrees_differ,
     is_regular,

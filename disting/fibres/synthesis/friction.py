@@ -20,10 +20,14 @@ from dataclasses import dataclass, replace
 
 from flint import acb
 
-from disting.algebra.sampling import residues
-from disting.fibres.synthesis.ball import (
+from disting.algebra.certainty import residues
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
     Ball,
+    Leaf,
     Poly,
+    RowValues,
     cut,
     is_boundary,
     poly,
@@ -31,9 +35,7 @@ from disting.fibres.synthesis.ball import (
     shifted,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues
-from disting.fibres.synthesis.peel import Stiffness
-from disting.fibres.synthesis.peel import peel as plain_peel
+from disting.fibres.synthesis.peel import Stiffness, peel
 
 NOTHING = acb(0)
 
@@ -81,7 +83,7 @@ def slope(leaf: RowValues) -> Ball:
     return leaf.springs[0][1] if leaf.springs else NOTHING
 
 
-def peel(w: Side) -> Iterator[Leaf]:
+def peel_side(w: Side) -> Iterator[Leaf]:
     """Yield all masses, springs and dampers with this stiffness, from the port
     outwards.
     """
@@ -94,7 +96,7 @@ def peel(w: Side) -> Iterator[Leaf]:
     elif any(w.dampers):
         yield from _damped(w)
     else:
-        yield from plain_peel(
+        yield from peel(
             Stiffness(
                 numerator=w.numerator,
                 denominator=w.denominator,
@@ -118,7 +120,7 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
     if not node.damper and not node.elastic:
         yield from (
             (NOTHING, leaf)
-            for leaf in peel(replace(side, numerator=without_low(node.numerator, side)))
+            for leaf in peel_side(replace(side, numerator=without_low(node.numerator, side)))
         )
         return
     is_open = node.damper and not node.elastic and not side.is_loose
@@ -136,7 +138,7 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
     if not node.damper and not vanishes(b, _size(node.numerator)):
         yield NOTHING, NONZERO
         return
-    for leaf in peel(side):
+    for leaf in peel_side(side):
         yield (b - slope(leaf) if isinstance(leaf, RowValues) else NOTHING) if is_open else b, leaf
 
 

@@ -13,10 +13,13 @@ free masses with both dampers are a family: beta is a free choice.
 from collections.abc import Iterator
 
 from disting.fibres.synthesis import friction
-from disting.fibres.synthesis.ball import (
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
     Ball,
+    Leaf,
     Poly,
     Receptance,
+    RowValues,
     cut,
     is_boundary,
     poly,
@@ -24,7 +27,6 @@ from disting.fibres.synthesis.ball import (
     roots,
     shifted,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, RowValues
 from disting.model.row import Row
 
 

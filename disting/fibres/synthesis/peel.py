@@ -10,9 +10,13 @@ root z of P; since A(z) = Delta(z), only roots with d A(z) = P'(z) can serve.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from disting.fibres.synthesis.ball import (
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
     Ball,
+    Leaf,
     Poly,
+    RowValues,
     cut,
     is_boundary,
     poly,
@@ -20,7 +24,6 @@ from disting.fibres.synthesis.ball import (
     shifted,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Leaf, RowValues
 
 
 @dataclass(frozen=True, slots=True)

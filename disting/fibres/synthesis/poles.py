@@ -11,8 +11,11 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from disting.fibres.synthesis.ball import (
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
     Ball,
+    Dead,
     Poly,
     Receptance,
     cut,
@@ -22,7 +25,6 @@ from disting.fibres.synthesis.ball import (
     splits,
     vanishes,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, Dead
 from disting.model.row import Row
 
 

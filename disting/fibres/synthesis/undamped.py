@@ -11,10 +11,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from disting.algebra.sampling import residues
-from disting.fibres.synthesis.ball import (
+from disting.algebra.certainty import residues
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
     Ball,
+    Leaf,
     Receptance,
+    RowValues,
+    combined,
     cut,
     is_boundary,
     poly,
@@ -23,7 +27,6 @@ from disting.fibres.synthesis.ball import (
     shifted,
     splits,
 )
-from disting.fibres.synthesis.branch_ends import BOUNDARY, Leaf, RowValues, combined
 from disting.fibres.synthesis.collocated import between, inverse_residues
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.model.row import Row

@@ -8,17 +8,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from disting.fit.judge.exclusion import Exclusion
-from disting.fit.judge.explanation import chi2
+from disting.fit.judge.explanation import chi2, explained, noises, scatters, together, yardsticks
 from disting.fit.judge.practical import Practical, Seen, practical
-from disting.fit.judge.responses import explained, noises, scatters, together, yardsticks
 from disting.fit.judge.structural import with_structure
 from disting.fit.noise.covariance import expected
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.candidates import reference
+from disting.fit.search.data import Whitened
 from disting.fit.search.descent import Indices, fine
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.joint import AnyCost
-from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.presentation import summary

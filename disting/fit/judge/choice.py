@@ -15,13 +15,12 @@ import numpy as np
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate, Scatters, values_of
 from disting.fit.judge.exclusion import Exclusion, Fitted, basis_of, excluded, limit, statistic
-from disting.fit.judge.explanation import Explanation, allowed
-from disting.fit.judge.responses import explained, noises
+from disting.fit.judge.explanation import Explanation, allowed, explained, noises
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
+from disting.fit.search.data import Whitened
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
-from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings

@@ -22,8 +22,7 @@ from math import isfinite
 from typing import Protocol
 
 import numpy as np
-from scipy.stats import chi2
-from scipy.stats import f as f_distribution
+from scipy.stats import chi2, f as f_distribution
 
 from disting.fit.judge.practical import Seen
 from disting.fit.noise.covariance import VANISHING

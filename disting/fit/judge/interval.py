@@ -30,10 +30,10 @@ from disting.fit.judge.exclusion import FELT, limit
 from disting.fit.judge.practical import covariance
 from disting.fit.noise.covariance import equal
 from disting.fit.noise.scatter import Scatter
+from disting.fit.search.data import Whitened
 from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task
 from disting.fit.search.starts import natural, scale
-from disting.fit.search.whitened import Whitened
 from disting.measurement.arrays import Real
 
 STRAIGHT = 0.05  # relative standard error up to which Q is as good as a parabola

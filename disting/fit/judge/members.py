@@ -18,10 +18,10 @@ from disting.equivalence import Origin, Signs, equivalents
 from disting.fit.judge.alternatives import Limits
 from disting.fit.judge.candidate import Candidate, Scatters
 from disting.fit.judge.exclusion import contains
+from disting.fit.judge.explanation import noises, scatters, together
 from disting.fit.judge.interval import Interval, intervals
 from disting.fit.judge.joint_verdicts import behaves_alike
 from disting.fit.judge.practical import practical
-from disting.fit.judge.responses import noises, scatters, together
 from disting.fit.noise.covariance import expected
 from disting.fit.search.candidates import as_listed, reference
 from disting.fit.search.descent import fine

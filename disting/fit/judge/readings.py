@@ -5,6 +5,9 @@ A chain with dampers, a lag and a dead time, of as many masses as the best candi
 under each reading. They are compared by J on the training data, which in
 logarithms does not depend on the unit of the quantity. A mass more fits almost everything better, a
 rod, a notch filter, friction: it is named only if it explains the data (`explains`).
+
+What a few fits tell before all candidates are fitted: the signs of sensors where nobody said
+them, and how much the lines of several responses scatter.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -16,13 +19,15 @@ import numpy as np
 from disting.errors import ConstraintViolation
 from disting.fit.judge.candidate import explains, share_about
 from disting.fit.search.estimate import Estimate, Task
-from disting.fit.search.exchange import estimates, explored
+from disting.fit.search.exchange import SEARCHED, estimates, explored
+from disting.fit.search.joint import AnyCost, JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex
 from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.model.chain import Chain, Sensor
 from disting.store import Store
 
+PILOT = 3  # masses: fits that only tell what lines scatter by have no more
 # of the cost: what helps less than that, or than half as much as the best one, is not named
 FALLS = 0.5
 NOTHING = 1e-6  # a cost that is as good as zero
@@ -31,6 +36,56 @@ MOST = 5  # masses: one more than this is not tried
 NAMED = 4  # readings that are named
 MOST_DB = 400.0  # of a gain
 HELD = (2.0, 2.5, 4.0)  # rates of a hold, as ratios to the highest frequency
+
+
+def signed(task: Task, candidates: Sequence[Chain]) -> Task:
+    """The sign with which candidates fit better, the best of the largest and the smallest ones
+    of each size; of further responses each is tried beside the first one.
+    """
+    asked = _extremes(candidates)
+    cost = task.cost.thinned(SEARCHED)
+    first = replace(task, cost=cost.parts[0])
+    found = _better([replace(first, sign=sign) for sign in (1, -1)], asked)
+    if not isinstance(task.cost, JointCost):
+        return replace(task, sign=found.sign)
+    setups = [cost.setups[0]]
+    for part, setup in zip(cost.parts[1:], cost.setups[1:], strict=True):
+        pairs = [
+            JointCost((cost.parts[0], part), (cost.setups[0], replace(setup, sign=sign, delay="")))
+            for sign in (1, -1)
+        ]
+        best = _better([replace(found, cost=pair) for pair in pairs], asked)
+        setups.append(replace(setup, sign=best.cost.setups[1].sign))
+    whole = replace(task.cost, setups=tuple(setups))
+    return replace(task, sign=found.sign, cost=whole)
+
+
+def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[Complex]]:
+    """The responses of the best of a few candidates at the lines of any cost: a response divided by
+    them bends no more, so that neighbouring lines show what they scatter by.
+    """
+    least = min(c.n_masses for c in candidates)
+    asked = _extremes([c for c in candidates if c.n_masses <= max(PILOT, least)])
+    known = estimates(asked, task.thinned(SEARCHED))  # and smaller chains, which may lack a place
+    there = min((known[chain] for chain in asked), key=lambda e: e.j)
+    p = np.array([there.parameters[n] for n in task.names(there.chain)])
+    return lambda cost: [replace(task, cost=cost).plant(there.chain).response(p)]
+
+
+def _extremes(candidates: Sequence[Chain]) -> list[Chain]:
+    """The largest and the smallest ones of each size."""
+    by_size = [
+        [c for c in candidates if c.n_masses == n] for n in sorted({c.n_masses for c in candidates})
+    ]
+    return list(
+        dict.fromkeys(
+            choose(one, key=lambda c: len(c.parameters)) for one in by_size for choose in (min, max)
+        )
+    )
+
+
+def _better(tasks: list[Task], asked: list[Chain]) -> Task:
+    return min(tasks, key=lambda t: min(e.j for e in estimates(asked, t).values()))
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import measured_chain
 from disting.model.chain import Chain
 from disting.model.question import Settings
-from disting.questions.identifiability.basis import basis
 from disting.questions.identifiability.formula import Formula
+from disting.questions.identifiability.functions import basis
 from disting.questions.identifiability.tangent import proof_tangents
 
 MOST_TERMS = 3  # of a combination that is written out

@@ -22,11 +22,13 @@ from dataclasses import dataclass
 from math import exp, log
 
 import numpy as np
-from scipy.optimize import nnls
+from scipy.optimize import brentq, nnls
 from scipy.sparse import csr_array
+from scipy.special import digamma, polygamma
 
 from disting.measurement.arrays import Complex, Real
 
+MOST_FREEDOM = 1e4  # of a variance: as good as known
 SIDE = 3  # lines to either side of one, whose contrast they are
 DEGREE = 2  # of the polynomial through them
 LARGEST_LEFT_OUT = 0.075  # share of the ratios q / mu: bends of resonances, single bad lines
@@ -160,3 +162,41 @@ def kept_mean(trim: float) -> float:
     0.79
     """
     return 1 + trim * log(trim) / (1 - trim)
+
+
+def shrunk(power: Real, nu: float, shapes: Real) -> tuple[Real, float]:
+    """Variances of the lines from squared deviations of `nu` degrees of freedom, shrunk to the
+    sources, and the degrees of freedom of these.
+    """
+    trend = np.maximum(shapes @ coefficients(shapes, power, trim=0.0), 1e-9 * np.median(power))
+    apart = np.log(power / trend)
+    beyond = float(np.var(apart)) - float(polygamma(1, nu / 2))
+    prior = _inverse_trigamma(beyond) if beyond > 0 else MOST_FREEDOM
+    # the mean of logarithms of a variance of nu degrees lies below the logarithm of its mean
+    trend = trend * np.exp(apart.mean() - _bias(nu) + _bias(prior))
+    whole = nu + prior
+    unsure = whole / (whole - 2) if whole > 4 else 2.0  # mean of r^2 / sigma^2 is to be 1
+    return np.asarray((prior * trend + nu * power) / whole * unsure), prior
+
+
+def _bias(nu: float) -> float:
+    return float(digamma(nu / 2)) - log(nu / 2)
+
+
+def freedom_by_jumps(omega: Real, power: Real) -> float:
+    """Degrees of freedom of squared deviations, from how much their logarithms jump."""
+    at, h = stencil(omega)
+    values = np.log(power)[at]
+    jump = values[:, 0] - np.einsum("kj,kj->k", h, values[:, 1:])
+    return _inverse_trigamma(float(np.mean(jump**2 / (1 + np.sum(h**2, axis=1)))))
+
+
+def _inverse_trigamma(value: float) -> float:
+    """nu with trigamma(nu / 2) = value, between 0.1 and `MOST_FREEDOM`."""
+    low, high = 0.1, MOST_FREEDOM
+    if value <= polygamma(1, high / 2):
+        return high
+    if value >= polygamma(1, low / 2):
+        return low
+    root = brentq(lambda nu: float(polygamma(1, nu / 2)) - value, low, high)
+    return float(root)

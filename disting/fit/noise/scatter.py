@@ -30,7 +30,6 @@ from math import inf, log, sqrt
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from scipy.special import digamma, polygamma
 from scipy.stats import f as f_distribution
 
 from disting.fit.noise.line_variance import (
@@ -39,10 +38,11 @@ from disting.fit.noise.line_variance import (
     coefficients,
     contrasts,
     freedom,
+    freedom_by_jumps,
     kept_mean,
     quietest,
+    shrunk,
     sources,
-    stencil,
 )
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
@@ -58,7 +58,6 @@ SAME = 1e-6  # relative distance of two frequencies that count as one
 LEAST = 1e-5  # scatter below this is the rounding of a file
 SURE = 1e-3  # level of the tests for tau, and for standard deviations that are wrong
 WRONG = 2.0  # factor by which standard deviations are too large before that is said
-MOST_FREEDOM = 1e4  # of a variance: as good as known
 TINY = 1e-12  # share of a variance that is as good as nothing
 WORSE = 4.0  # ratio of variances from which on no fitted response is near the truth
 CLEAR = 0.2  # rho below which a line carries information
@@ -158,8 +157,8 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
     seen = each[_preferred([log(max(float(np.median(one.power)), TINY**2)) for one in each])]
     floor = float(np.median(deviation[deviation > 0])) ** 2
     power = np.maximum(deviation**2, 1e-6 * floor)
-    nu = measured.freedom or _freedom_by_jumps(measured.omega, power)
-    variance, prior = _shrunk(power, nu, _sources(measured, seen.size))
+    nu = measured.freedom or freedom_by_jumps(measured.omega, power)
+    variance, prior = shrunk(power, nu, _sources(measured, seen.size))
     own = Scatter(
         np.maximum(np.sqrt(variance / 2) / seen.size, LEAST),
         seen.size,
@@ -229,44 +228,6 @@ def _excess(seen: Contrasts, variance: Real) -> float:
 def _balanced(excess: Callable[[float], float], most: float = 2.0) -> float:
     """The tau at which a falling excess is zero."""
     return most if excess(most) > 0 else float(brentq(excess, 0.0, most, xtol=1e-6))
-
-
-def _shrunk(power: Real, nu: float, shapes: Real) -> tuple[Real, float]:
-    """Variances of the lines from squared deviations of `nu` degrees of freedom, shrunk to the
-    sources, and the degrees of freedom of these.
-    """
-    trend = np.maximum(shapes @ coefficients(shapes, power, trim=0.0), 1e-9 * np.median(power))
-    apart = np.log(power / trend)
-    beyond = float(np.var(apart)) - float(polygamma(1, nu / 2))
-    prior = _inverse_trigamma(beyond) if beyond > 0 else MOST_FREEDOM
-    # the mean of logarithms of a variance of nu degrees lies below the logarithm of its mean
-    trend = trend * np.exp(apart.mean() - _bias(nu) + _bias(prior))
-    whole = nu + prior
-    unsure = whole / (whole - 2) if whole > 4 else 2.0  # mean of r^2 / sigma^2 is to be 1
-    return np.asarray((prior * trend + nu * power) / whole * unsure), prior
-
-
-def _bias(nu: float) -> float:
-    return float(digamma(nu / 2)) - log(nu / 2)
-
-
-def _freedom_by_jumps(omega: Real, power: Real) -> float:
-    """Degrees of freedom of squared deviations, from how much their logarithms jump."""
-    at, h = stencil(omega)
-    values = np.log(power)[at]
-    jump = values[:, 0] - np.einsum("kj,kj->k", h, values[:, 1:])
-    return _inverse_trigamma(float(np.mean(jump**2 / (1 + np.sum(h**2, axis=1)))))
-
-
-def _inverse_trigamma(value: float) -> float:
-    """nu with trigamma(nu / 2) = value, between 0.1 and `MOST_FREEDOM`."""
-    low, high = 0.1, MOST_FREEDOM
-    if value <= polygamma(1, high / 2):
-        return high
-    if value >= polygamma(1, low / 2):
-        return low
-    root = brentq(lambda nu: float(polygamma(1, nu / 2)) - value, low, high)
-    return float(root)
 
 
 def changed(

@@ -27,17 +27,16 @@ from functools import cached_property
 from math import inf, sqrt
 from typing import Any
 
+from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL, joined, surplus, trials
 from disting.fit.plan.rival import Rival, Trust, fitted_rival
 from disting.fit.plan.sample import POWER, Sample, ideal, simulated
 from disting.fit.plan.search import AnyStructure, name_of, sensor_of, shown_as
-from disting.general.any_model import of_network
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.presentation import Shown, summary
 from disting.network.network import Network
 from disting.questions.inclusion import Inclusion
-from disting.schemas import Format
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Relation, Verdict
@@ -59,15 +58,6 @@ def power(noncentrality: float, surplus: int = 1, level: float = LEVEL) -> float
     (0.95, 0.01)
     """
     return ideal(surplus, level).power(noncentrality) if noncentrality > 0 else level
-
-
-def needed(surplus: int = 1, level: float = LEVEL, wanted: float = POWER) -> float:
-    """Noncentrality for a power, if the scatter is known.
-
-    >>> round(needed(), 1), round(needed(2), 1)
-    (17.8, 20.6)
-    """
-    return ideal(surplus, level).needed(wanted)
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,7 +194,7 @@ def _surplus(model: AnyStructure, rival: AnyStructure, engine: Engine) -> int:
     """s of the module; of networks the ranks of both are compared."""
     if isinstance(model, Chain) and isinstance(rival, Chain):
         return surplus(model, rival, engine.settings)
-    networks = [of_network(n) for n in (model, rival) if isinstance(n, Network)]
+    networks = [n for n in (model, rival) if isinstance(n, Network)]
     one, other = engine.general_subjects(networks)
     return max(1, one.rank - other.rank)
 

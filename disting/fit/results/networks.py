@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from disting.errors import listed
+from disting.files import Format
 from disting.fit.judge.explanation import FEW_CLEAR, Miss
 from disting.fit.judge.practical import Seen
 from disting.fit.noise.scatter import Scatter
@@ -13,7 +14,6 @@ from disting.measurement.arrays import Real
 from disting.model.presentation import Shown, summary
 from disting.network.network import Network
 from disting.network.notation.entries import entry_of
-from disting.schemas import Format
 from disting.verdict.decisions import Decisions
 
 BAR = " | "  # between names of networks, which have commas

@@ -7,9 +7,9 @@ does more the parameters are searched that do just this,
 
 and a draw that leads to none is left out.
 
-What behaves as a fitted structure does (a twin) is drawn along with it, to first order: with
-sensitivities S = d ln G / d ln p at the lines of the data a step x of the fitted structure's
-logarithms is a step y of the twin's with S_twin y = S x, the smallest where there are several.
+What behaves as a fitted structure does (a twin) is drawn along with it: its parameters q are
+searched that give the response of the draw at the lines of the data, G_twin(q) = G(p); a draw that
+has no such twin near by is left out.
 """
 
 from collections.abc import Iterator, Sequence
@@ -35,7 +35,10 @@ WIDEST = 1.0  # standard deviation of a logarithm, where the data do not determi
 STRAIGHT = 0.05  # standard deviation of a logarithm up to which a response is straight enough
 BLIND = 1e-8  # of the largest singular value of S: what is less says nothing of its direction
 BACK = 20  # steps of the search for what a draw stands for
-FELT = 1e-9  # of the largest sensitivity of a twin: what is less has no effect
+NEAR = 0.05  # of the largest change of a response: so exactly a twin gives that of a draw
+ROUNDED = 1e-9  # of a logarithm
+STEPS = 20  # of the search for it, each of a factor e at most
+FELT = 1e-12  # of the square of a twin's largest sensitivity: what is less has no effect
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,19 +65,32 @@ def with_twins(left: Sequence[Member], fitted: Sequence[Drawn], omega: Real) -> 
 
 
 def _carried(twin: Twin, one: Drawn, omega: Real) -> Drawn:
-    """The twin, drawn along with the structure whose twin it is."""
+    """The twin, drawn along with the structure whose twin it is: Newton's steps from its own
+    values, the smallest where there are several.
+    """
+    plant = Plant(twin.chain.structure, omega)
+    aims = Plant(one.chain.structure, omega).response(one.p)
     own = np.array([twin.parameters[name] for name in twin.chain.parameters])
-    response = Plant(one.chain.structure, omega).response(one.p)
-    moved = np.log(response / response[0])
-    moved = np.concatenate([moved.real, moved.imag], axis=-1)
-    there = np.linalg.lstsq(_sensitivity(twin.chain, own, omega), moved.T, rcond=FELT)[0]
-    return Drawn(twin.chain, own * np.exp(there.T))
+    x, near = np.tile(np.log(own), (len(aims), 1)), NEAR * np.abs(np.log(aims / aims[0])).max()
+    active = np.arange(len(aims))
+    for _ in range(STEPS):
+        p = np.exp(x[active])
+        response, gradient = plant.logarithmic_gradient(p)
+        left = _halves(np.log(aims[active] / response))
+        apart = np.abs(left).max(axis=-1) > near + ROUNDED
+        active = active[apart]
+        if not active.size:
+            break
+        rows = _halves(gradient[apart] * p[apart, :, None])
+        squares, slope = rows @ rows.swapaxes(-1, -2), rows @ left[apart, :, None]
+        step = (np.linalg.pinv(squares, rcond=FELT, hermitian=True) @ slope)[..., 0]
+        x[active] += step / np.maximum(1.0, np.abs(step).max(axis=-1, keepdims=True))
+    return Drawn(twin.chain, np.exp(np.delete(x, active, axis=0)))
 
 
-def _sensitivity(chain: Chain, p: Real, omega: Real) -> Real:
-    """d ln G / d ln p, real parts first, shape (2 n_f, n_p)."""
-    columns = Plant(chain.structure, omega).logarithmic_gradient(p)[1] * p[:, None]
-    return np.concatenate([columns.real, columns.imag], axis=-1).T
+def _halves(values: Complex) -> Real:
+    """Real parts first, shape (..., 2 n_f)."""
+    return np.concatenate([values.real, values.imag], axis=-1)
 
 
 def draws(candidate: Candidate, task: Task, count: int = DRAWS) -> Real:

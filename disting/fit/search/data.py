@@ -1,17 +1,76 @@
-"""Measured responses as a fit takes them: of one quantity and one sign, of numbers that can be
-computed with, of not too many lines.
+"""Measured responses as a fit takes them, and what each of several counts.
+
+Residuals in units of what the lines scatter, in the complex plane.
+
+    e_k = sqrt(2) (G_k(p) - G_M,k) conj(G_M,k / |G_M,k|) / sigma_k,
+
+real parts (along the response: amplitude) of all lines first, then imaginary parts (across it:
+phase); of the true parameters each has variance 1 and all are independent, however small the
+response is beside its noise, where logarithms are neither. |e|^2 is minus twice the logarithm of
+the likelihood.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.search.joint import Further
+from disting.fit.noise.scatter import LEAST, Scatter, changed, scatter, widened
+from disting.fit.search.cost import Cost, SquaredCost
+from disting.fit.search.joint import AnyCost, Further, JointCost
+from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse, are_opposite
+from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
+Lines = Callable[[FrequencyResponse], Real]
+
+
+@dataclass(frozen=True, eq=False)
+class Whitened(SquaredCost):
+    """Of the data of `cost`, whose lines scatter as `known` says."""
+
+    cost: AnyCost
+    known: Scatter
+
+    @property
+    def n_residuals(self) -> int:
+        """Those of the cost."""
+        return self.cost.n_residuals
+
+    def residual(self, response: Complex) -> Real:
+        """e, shape (..., 2 n_f), of stacked responses, shape (..., n_f)."""
+        parts = [
+            _apart((own - measured) * unit)
+            for own, (measured, unit) in zip(self.cost.by_line(response), self._units, strict=True)
+        ]
+        return np.concatenate(parts, axis=-1)
+
+    def sensitivity(self, response: Complex, gradient: Complex) -> Real:
+        """d e / d p, shape (..., 2 n_f, n_p), from stacked G and d ln G / d p."""
+        moved = gradient * response[..., None, :]
+        parts = [
+            _apart(own * unit)
+            for own, (_, unit) in zip(self.cost.by_line(moved), self._units, strict=True)
+        ]
+        return np.concatenate(parts, axis=-1).swapaxes(-1, -2)
+
+    @property
+    def _units(self) -> Iterator[tuple[Complex, Complex]]:
+        """Measured response and what turns and scales its residuals, for each response; a line of
+        weight zero counts nothing.
+        """
+        for part, own in zip(self.cost.parts, self.cost.by_line(self.known.sigma), strict=True):
+            measured = part.measured.G
+            used = 1.0 if part.lines is None else (part.lines > 0) * 1.0
+            yield measured, np.sqrt(2) * used * (np.abs(measured) / measured) / own
+
+
+def _apart(values: Complex) -> Real:
+    return np.concatenate([values.real, values.imag], axis=-1)
 
 
 def checked(
@@ -71,3 +130,92 @@ def _check_units(data: FrequencyResponse) -> None:
                 f"the {name} are {low:g} to {high:g} {unit}; {limits}: choose other units or leave"
                 " lines out"
             )
+
+
+def joint_cost(
+    first: Cost,
+    further: Sequence[Further],
+    lines: Lines | None,
+    alike: bool,
+    test: FrequencyResponse | None = None,
+    fitted: Sequence[Complex] = (),
+) -> AnyCost:
+    """The cost of all responses on the training data, each in units of its own scatter.
+
+    Weights 1/rho of each line, rho as `scatter` tells it with the stacked responses `fitted` of
+    candidates, what the machine changes by until its test data included; or those by `lines`, of
+    each response divided by what its weighted residuals scatter by, lambda^2 = mean (w rho)^2. Then
+    those of all are scaled to a mean square of 1. `alike`: all lines of all responses count alike.
+    """
+    whole = (Further(first.measured, Setup(), test), *further)
+    ends = np.cumsum([len(one.measured) for one in whole])[:-1]
+    known = [np.split(response, ends) for response in fitted]
+    own = [
+        np.ones(len(one.measured))
+        if alike
+        else _weights(one.measured, one.test, lines, [each[k] for each in known])
+        for k, one in enumerate(whole)
+    ]
+    size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))
+    parts = [
+        replace(first, measured=one.measured, lines=None if alike and not further else w / size)
+        for one, w in zip(whole, own, strict=True)
+    ]
+    setups = tuple(one.setup for one in whole)
+    if not further:
+        return parts[0]
+    return JointCost(tuple(parts), setups, tuple(s.delay for s in setups if s.delay))
+
+
+def _weights(
+    measured: FrequencyResponse,
+    other: FrequencyResponse | None,
+    lines: Lines | None,
+    fitted: Sequence[Complex],
+) -> Real:
+    """Weights of the lines of a response that was measured another time too."""
+    own = scatter(measured, fitted)
+    if lines is not None:
+        weights = lines(measured)
+        return weights / max(float(np.sqrt(np.mean((weights * own.rho) ** 2))), LEAST)
+    tau = changed(measured, other, own, scatter(other)) if other is not None else 0.0
+    return np.asarray(1.0 / widened(own, tau).rho)
+
+
+def judging_cost(
+    cost: AnyCost,
+    test: FrequencyResponse,
+    further: Sequence[Further],
+    lines: Lines | None,
+    alike: bool,
+    fitted: Callable[[AnyCost], Sequence[Complex]],
+) -> AnyCost:
+    """The cost on independent data, of the responses that have some; a response counts there as
+    much as on the training data. `fitted`: responses of candidates at the lines of a cost.
+    """
+    tests = [test, *(one.test for one in further)]
+    kept = [
+        (replace(part, measured=data, lines=None), part)
+        for part, data in zip(cost.parts, tests, strict=True)
+        if data is not None
+    ]
+    tested = [data is not None for data in tests]
+    places = cost.places if isinstance(cost, JointCost) else {}
+    plain = JointCost(
+        tuple(part for part, _ in kept),
+        tuple(compress(cost.setups, tested)),
+        cost.delays,
+        {of: tuple(compress(setups, tested)) for of, setups in places.items()},
+    )
+    each = [plain.by_line(response) for response in fitted(plain)]
+    parts = []
+    for k, (part, trained) in enumerate(kept):
+        own = [responses[k] for responses in each]
+        data = part.measured
+        weights = np.ones(len(data)) if alike else _weights(data, trained.measured, lines, own)
+        parts.append(replace(part, lines=weights * _size(trained.lines) / _size(weights)))
+    return parts[0] if isinstance(cost, Cost) else replace(plain, parts=tuple(parts))
+
+
+def _size(weights: Real | None) -> float:
+    return 1.0 if weights is None else float(np.sqrt(np.mean(weights**2)))

@@ -19,8 +19,7 @@ from threadpoolctl import ThreadpoolController
 from disting.errors import InputError
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.joint import AnyCost, AnyPlant
-from disting.fit.search.neighbours import carried, neighbours
-from disting.fit.search.pairs import conspicuous, paired
+from disting.fit.search.neighbours import carried, conspicuous, neighbours, paired
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import (
     UNFELT,

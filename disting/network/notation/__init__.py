@@ -5,10 +5,17 @@ import re
 from disting.errors import InputError, listed, of_type, shown
 from disting.model.chain import Sensor, as_sensor
 from disting.network.network import Network
-from disting.network.notation.circuit import AUTOEIS, BOUKAMP, IMPEDANCE, circuit, dialects_of
+from disting.network.notation.circuit import (
+    AUTOEIS,
+    BOUKAMP,
+    IMPEDANCE,
+    LINE,
+    circuit,
+    dialects_of,
+    netlist,
+)
 from disting.network.notation.compartments import CALL, compartments
 from disting.network.notation.machine import DRAWN, machine
-from disting.network.notation.netlist import LINE, netlist
 
 DIALECTS = {d.name: d for d in (IMPEDANCE, AUTOEIS, BOUKAMP)}
 NOTATIONS = (*DIALECTS, "spice", "machine", "compartments")

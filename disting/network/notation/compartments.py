@@ -45,7 +45,7 @@ def compartments(text: str, name: str) -> Network:
             if not found:
                 raise InputError(
                     f"{shown(arrow.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
-                    " 1; out 1"
+                    " 1; out 1 (out 1, 2 of two)"
                 )
             a, b = int(found[1]), int(found[3])
             flows += [(a, b), (b, a)] if found[2] == "<>" else [(a, b)]

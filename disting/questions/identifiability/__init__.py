@@ -25,25 +25,29 @@ several statements together; `encoded` and `decoded` are for a store.
 (<Certainty.BOUNDED: 'bounded'>, 99)
 """
 
-from disting.questions.identifiability.analysis import IDENTIFIABILITY as IDENTIFIABILITY
-from disting.questions.identifiability.analysis import as_given as as_given
-from disting.questions.identifiability.analysis import identifiabilities as identifiabilities
-from disting.questions.identifiability.analysis import identifiability as identifiability
-from disting.questions.identifiability.answer import Identifiability as Identifiability
-from disting.questions.identifiability.by_parameter import Local as Local
-from disting.questions.identifiability.by_parameter import (
-    ParameterIdentifiability as ParameterIdentifiability,
+from disting.questions.identifiability.analysis import (
+    IDENTIFIABILITY as IDENTIFIABILITY,
+    as_given as as_given,
+    identifiabilities as identifiabilities,
+    identifiability as identifiability,
 )
-from disting.questions.identifiability.by_parameter import by_parameter as by_parameter
-from disting.questions.identifiability.by_parameter import decoded as decoded
-from disting.questions.identifiability.by_parameter import encoded as encoded
-from disting.questions.identifiability.by_parameter import joint as joint
-from disting.questions.identifiability.by_parameter import local as local
+from disting.questions.identifiability.answer import Identifiability as Identifiability
+from disting.questions.identifiability.by_parameter import (
+    Local as Local,
+    ParameterIdentifiability as ParameterIdentifiability,
+    by_parameter as by_parameter,
+    decoded as decoded,
+    encoded as encoded,
+    joint as joint,
+    local as local,
+)
 from disting.questions.identifiability.check import confirms as confirms
 from disting.questions.identifiability.formula import Formula as Formula
-from disting.questions.identifiability.parts import Alternative as Alternative
-from disting.questions.identifiability.parts import Combination as Combination
-from disting.questions.identifiability.parts import Level as Level
-from disting.questions.identifiability.parts import Origin as Origin
-from disting.questions.identifiability.parts import Renaming as Renaming
-from disting.questions.identifiability.parts import Scaling as Scaling
+from disting.questions.identifiability.parts import (
+    Alternative as Alternative,
+    Combination as Combination,
+    Level as Level,
+    Origin as Origin,
+    Renaming as Renaming,
+    Scaling as Scaling,
+)

@@ -14,22 +14,19 @@ from dataclasses import dataclass, replace
 
 from flint import acb, fmpq
 
-from disting.algebra.certainty import Certainty, Grade
-from disting.algebra.sampling import enough
+from disting.algebra.certainty import Certainty, Grade, enough
 from disting.behaviour.chain_model import ChainModel
 from disting.errors import ContradictionError
-from disting.fibres.synthesis.result import Answer, Status
+from disting.fibres.synthesis.task import Answer, Status
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
 from disting.model.question import Question, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.basis import Basis, basis
 from disting.questions.identifiability.formula import Formula, monomial
-from disting.questions.identifiability.functions import Candidate
+from disting.questions.identifiability.functions import Basis, Candidate, basis, scalings
 from disting.questions.identifiability.parts import Combination, Level, Origin, Renaming, Scaling
-from disting.questions.identifiability.scalings import scalings
 from disting.questions.identifiability.solutions import (
     Listing,
     Member,

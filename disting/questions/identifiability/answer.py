@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
-from disting.fibres.synthesis.result import Answer
+from disting.fibres.synthesis.task import Answer
 from disting.model.presentation import Shown, summary
 from disting.questions.identifiability.formula import Formula
 from disting.questions.identifiability.parts import (

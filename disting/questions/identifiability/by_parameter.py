@@ -13,8 +13,7 @@ from dataclasses import asdict, dataclass
 from math import ceil, log2
 from typing import Any
 
-from disting.algebra.certainty import Certainty, graded, joint_safety
-from disting.algebra.sampling import enough, safety
+from disting.algebra.certainty import Certainty, enough, graded, joint_safety, safety
 from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
 from disting.model.presentation import summary

@@ -7,7 +7,7 @@ from dataclasses import replace
 from disting.algebra.quotient import matrix
 from disting.behaviour.expanded import is_renaming
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.target import fraction, target
+from disting.fibres.synthesis.task import fraction, target
 from disting.model.chain import Chain
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.identifiability.formula import monomial

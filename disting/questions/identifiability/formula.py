@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from math import ceil, log2
 from typing import Any
 
+from disting.algebra.certainty import Size
 from disting.algebra.notation import latex, text
-from disting.algebra.sampling import Size
 from disting.algebra.symbols import Term
 
 Number = Any  # an element of a field

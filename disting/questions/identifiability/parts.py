@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.algebra.certainty import Certainty
-from disting.fibres.synthesis.result import Answer
+from disting.fibres.synthesis.task import Answer
 from disting.questions.identifiability.formula import Formula
 
 MOST_TERMS = 6  # of a coefficient that is written out; longer ones are named

@@ -23,15 +23,12 @@ from typing import Any
 
 from flint import acb, fmpq
 
-from disting.algebra.certainty import Certainty, Grade
-from disting.algebra.sampling import about
+from disting.algebra.certainty import Certainty, Grade, about
 from disting.errors import ContradictionError
-from disting.fibres.synthesis.construction import is_untested
 from disting.fibres.synthesis.decide import DRAWS, point_bits, rational_point, safety_of_point
-from disting.fibres.synthesis.duality import are_dual, dual
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Solution, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Solution, Status, target
+from disting.fibres.synthesis.theorems import are_dual, dual, is_untested
 from disting.model.chain import Chain
 from disting.model.row import grounded_and_free
 from disting.model.symmetry import forms

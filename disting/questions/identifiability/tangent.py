@@ -17,8 +17,8 @@ from math import lcm
 
 from flint import fmpz_mat, nmod_mat
 
+from disting.algebra.certainty import about, prime, residues
 from disting.algebra.quotient import matrix, rational
-from disting.algebra.sampling import about, prime, residues
 from disting.behaviour.chain_model import ChainModel, powers
 from disting.behaviour.sample import Drawn, Representation, at_point, drawn, seen_at
 from disting.model.structure import Structure

@@ -24,8 +24,7 @@ from dataclasses import astuple
 from functools import lru_cache
 from itertools import permutations, product
 
-from disting.algebra.certainty import Certainty
-from disting.algebra.sampling import about
+from disting.algebra.certainty import Certainty, about
 from disting.behaviour.chain_model import degrees
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding
@@ -44,11 +43,9 @@ from disting.model.question import Settings
 from disting.model.row import Row, canonical_rows
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.limit_fibre import contained
-from disting.questions.inclusion.limits import follows, reached
-from disting.questions.inclusion.meeting import room
-from disting.questions.inclusion.missing_elements import by_elements
+from disting.questions.inclusion.limits import follows, reached, room
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
-from disting.questions.inclusion.profiles import exceed, ordered
+from disting.questions.inclusion.profiles import by_elements, exceed, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part, theorem
 

@@ -27,16 +27,15 @@ sum is a limit of its models. What a row can be, in a limit, `row_closures` tell
 from collections.abc import Sequence
 from dataclasses import replace
 
-from disting.algebra.certainty import joint_safety
-from disting.algebra.sampling import about
+from disting.algebra.certainty import about, joint_safety
 from disting.evidence.limits import SUPPORTS, WHOLE, Outside, RowsInside
 from disting.fibres.ideals import normalised
-from disting.fibres.ideals.monodromy import poles_are_inseparable
 from disting.fibres.ideals.splits import (
     SAME,
     gap,
     has_relation,
     is_plain,
+    poles_are_inseparable,
     power,
     receptances,
     splits,

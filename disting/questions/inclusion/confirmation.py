@@ -17,6 +17,7 @@ from disting.evidence.across_sizes import (
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refuted, Solved
+from disting.evidence.kind import POINTS, Labels
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
@@ -27,7 +28,6 @@ from disting.evidence.limits import (
     RelativeDegrees,
     RowsInside,
 )
-from disting.evidence.seen import POINTS, Labels
 from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
@@ -36,11 +36,9 @@ from disting.model.structure import Structure
 from disting.questions.inclusion.across_sizes import degrees_of, exceeds, fewer_poles, twins
 from disting.questions.inclusion.closures import confirms_rows
 from disting.questions.inclusion.limit_fibre import contains
-from disting.questions.inclusion.limits import follows
-from disting.questions.inclusion.meeting import Room, room
-from disting.questions.inclusion.missing_elements import confirms_missing
+from disting.questions.inclusion.limits import Room, follows, room
 from disting.questions.inclusion.pole_sharing import excludes
-from disting.questions.inclusion.profiles import exceed, ordered
+from disting.questions.inclusion.profiles import confirms_missing, exceed, ordered
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part

@@ -38,17 +38,16 @@ from disting.evidence.limits import RowsInside
 from disting.fibres.ideals import (
     Limits,
     coefficient_map,
+    decide as decide_ideal,
     included_by_rows,
     normalised,
 )
-from disting.fibres.ideals import decide as decide_ideal
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question, Settings
 from disting.questions.inclusion.across_sizes import by_computing, by_sizes
 from disting.questions.inclusion.closures import of_closure
 from disting.questions.inclusion.image import of_image
-from disting.questions.inclusion.missing_elements import by_elements
-from disting.questions.inclusion.profiles import by_profiles
+from disting.questions.inclusion.profiles import by_elements, by_profiles
 from disting.questions.inclusion.side import ChainSide
 from disting.questions.same.exact import rational_part
 

@@ -24,8 +24,7 @@ from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
 from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
-from disting.questions.inclusion.limits import Step, follows, reached
-from disting.questions.inclusion.meeting import least_rank, most_rank
+from disting.questions.inclusion.limits import Step, follows, least_rank, most_rank, reached
 
 LIMITS = Limits(seconds=60.0, entries=30_000, safety=104)  # of the ideal of one fibre
 MODELS = 12  # that are tried for a pair

@@ -33,8 +33,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice, product
 
+from disting.algebra.certainty import prime
 from disting.algebra.quotient import constant, matrix, variable
-from disting.algebra.sampling import prime
 from disting.behaviour.chain_model import powers
 from disting.model.chain import Chain
 from disting.model.row import GROUNDED, canonical_rows

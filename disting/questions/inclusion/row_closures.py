@@ -20,8 +20,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
-from disting.algebra.certainty import LEAST_SAFETY
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import LEAST_SAFETY, prime, residues
 from disting.behaviour.chain_model import powers
 from disting.evidence.limits import RowLimits, Why
 from disting.fibres.ideals import CoefficientMap, Limits, decide

@@ -8,7 +8,7 @@ monomials of a block as columns and random models as rows, the kernel of the mat
 equations of this block modulo the prime, reduced from equations over the integers, if the matrix
 has its generic rank: if one minor, a polynomial with integer coefficients in the parameters of all
 these models, does not vanish. The probability that it does is bounded by
-`algebra.sampling.safety`.
+`algebra.certainty.safety`.
 """
 
 from collections import defaultdict
@@ -22,8 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from disting.algebra.certainty import SEARCH_BITS, Size, prime, residues, safety
 from disting.algebra.quotient import constant, matrix, variable
-from disting.algebra.sampling import SEARCH_BITS, Size, prime, residues, safety
 from disting.behaviour.chain_model import common_power, powers
 from disting.behaviour.transfer import plain_receptance, values_at
 from disting.model.row import Row

@@ -40,7 +40,7 @@ refutes limits, without any chance. That n is irreducible is seen modulo a prime
 
 from collections.abc import Iterable
 
-from disting.algebra.fractionfree import Modular, interpolated, polynomial, resultant
+from disting.algebra.determinants import Modular, interpolated, polynomial, resultant
 from disting.model.row import Row
 from disting.questions.inclusion.row_resultants import end_equation
 

@@ -75,7 +75,7 @@ others. Where R_e = 0, its value is that on the line R + t x^e at t = 0.
 from itertools import combinations
 from math import comb
 
-from disting.algebra.fractionfree import Modular, interpolated, polynomial, resultant
+from disting.algebra.determinants import Modular, interpolated, polynomial, resultant
 from disting.algebra.groebner.modular import matrix
 from disting.model.row import Row
 

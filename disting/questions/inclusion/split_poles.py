@@ -5,9 +5,9 @@
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from disting.algebra.fractionfree import Modular
+from disting.algebra.certainty import prime, residues
+from disting.algebra.determinants import Modular
 from disting.algebra.quotient import constant, variable
-from disting.algebra.sampling import prime, residues
 from disting.behaviour.chain_model import degrees, quotient
 from disting.model.chain import Chain, Sensor
 

@@ -1,11 +1,10 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
 from disting.algebra.certainty import Certainty
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import Excluded, Theorem
 from disting.evidence.positive import (
     BoxMap,
     EmptyFibre,
-    Excluded,
     Interlacing,
     OnlyOne,
     Points,
@@ -16,8 +15,7 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.chain import Chain
 from disting.questions.positive.obstacles import (
     Obstacle,

@@ -48,9 +48,9 @@ from math import inf
 
 from flint import acb, ctx, fmpq
 
-from disting.fibres.synthesis.ball import Ball, Imprecise, roots, shifted
+from disting.fibres.synthesis.branch import Ball, Imprecise, roots, shifted
 from disting.fibres.synthesis.fibre import PRECISIONS
-from disting.fibres.synthesis.target import Target, target
+from disting.fibres.synthesis.task import Target, target
 from disting.model.chain import Chain
 from disting.model.row import Row, rows_of
 from disting.model.structure import Ports

@@ -23,21 +23,28 @@ from flint import arb, fmpq
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, graded
 from disting.algebra.content import written
 from disting.errors import InputError, shown
-from disting.evidence.positive import BoxMap, Empirical, Excluded, Points, PositiveFinding, Share
-from disting.fibres.synthesis.construction import is_untested
-from disting.fibres.synthesis.duality import are_dual, dual
+from disting.evidence.decision import Excluded
+from disting.evidence.positive import BoxMap, Empirical, Points, PositiveFinding, Share
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Solution, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Solution, Status, target
+from disting.fibres.synthesis.theorems import are_dual, dual, is_untested
 from disting.model.chain import Chain
-from disting.model.exact_number import MOST_DIGITS, is_too_long
-from disting.model.names import name_of
+from disting.model.names import MOST_DIGITS, is_too_long, name_of
 from disting.model.question import Settings
 from disting.model.symmetry import canonical, forms
 from disting.questions.positive.obstacles import Obstacle, Point
-from disting.questions.positive.points import Range, equivalent, random_point, read, spelled
+from disting.questions.positive.points import (
+    DRAWS,
+    Range,
+    bits,
+    drawn_near,
+    equivalent,
+    is_long,
+    random_point,
+    read,
+    spelled,
+)
 from disting.questions.positive.shares import is_plain, positive_finding, refuse
-from disting.questions.positive.witness import DRAWS, bits, drawn_near, is_long
 
 TRIES = 20
 Bound = int | float | str | Fraction

@@ -46,12 +46,12 @@ from collections.abc import Iterator
 
 from flint import acb, ctx
 
+from disting.algebra.certainty import residues
 from disting.algebra.content import written
-from disting.algebra.sampling import residues
 from disting.evidence.positive import Values
-from disting.fibres.synthesis.ball import Ball, Imprecise, Poly, product, roots, shifted, splits
-from disting.fibres.synthesis.construction import is_plain
-from disting.fibres.synthesis.target import Target, target
+from disting.fibres.synthesis.branch import Ball, Imprecise, Poly, product, roots, shifted, splits
+from disting.fibres.synthesis.task import Target, target
+from disting.fibres.synthesis.theorems import is_plain
 from disting.model.chain import Chain
 from disting.model.row import Row
 from disting.questions.positive.obstacles import Point, distances, is_collocated, receptances, rows

@@ -25,14 +25,12 @@ a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 from collections.abc import Iterator
 from dataclasses import replace
 
-from disting.algebra.certainty import Certainty
-from disting.algebra.sampling import about
+from disting.algebra.certainty import Certainty, about
 from disting.errors import InputError
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import Excluded, Theorem
 from disting.evidence.positive import (
     Empirical,
     EmptyFibre,
-    Excluded,
     Interlacing,
     Points,
     PositiveEvidence,
@@ -41,8 +39,8 @@ from disting.evidence.positive import (
     Share,
 )
 from disting.fibres.synthesis.decide import member, point_bits, rational_point, safety_of_point
-from disting.fibres.synthesis.duality import are_dual
-from disting.fibres.synthesis.result import Answer
+from disting.fibres.synthesis.task import Answer
+from disting.fibres.synthesis.theorems import are_dual
 from disting.model.chain import Chain
 from disting.model.question import Membership, Settings
 from disting.model.row import Row

@@ -58,7 +58,7 @@ from typing import Any
 
 from flint import ctx
 
-from disting.fibres.synthesis.target import Target
+from disting.fibres.synthesis.task import Target
 
 Word = tuple[int, ...]
 PRECISIONS = (128, 512, 2048)  # of roots that are put in order

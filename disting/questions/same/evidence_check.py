@@ -7,24 +7,25 @@ from functools import partial
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
+from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
-from disting.evidence.kind import Kind
+from disting.evidence.kind import Kind, Seen, SeenPair, seen
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
-from disting.evidence.seen import Seen, SeenPair, seen
 from disting.fibres.ideals import (
     MOST,
     chains_told_apart,
     coefficient_map,
+    matched,
     normalised,
+    refuted_at,
     same_by_full_rows,
     seen_again,
 )
 from disting.fibres.synthesis.decide import Grounds
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Status
-from disting.fibres.synthesis.target import fraction, target
+from disting.fibres.synthesis.task import Status, fraction, target
 from disting.model.chain import Chain
 from disting.model.minors import embeddings
 from disting.model.question import Settings
@@ -32,7 +33,7 @@ from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import identifiability
 from disting.questions.positive import confirms_real, proves
-from disting.questions.same.exact import rational_part, theorem
+from disting.questions.same.exact import exact_again, rational_part, theorem
 from disting.questions.same.real_and_positive import real_factors
 
 
@@ -149,3 +150,23 @@ def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
         for chain, n in ((left, evidence.left), (right, evidence.right))
     ]
     return all(n % 2 == 1 and x.least == x.most == n for x, n in answers)
+
+
+def finding_holds(found: Finding, first: Chain, second: Chain, settings: Settings) -> bool:
+    """Whether a finding on two canonical chains of equal rank is what its evidence shows.
+
+    Outcome, bound and labels are compared with those that the settings draw. At these labels shares
+    are refuted once more, solutions are put into both transfer functions, and contradictions of
+    ideals are found again: all that the bound counts, in the direction that the evidence names.
+    Raises NotSeenError where that takes too long.
+    """
+    evidence = found.evidence
+    if evidence is None or found != exact_again(evidence, first, second, settings):
+        return False
+    if isinstance(evidence, Solved):  # of ideals, only the labels were drawn again
+        return Witness().confirms(evidence, "fibre", first, second)
+    if isinstance(evidence, Refuted):
+        coordinates = normalised if evidence.is_normalised else coefficient_map
+        maps = matched(*(coordinates(rational_part(chain)) for chain in (first, second)))
+        return refuted_at(evidence.labels, evidence, *maps)
+    return True

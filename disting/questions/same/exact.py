@@ -65,8 +65,7 @@ from disting.fibres.ideals import (
 )
 from disting.fibres.ideals.full_rows import same_by_full_rows
 from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
-from disting.fibres.synthesis.duality import are_dual
-from disting.fibres.synthesis.foster import are_foster, are_same_by_rows
+from disting.fibres.synthesis.theorems import are_dual, are_foster, are_same_by_rows
 from disting.model.chain import Chain
 from disting.model.question import Membership, Settings
 from disting.model.structure import Structure

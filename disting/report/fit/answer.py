@@ -1,18 +1,158 @@
 """What a fit says to somebody who reads one paragraph: a plain answer, three numbers, the rule by
 which the structure was chosen.
+
+Rows of the tables of numbers: what a model says about the machine, its parameters, and their
+intervals.
+
+The structures that the data do not exclude, as the page shows them: drawn, with intervals,
+links and commands.
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from markupsafe import Markup
+
 from disting.evidence.conditions import capital
 from disting.fit.judge.admissible import Rule
+from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import allowed
+from disting.fit.judge.members import Member, Twin
+from disting.fit.judge.modes import Result
 from disting.fit.results.selection import Selection
-from disting.report.fit.table_rows import Row
-from disting.report.fit.words import name, percent, readable
+from disting.fit.search.estimate import Task
+from disting.measurement import FrequencyResponse
+from disting.report.drawing import draw
+from disting.report.fit.onward import Link, Site, Step, step_to, steps_of
+from disting.report.fit.responses import drawing, fits_of, seen_together
+from disting.report.fit.words import (
+    between,
+    error_in_percent,
+    name,
+    percent,
+    readable,
+    result_unit,
+    unit_of,
+    with_error,
+)
 from disting.report.words import plural
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of a table of numbers: what, value, unit, how sure it is (error in percent, or an
+    interval), a remark.
+    """
+
+    name: str
+    value: str
+    unit: str
+    percent: str
+    remark: str = ""
+
+
+def result_row(found: Result, measured: FrequencyResponse) -> Row:
+    """A physical result in the units of the data."""
+    share = found.standard_error / abs(found.value) if found.value else 0.0
+    low, high = measured.frequency[0], measured.frequency[-1]
+    outside = found.unit == "Hz" and not low <= found.value <= high
+    remark = "outside the measured band" if outside else ""
+    # follows its mode
+    what = "its damping ratio" if found.name.startswith("damping ratio") else found.name
+    return Row(
+        what,
+        with_error(found.value, found.standard_error),
+        result_unit(found, measured),
+        error_in_percent(share),
+        remark,
+    )
+
+
+def parameter_rows(candidate: Candidate, task: Task, measured: FrequencyResponse) -> list[Row]:
+    """Parameters in the order of the chain."""
+    values = candidate.estimate.parameters
+    return [
+        _parameter(candidate, task, n, value, unit_of(n[0], measured))
+        for n, value in values.items()
+    ]
+
+
+def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) -> Row:
+    if n in task.fixed:
+        return Row(n, readable(value, 6), of, "", "fixed")
+    share = candidate.practical.relative_errors[n]
+    return Row(
+        n,
+        with_error(value, share * value),
+        of,
+        error_in_percent(share),
+        "at its bound" if n in candidate.at_bound else "",
+    )
+
+
+def intervals(member: Member, measured: FrequencyResponse) -> list[Row]:
+    """Values of a member with their intervals of 95 %, those that the test data contradict
+    marked; last, what is given.
+    """
+    apart = {d.name: d for d in member.disagreements}
+    values, known = member.candidate.estimate.parameters, member.intervals
+    return [
+        Row(
+            n,
+            readable(value, 4 if n in known else 6),
+            unit_of(n[0], measured),
+            between(*known[n]) if n in known else "given",
+            f"{readable(apart[n].test)} on test data" if n in apart else "",
+        )
+        for n, value in values.items()
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class Same:
+    """A structure that behaves as one of the set does: its drawing, its page in the catalogue,
+    how to compare both.
+    """
+
+    twin: Twin
+    drawing: Markup
+    page: Link | None
+    step: Step
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A structure of the set: its drawing, its page in the catalogue, parameters, what behaves
+    the same, what comes next; where there are several responses, how much it reproduces of each.
+    """
+
+    member: Member
+    drawing: Markup
+    page: Link | None
+    parameters: Sequence[Row]
+    same: Sequence[Same]
+    steps: Sequence[Step]
+    fits: Sequence[tuple[str, str]]
+
+
+def shown_set(selection: Selection, measured: FrequencyResponse, site: Site | None) -> list[Shown]:
+    """The structures that the data do not exclude, each with those that behave as it does."""
+    return [
+        Shown(
+            m,
+            drawing(seen_together(m.candidate.chain, selection)),
+            site.page(m.candidate.chain) if site else None,
+            intervals(m, measured),
+            [
+                Same(t, drawing(draw(t.chain)), site.page(t.chain) if site else None, step_to(m, t))
+                for t in m.twins
+            ],
+            steps_of(selection, m),
+            fits_of(selection, m.candidate),
+        )
+        for m in selection.members
+    ]
 
 
 @dataclass(frozen=True, slots=True)

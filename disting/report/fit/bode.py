@@ -15,15 +15,23 @@ import numpy as np
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.modes import Result
-from disting.fit.results.confidence import Confidence, confidence, response_of
+from disting.fit.results.selection import Confidence, confidence, response_of
 from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.report.fit.axes import degrees, logarithmic, spread
-from disting.report.fit.distorted import beneath
-from disting.report.fit.series import Series, band, bars, points, series_of
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.series import Series, band, bars, beneath, points, series_of
+from disting.report.fit.style import (
+    Drawn,
+    Tone,
+    degrees,
+    drawn,
+    heading,
+    is_narrow,
+    logarithmic,
+    over_frequency,
+    spread,
+)
 from disting.report.fit.words import name, readable, response_unit, result_unit
 
 if TYPE_CHECKING:
@@ -98,15 +106,12 @@ def bode(
 
     def draw(figure: "Figure") -> None:
         """Amplitude, phase and coherence, one below the other."""
-        panels = figure.subplots(
-            2 + strips, 1, sharex=True, height_ratios=[3 + tall, 1.8, 0.7][: 2 + strips]
-        )
+        heights = [3 + tall, 1.8, 0.7][: 2 + strips]
+        panels = figure.subplots(len(heights), 1, sharex=True, height_ratios=heights)
         low, high = line.omega[0] / (2 * pi) / EDGE, line.omega[-1] / (2 * pi) * EDGE
-        panels[0].set_xscale("log")
-        panels[0].set_xlim(low, high)
-        logarithmic(panels[-1].xaxis, low, high)
-        names = _short if is_narrow(figure) else str
-        _amplitude(panels[0], line, series, [(names(label), y) for label, y in inertias])
+        over_frequency(panels, low, high)
+        named = _short if is_narrow(figure) else str
+        _amplitude(panels[0], line, series, [(named(label), y) for label, y in inertias])
         if under:
             beneath(panels[0], under, float(np.abs(line.G).min()))
             logarithmic(panels[0].yaxis, *panels[0].get_ylim())
@@ -116,17 +121,19 @@ def bode(
         _marks(panels[0], panels[1], line, found, figure.get_figwidth() - FRAME)
         panels[-1].set_xlabel("Frequency [Hz]")
         heading(figure, f"Measured response and model: {what}")
-        figure.legend(
-            loc="outside lower center", ncols=2 if is_narrow(figure) else 3, columnspacing=2
-        )
+        columns = 2 if is_narrow(figure) else 3
+        figure.legend(loc="outside lower center", ncols=columns, columnspacing=2)
 
-    said = ", ".join(
+    title = f"Bode diagram of {what} and the data. {_in_words(found)}"
+    size = 6.4 + 0.8 * strips + tall, 6.2 + 0.8 * strips + tall
+    return drawn(f"bode-{at + 1}" if at else "bode", title, size, draw)
+
+
+def _in_words(found: Sequence[Mark]) -> str:
+    return ", ".join(
         f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}"
         for m in found
     )
-    title = f"Bode diagram of {what} and the data. {said}"
-    more = 0.8 * strips + tall
-    return drawn(f"bode-{at + 1}" if at else "bode", title, (6.4 + more, 6.2 + more), draw)
 
 
 def _short(label: str) -> str:
@@ -208,15 +215,7 @@ def _amplitude(
     wide = np.exp(QUANTILE * np.minimum(line.sure.amplitude, WIDEST))
     band(panel, hertz, np.abs(line.G) / wide, np.abs(line.G) * wide)
     for (label, values), dashes in zip(inertias, ((0, (6, 3)), (0, (1.5, 2))), strict=False):
-        panel.semilogy(
-            hertz,
-            values,
-            color=Tone.MUTED,
-            linestyle=dashes,
-            linewidth=1.2,
-            label=label,
-            zorder=1.5,
-        )
+        panel.semilogy(hertz, values, color=Tone.MUTED, ls=dashes, lw=1.2, label=label, zorder=1.5)
     shown = np.concatenate([np.abs(line.G), *(np.abs(s.measured.G) for s in series)])
     low, high = shown.min() / 1.4, shown.max() * 1.4
     panel.set_ylim(low, high)

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.fit.judge.candidate import Candidate
-from disting.fit.results.sweep import Profile
+from disting.fit.results.selection import Profile
 from disting.fit.search.estimate import REACHED, Task
 from disting.measurement.arrays import Real
-from disting.report.fit.axes import logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
 from disting.report.fit.words import percent, readable, unit_of
 
 if TYPE_CHECKING:

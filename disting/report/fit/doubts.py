@@ -7,13 +7,12 @@ import numpy as np
 from scipy.ndimage import median_filter
 
 from disting.fit.judge.admissible import FROM_ZERO, KNOWN, UNDETERMINED
+from disting.fit.judge.explanation import correlations, partners
 from disting.fit.judge.members import Disagreement
 from disting.fit.judge.modes import between_lines
 from disting.fit.judge.reading import bad_lines
-from disting.fit.judge.responses import correlations, partners
 from disting.fit.noise.scatter import CLEAR, changed, scatter
-from disting.fit.results.confidence import response_of
-from disting.fit.results.selection import Selection
+from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
 

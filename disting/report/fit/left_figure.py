@@ -11,15 +11,13 @@ from scipy.stats import chi2
 
 from disting.fit.judge.members import Member
 from disting.fit.judge.modes import oscillating, poles, zeros
-from disting.fit.results.confidence import response_of
 from disting.fit.results.loop import loop_gain
 from disting.fit.results.reliance import nearest, position_of_load
 from disting.fit.results.samples import draws
-from disting.fit.results.selection import Selection
+from disting.fit.results.selection import Selection, response_of
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.report.fit.axes import logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
 from disting.report.fit.words import response_unit
 
 if TYPE_CHECKING:

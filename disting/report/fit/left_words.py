@@ -2,21 +2,19 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import combinations, permutations
+from itertools import combinations, permutations, product
 from typing import Any
 
 from disting.experiments.menu import Costs, Item
+from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL, joined
 from disting.fit.plan.fit_file import Left, Named
-from disting.fit.plan.further import Foretold, Step
-from disting.fit.plan.relations import Standing, Stood
+from disting.fit.plan.further import Foretold, Standing, Step, Stood
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import as_listed, reference
-from disting.model.chain import Chain
-from disting.model.drawing import LEGEND, text_drawing
+from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
-from disting.schemas import Format
 from disting.verdict.everywhere import Answer
 from disting.verdict.further import Further
 from disting.verdict.further_words import CSV_COLUMNS, rows, to_dict
@@ -79,22 +77,20 @@ def set_in_words(found: Onward) -> Iterator[str]:
         yield f"  {one.name:{width}}  {text_drawing(one.chain)}  {_origin(one)}"
     yield ""
     yield LEGEND
-    moved = [one.name for one in found.left if as_listed(one.chain).chain != one.chain]
+    moved = ", ".join(x.name for x in found.left if as_listed(x.chain).chain != x.chain)
     if moved:
-        yield f"masses of {', '.join(moved)} have the numbers of these drawings"
+        yield f"masses of {moved} have the numbers of these drawings"
     left = {one.chain for one in found.left}
-    open_ones = [reference(chain) for chain in found.named.rivals if chain not in left]
-    if open_ones:
-        why = "it is not known whether they behave the same"
-        yield f"left out, because {why}: {', '.join(open_ones)}"
+    out = ", ".join(reference(chain) for chain in found.named.rivals if chain not in left)
+    if out:
+        yield f"left out, because it is not known whether they behave the same: {out}"
 
 
 def measured_in_words(found: Onward) -> Iterator[str]:
     """What numbers rest on, a sentence for each pair, then the menu of the selected structure in
     numbers.
     """
-    seen = found.seen
-    if seen is None:
+    if (seen := found.seen) is None:
         yield f"{found.source} does not name the lines of its data: fit again to get powers"
         yield from (sentence(found, a, b) for a, b in found.pairs())
         return
@@ -104,9 +100,8 @@ def measured_in_words(found: Onward) -> Iterator[str]:
     )
     yield bench_in_words(seen)
     yield f"how much more of the same measurement tells them apart: disting plan {found.source}"
-    yield ""
-    yield from (sentence(found, a, b) for a, b in found.pairs())
-    items = [(item, _nearest(found, item)) for item in cheapest_first(found, seen, 0)]
+    yield from ("", *(sentence(found, a, b) for a, b in found.pairs()))
+    items = [(item, _nearest(found, seen, item)) for item in cheapest_first(found, seen, 0)]
     yield ""
     yield f"if the machine is {found.left[0].name}: each experiment, and the rival it shows least:"
     head = "".join(f"{title:>10}" for title in ("largest", "at [Hz]", "lambda", "power"))
@@ -134,8 +129,7 @@ def sentence(found: Onward, a: int, b: int) -> str:
 
 def bench_in_words(seen: Foretold) -> str:
     """Lines, scatter, inertia, and what else is added."""
-    bench = seen.bench
-    hertz = bench.hertz
+    bench, hertz = seen.bench, seen.bench.hertz
     more = [f"a {name} is {readable(size)}" for name, size in seen.sizes.items()][1:]
     beside = f"; {', '.join(more)}, times 2 pi f in the middle of the lines" if more else ""
     return (
@@ -174,25 +168,23 @@ def left_to_dict(found: Onward) -> dict[str, Any]:
             for one in found.left
         ],
         "groups": [to_dict(group) for group in found.groups],
-        "pairs": [
-            {
-                "left": found.left[a].name,
-                "right": found.left[b].name,
-                "standing": found.stood.standing(a, b).value,
-            }
-            for a, b in combinations(range(len(found.left)), 2)
-        ],
+        "pairs": [_pair(found, a, b) for a, b in combinations(range(len(found.left)), 2)],
         "sentences": [sentence(found, a, b) for a, b in found.pairs()],
         "measured": _measured(found, found.seen) if found.seen else None,
     }
 
 
+def _pair(found: Onward, a: int, b: int) -> dict[str, str]:
+    names = {"left": found.left[a].name, "right": found.left[b].name}
+    return names | {"standing": found.stood.standing(a, b).value}
+
+
 def _measured(found: Onward, seen: Foretold) -> dict[str, Any]:
-    hertz = seen.bench.hertz
+    hertz = seen.bench.hertz.tolist()
     return {
         "what": BEFORE,
-        "low": float(hertz[0]),
-        "high": float(hertz[-1]),
+        "low": hertz[0],
+        "high": hertz[-1],
         "lines": len(hertz),
         "scatter": float(seen.bench.rho[0]),
         **seen.sizes,
@@ -215,10 +207,7 @@ def _least(found: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
                     "other": found.left[b].name,
                     "at": at,
                     "moves_in_one_only": step.is_motion,
-                    "largest": None if step.is_motion else step.largest,
-                    "frequency": None if step.is_motion else step.frequency,
-                    "noncentrality": None if step.is_motion else step.noncentrality,
-                    "power": seen.power(a, b, step),
+                    **_measures(seen, a, b, step),
                 }
 
 
@@ -237,11 +226,10 @@ def _apart(found: Onward) -> Iterator[tuple[str, ...]]:
             continue
         rule = found.stood.rule(a, b)
         relation = Relation.DISTINGUISHABLE if rule else Relation.UNDECIDED
-        for kind in found.costs.cheapest_first:
-            for i in range(1, found.left[a].chain.n_masses + 1):
-                for j in range(1, found.left[b].chain.n_masses + 1):
-                    names = found.left[a].name, str(i), found.left[b].name, str(j)
-                    yield kind.name, *names, relation.value, rule, "", ""
+        places = product(*(range(1, found.left[k].chain.n_masses + 1) for k in (a, b)))
+        for kind, (i, j) in product(found.costs.cheapest_first, places):
+            names = found.left[a].name, str(i), found.left[b].name, str(j)
+            yield kind.name, *names, relation.value, rule, "", ""
 
 
 def cheapest_first(found: Onward, seen: Foretold, structure: int) -> list[Item]:
@@ -250,10 +238,9 @@ def cheapest_first(found: Onward, seen: Foretold, structure: int) -> list[Item]:
     return sorted(seen.items(structure), key=lambda i: (order.index(i.kind), i.at))
 
 
-def _nearest(found: Onward, item: Item) -> tuple[int, Step] | None:
+def _nearest(found: Onward, seen: Foretold, item: Item) -> tuple[int, Step] | None:
     """Of all structures the one that an item tells least from the selected one."""
-    seen = found.seen
-    steps = [(k, seen.least(0, item, k)) for k in range(1, len(found.left))] if seen else []
+    steps = [(k, seen.least(0, item, k)) for k in range(1, len(found.left))]
     nearest = [(k, least[0]) for k, least in steps if least is not None]
     return min(nearest, key=lambda both: both[1], default=None)
 
@@ -281,8 +268,8 @@ def _shown(found: Onward, seen: Foretold, a: int, b: int) -> str:
         reached = seen.power(a, b, nearest[0])
         said = f"{item.text} (cost {found.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
         if reached >= POWER:
-            one_of = ", for one of its values, the others were not looked at"
-            return f"{said}{one_of * bool(found.left[b].free)}"
+            free = found.left[b].free > 0
+            return said + ", for one of its values, the others were not looked at" * free
         if best is None or reached > best[0]:
             best = reached, said
     if best is None:
@@ -302,7 +289,12 @@ def _size(step: Step, reached: float) -> str:
 def _numbers(found: Onward, a: int, b: int, step: Step | None) -> tuple[str, ...]:
     if step is None or found.seen is None:
         return ("", "", "", "")
-    reached = repr(found.seen.power(a, b, step))
-    if step.is_motion:
-        return ("", "", "", reached)
-    return (repr(step.largest), repr(step.frequency), repr(step.noncentrality), reached)
+    measures = _measures(found.seen, a, b, step).values()
+    return tuple("" if x is None else repr(x) for x in measures)
+
+
+def _measures(seen: Foretold, a: int, b: int, step: Step) -> dict[str, float | None]:
+    """Numbers by MEASURED_COLUMNS; None but for the power where only one of the two moves."""
+    sizes = step.largest, step.frequency, step.noncentrality
+    told = [None] * 3 if step.is_motion else sizes
+    return dict(zip(MEASURED_COLUMNS, (*told, seen.power(a, b, step)), strict=True))

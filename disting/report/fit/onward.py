@@ -2,6 +2,7 @@
 each structure.
 """
 
+import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from os import fsencode
@@ -9,9 +10,11 @@ from os.path import relpath
 from pathlib import Path
 from urllib.parse import quote
 
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import damper_name
 from disting.catalogs.files import name_of as catalog_name
 from disting.fit.judge.members import NOTHING, Member, Twin
+from disting.fit.plan.power import Plan, typical
+from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import as_listed, reference
 from disting.model.chain import Chain
@@ -163,3 +166,37 @@ def step_to(member: Member, twin: Twin) -> Step:
     """The command that compares a structure with one that behaves as it does."""
     damped = f" {damping_option(twin.chain.damped)}"
     return Step(SAME, f"disting compare {member.name} {twin.name}{damped}")
+
+
+def next_command(found: Plan) -> str:
+    """The command that tells which other experiment tells two structures apart."""
+    return f"disting next {named(found.model, found.other)}"
+
+
+def named(model: AnyStructure, *others: AnyStructure) -> str:
+    """Structures as a command names them."""
+    names = " ".join(shlex.quote(name_of(one)) for one in (model, *others))
+    return f"{names} {damping_option(model.damped)}" if isinstance(model, Chain) else names
+
+
+def named_with_values(
+    model: AnyStructure, values: Mapping[str, float], *others: AnyStructure
+) -> str:
+    """Structures with the values of the first one, under the names of the structure that is
+    listed.
+    """
+    names = as_listed(model).renaming if isinstance(model, Chain) else {}
+    text = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in values.items())
+    return f"{named(model, *others)} --set {text}"
+
+
+def plan_command(found: Plan) -> str:
+    """The command for one pair."""
+    size = typical(found.rival.rho) if found.rival else 0.02
+    lines = ""
+    if found.rival:
+        hertz = found.rival.hertz
+        lines = f" --band {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
+    call = named_with_values(found.model, found.values, found.other)
+    repeats = f" --repeats {found.repeats}" if (found.repeats or 1) > 1 else ""
+    return f"disting plan {call} --noise {size:.3g}{lines}{repeats}"

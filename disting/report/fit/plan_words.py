@@ -1,24 +1,22 @@
 """A plan in words: the answer first, then the numbers behind it."""
 
 import shlex
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from math import ceil, floor, sqrt
 
 import numpy as np
 
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.plan.design import Designed
-from disting.fit.plan.fit_file import Named
-from disting.fit.plan.network_file import NamedNetworks
+from disting.fit.plan.fit_file import Named, NamedNetworks
 from disting.fit.plan.power import Answer, Plan, is_trusted, typical
 from disting.fit.plan.rival import Limit, Rival
 from disting.fit.plan.sample import POWER
 from disting.fit.plan.search import AnyStructure, name_of
-from disting.fit.search.candidates import as_listed, reference
-from disting.model.chain import Chain
-from disting.model.drawing import text_drawing
-from disting.model.names import damping_option
+from disting.fit.search.candidates import reference
+from disting.model.chain import Chain, text_drawing
 from disting.network.element import Sort
+from disting.report.fit.onward import next_command, plan_command
 from disting.report.fit.words import percent, readable
 from disting.verdict.result import Relation
 
@@ -118,40 +116,6 @@ def _rows(found: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
 def _drawn(structure: AnyStructure) -> str:
     """A chain as a drawing; a network is drawn by its name."""
     return f"{text_drawing(structure)}  " if isinstance(structure, Chain) else ""
-
-
-def next_command(found: Plan) -> str:
-    """The command that tells which other experiment tells two structures apart."""
-    return f"disting next {_named(found.model, found.other)}"
-
-
-def _named(model: AnyStructure, *others: AnyStructure) -> str:
-    """Structures as a command names them."""
-    names = " ".join(shlex.quote(name_of(one)) for one in (model, *others))
-    return f"{names} {damping_option(model.damped)}" if isinstance(model, Chain) else names
-
-
-def named_with_values(
-    model: AnyStructure, values: Mapping[str, float], *others: AnyStructure
-) -> str:
-    """Structures with the values of the first one, under the names of the structure that is
-    listed.
-    """
-    names = as_listed(model).renaming if isinstance(model, Chain) else {}
-    text = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in values.items())
-    return f"{_named(model, *others)} --set {text}"
-
-
-def plan_command(found: Plan) -> str:
-    """The command for one pair."""
-    size = typical(found.rival.rho) if found.rival else 0.02
-    lines = ""
-    if found.rival:
-        hertz = found.rival.hertz
-        lines = f" --band {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
-    named = named_with_values(found.model, found.values, found.other)
-    repeats = f" --repeats {found.repeats}" if (found.repeats or 1) > 1 else ""
-    return f"disting plan {named} --noise {size:.3g}{lines}{repeats}"
 
 
 def _answer(found: Plan) -> str:

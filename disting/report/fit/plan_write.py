@@ -10,9 +10,8 @@ from disting.files import write_whole
 from disting.fit.plan.design import Designed, designed_to_dict
 from disting.fit.plan.power import Plan, typical
 from disting.measurement.arrays import Real
-from disting.report.fit.axes import logarithmic
-from disting.report.fit.plan_words import named_with_values
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.onward import named_with_values
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -3,7 +3,7 @@ where the model misses.
 
 With G measured and G_m fitted, ln |G / G_m| and arg (G / G_m) of each line; a line that only
 scatters lies within +-1.96 rho of the model with 95 % (`disting.fit.noise.scatter`), the model
-itself within its band about zero (`disting.fit.results.confidence`).
+itself within its band about zero (`disting.fit.results.selection`).
 """
 
 from collections.abc import Callable, Sequence
@@ -15,14 +15,11 @@ import numpy as np
 from disting.fit.judge.explanation import Miss
 from disting.fit.judge.members import QUANTILE
 from disting.fit.noise.scatter import Scatter
-from disting.fit.results.confidence import Confidence, confidence, response_of
-from disting.fit.results.selection import Selection
+from disting.fit.results.selection import Confidence, Selection, confidence, response_of
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.report.fit.axes import logarithmic
-from disting.report.fit.distorted import beneath_in_words
-from disting.report.fit.series import Series, band, points, series_of
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.series import Series, band, beneath_in_words, points, series_of
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, over_frequency
 from disting.report.fit.words import name, percent, readable
 
 if TYPE_CHECKING:
@@ -116,9 +113,7 @@ def residuals(
     def draw(figure: "Figure") -> None:
         """Two panels over one axis of frequencies."""
         panels = figure.subplots(2, 1, sharex=True)
-        panels[0].set_xscale("log")
-        panels[0].set_xlim(low / EDGE, high * EDGE)
-        logarithmic(panels[-1].xaxis, low / EDGE, high * EDGE)
+        over_frequency(panels, low / EDGE, high * EDGE)
         _panel(panels[0], found, "amplitude", scaled, omega, sure)
         _panel(panels[1], found, "phase", np.degrees, omega, sure)
         _missed_ranges(panels, misses_of(selection, at))

@@ -7,8 +7,7 @@ from math import isfinite
 from markupsafe import Markup
 
 from disting.fit.judge.candidate import Candidate
-from disting.fit.results.confidence import fit_percent
-from disting.fit.results.selection import Selection
+from disting.fit.results.selection import Selection, fit_percent
 from disting.fit.search.setup import Setup, port
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

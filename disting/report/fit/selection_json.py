@@ -6,19 +6,17 @@ from typing import Any
 
 import numpy as np
 
+from disting.files import Format
 from disting.fit.judge.candidate import Candidate
-from disting.fit.judge.explanation import Explanation
+from disting.fit.judge.explanation import Explanation, explanations
 from disting.fit.judge.members import Member
 from disting.fit.judge.reading import assumed
-from disting.fit.judge.responses import explanations
-from disting.fit.results.confidence import fit_percent
 from disting.fit.results.reliance import Statement
-from disting.fit.results.selection import Selection
+from disting.fit.results.selection import Selection, fit_percent
 from disting.fit.search.candidates import as_listed, reference
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.sentences import places, suspicions
-from disting.schemas import Format
 
 
 def selection_to_dict(found: Selection) -> dict[str, Any]:

@@ -14,15 +14,13 @@ from disting.fit.judge.reading import read_in_words
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
-from disting.report.fit.answer import answer
+from disting.report.fit.answer import answer, parameter_rows, result_row, shown_set
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
-from disting.report.fit.not_excluded import shown_set
 from disting.report.fit.onward import Site, next_steps
 from disting.report.fit.responses import drawing, seen_together, shown_responses
 from disting.report.fit.sentences import first_lines, suspicions
 from disting.report.fit.style import Drawn
-from disting.report.fit.table_rows import parameter_rows, result_row
 from disting.report.fit.words import (
     cost_in_words,
     name,
@@ -52,6 +50,16 @@ INTRODUCTIONS = {
     Relation.SOMETIMES: SOME,
     Relation.UNDECIDED: OPEN,
 }
+ALWAYS = {
+    "heads": HEADS,
+    "folded": FOLDED,
+    "first": FIRST,
+    "name": name,
+    "read_in_words": read_in_words,
+    "readable": readable,
+    "percent": percent,
+    "plural": plural,
+}  # what the template uses of every selection
 CERTAIN = 2  # starts that reach the best cost, at least
 
 
@@ -69,23 +77,19 @@ def fit_page(
     `site`: where the pages of the catalogues and the guide lie, to which structures and bar are
     linked.
     """
-    candidate = selection.described
+    candidate, rows = selection.described, [result_row(r, train) for r in results]
     shown = shown_responses(selection, train, test, figures)
-    rows = [result_row(r, train) for r in results]
     return render(
         "fit.html",
         selection=selection,
         candidate=candidate,
-        title=name(candidate.chain),
-        drawing=drawing(seen_together(candidate.chain, selection)),
-        description=seen_together(candidate.chain, selection).title,
+        **_machine(candidate, selection),
         answer=answer(selection, rows),
         results=rows,
         parameters=parameter_rows(candidate, selection.task, train),
         responses=shown,
         figures=figures[sum(len(one.panels) for one in shown) :],
         limits=limits(candidate, selection.thresholds),
-        heads=HEADS,
         columns=columns(selection.thresholds),
         limits_of=lambda c: limits(c, selection.thresholds),
         weakest=weakest(candidate),
@@ -93,27 +97,34 @@ def fit_page(
         alternatives=alternatives(selection),
         others=rivals(selection),
         reasoning=reasoning(selection),
-        measured="J test" if test is not None else "J cross-validated",
+        measured="J cross-validated" if test is None else "J test",
         cost=cost_in_words(selection.task.cost),
-        data=[
-            ("Training", train),
-            *([("Test", test)] if test is not None else []),
-            *further(selection),
-        ],
+        data=_data(selection, train, test),
         choices=choices(selection),
         first_lines=first_lines(selection),
         suspicions=suspicions(selection),
         steps=next_steps(selection),
         members=shown_set(selection, train, site),
         home=site.home if site else None,
-        folded=FOLDED,
-        first=FIRST,
-        name=name,
-        read_in_words=read_in_words,
-        readable=readable,
-        percent=percent,
-        plural=plural,
+        **ALWAYS,
     )
+
+
+def _machine(candidate: Candidate, selection: Selection) -> dict[str, str]:
+    """What the page says and shows of the structure."""
+    machine = seen_together(candidate.chain, selection)
+    return {
+        "title": name(candidate.chain),
+        "drawing": drawing(machine),
+        "description": machine.title,
+    }
+
+
+def _data(
+    selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None
+) -> list[tuple[str, FrequencyResponse]]:
+    measured = [("Training", train), *([] if test is None else [("Test", test)])]
+    return measured + further(selection)
 
 
 def further(selection: Selection) -> list[tuple[str, FrequencyResponse]]:

@@ -12,8 +12,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.practical import Thresholds, collinearity_by_subset
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Real
-from disting.report.fit.axes import logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from disting.fit.judge.explanation import allowed
 from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
-from disting.measurement.closed_loop import FOLLOWS
+from disting.measurement.time_series import FOLLOWS
 from disting.report.fit.doubts import (
     bad,
     better,

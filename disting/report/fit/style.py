@@ -4,20 +4,30 @@ A figure is drawn in few tones. In a file they are colours; in the page each bec
 the style sheet, which knows light and dark. Every figure is drawn twice, wide for files and
 screens, narrow for phones, with letters of one size; the page shows the one that fits. Settings of
 the user's matplotlib, dates and version names do not enter the files, and no global state remains.
+
+Axes that read like those drawn by hand: plain numbers, few ticks, labels that keep their
+distance.
 """
 
 import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from io import BytesIO
+from math import ceil, log10
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from markupsafe import Markup, escape
 
+from disting.measurement.arrays import Real
+from disting.report.fit.words import readable
+
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
 RESOLUTION = 200  # pixels an inch of a PNG
@@ -27,6 +37,57 @@ TITLE_SIZE = 10.5  # points
 # signs that no XML 1.0 may hold (its production 2); a name from a measured file may
 NOT_XML = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
 LETTER = 0.65  # width of a bold letter, in its size
+
+
+def over_frequency(panels: Sequence["Axes"], low: float, high: float) -> None:
+    """Panels over one axis of frequencies [Hz], which the lowest one shows."""
+    panels[0].set_xscale("log")
+    panels[0].set_xlim(low, high)
+    logarithmic(panels[-1].xaxis, low, high)
+
+
+def logarithmic(axis: "Axis", low: float, high: float) -> None:
+    """Ticks of a logarithmic axis: every digit, 1-2-5, every or every n-th decade, what has
+    room between `low` and `high`.
+    """
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
+
+    decades = log10(high / low)
+    digits = tuple(range(1, 10)) if decades < 0.7 else (1, 2, 5) if decades < 2.5 else (1,)
+    axis.set_major_locator(LogLocator(subs=digits, numticks=12))
+    axis.set_minor_locator(
+        LogLocator(subs=range(1, 10), numticks=60) if decades < 3.2 else NullLocator()
+    )
+    axis.set_major_formatter(FuncFormatter(lambda value, _: readable(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def degrees(axis: "Axis", span: float) -> None:
+    """At most six steps of 15, 30, 45, 90 degrees or whole half turns over a span of so many
+    degrees.
+    """
+    from matplotlib.ticker import FuncFormatter, MultipleLocator
+
+    fitting = [step for step in (15, 30, 45, 90) if span <= 6 * step]
+    axis.set_major_locator(MultipleLocator(fitting[0] if fitting else 180 * ceil(span / (6 * 180))))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.0f}°".replace("-", "−")))
+
+
+def spread(places: Sequence[float], distance: float) -> Real:
+    """Rising places moved apart until neighbours keep `distance`, groups staying where they were
+    on the whole.
+
+    Pushing everything to the right and pushing everything to the left both keep the distance, and
+    so does their mean.
+
+    >>> spread([0.0, 0.5, 0.5, 1.0], 0.2).round(2).tolist()
+    [0.0, 0.4, 0.6, 1.0]
+    """
+    right, left = np.array(places, dtype=float), np.array(places, dtype=float)
+    for i in range(1, len(places)):
+        right[i] = max(right[i], right[i - 1] + distance)
+        left[-1 - i] = min(left[-1 - i], left[-i] - distance)
+    return np.asarray((right + left) / 2)
 
 
 class Tone(StrEnum):

@@ -4,8 +4,7 @@ from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.judge.admissible import UNDETERMINED
 from disting.fit.judge.modes import Result
-from disting.fit.results.confidence import fit_percent
-from disting.fit.results.selection import Selection
+from disting.fit.results.selection import Selection, fit_percent
 from disting.fit.search.cost import Case
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse

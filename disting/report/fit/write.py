@@ -11,12 +11,12 @@ from typing import Any
 from disting.files import write_whole
 from disting.fit.judge.modes import Result, physical
 from disting.fit.results.export import Exported
-from disting.fit.results.selection import Selection
-from disting.fit.results.sweep import Profile, profile
+from disting.fit.results.selection import Profile, Selection, profile
 from disting.fit.search.candidates import reference as name_of
 from disting.measurement import FrequencyResponse
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
+from disting.report.fit.criteria import models_by_threshold, parameters_by_threshold
 from disting.report.fit.left_figure import left_figure
 from disting.report.fit.onward import Site, beside
 from disting.report.fit.residuals import residuals
@@ -25,7 +25,6 @@ from disting.report.fit.selection_json import candidate_to_dict, selection_to_di
 from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
 from disting.report.fit.style import Drawn
-from disting.report.fit.thresholds import models_by_threshold, parameters_by_threshold
 from disting.report.fit.words import name, unit_of
 
 COLUMNS = (

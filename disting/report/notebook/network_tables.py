@@ -33,10 +33,10 @@ def _duplicate(shown: Duplicate) -> str:
 
 @table_of.register
 def _equivalent(shown: ModelEquivalent) -> str:
-    sets = () if shown.values is None else shown.values.equivalents
+    _, sets = shown.sets
     return block(
         line(shown.verdict.sentence, bold=True),
-        *(facts((name, str(value)) for name, value in one.values.items()) for one in sets),
+        *(facts((name, str(value)) for name, value in one.items()) for _, one in sets),
     )
 
 

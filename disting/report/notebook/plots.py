@@ -8,8 +8,7 @@ import numpy as np
 
 from disting.catalogs import Catalog
 from disting.errors import DistingError
-from disting.fit.results.confidence import response_of
-from disting.fit.results.selection import Selection
+from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real

@@ -11,13 +11,12 @@ from pathlib import Path
 from markupsafe import Markup, escape
 
 from disting.catalogs import ModelRow
-from disting.catalogs.damper_files import name_of as damper_name
+from disting.catalogs.damper_family import damper_name
 from disting.catalogs.files import name_of
 from disting.files import __version__, write_whole
 from disting.model.family import Family
-from disting.paper import Claim, Findings, Found, Outcome
+from disting.paper import SECTIONS, Claim, Findings, Found, Outcome
 from disting.paper.claim import Seen
-from disting.paper.claims import SECTIONS
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.fit.responses import drawing

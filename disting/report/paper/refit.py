@@ -10,8 +10,7 @@ import numpy as np
 from disting.fit.results.export import predicted
 from disting.measurement.arrays import Complex
 from disting.paper import Refit
-from disting.report.fit.axes import degrees, logarithmic
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow
+from disting.report.fit.style import Drawn, Tone, degrees, drawn, heading, is_narrow, logarithmic
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:

@@ -125,7 +125,9 @@ def python_pages() -> tuple[GuidePage, ...]:
     for name, found in offered.items():
         for entry in found:
             addresses.setdefault(entry.place, f"{page_name(name)}.html#{entry.name}")
-    return tuple(_page(name, found, addresses) for name, found in offered.items())
+    pages = tuple(_page(name, found, addresses) for name, found in offered.items())
+    parsed.cache_clear()  # the syntax trees of all modules take 40 MB
+    return pages
 
 
 def page_name(module: str) -> str:

@@ -10,7 +10,7 @@ import sympy
 from flint import nmod_poly
 from sympy.polys.numberfields.galoisgroups import galois_group
 
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import prime, residues
 from disting.evidence.ideals import Vanishing
 from disting.fibres.ideals import (
     Limits,
@@ -21,8 +21,13 @@ from disting.fibres.ideals import (
 )
 from disting.fibres.ideals.by_two_rows import not_covered, vanishing
 from disting.fibres.ideals.fibre_ideal import generic_rank
-from disting.fibres.ideals.monodromy import _is_inseparable, poles_are_inseparable
-from disting.fibres.ideals.splits import gap, receptances, splits
+from disting.fibres.ideals.splits import (
+    _is_inseparable,
+    gap,
+    poles_are_inseparable,
+    receptances,
+    splits,
+)
 from disting.fibres.synthesis.decide import Grounds, member
 from disting.model.chain import Chain
 from disting.model.family import Family

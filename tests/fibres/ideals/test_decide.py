@@ -9,8 +9,14 @@ import pytest
 from disting.algebra.symbols import symbols
 from disting.errors import InputError
 from disting.evidence.ideals import Refuted, Solved
-from disting.fibres.ideals import CoefficientMap, Limits, coefficient_map, confirms, decide
-from disting.fibres.ideals import normalised as normal
+from disting.fibres.ideals import (
+    CoefficientMap,
+    Limits,
+    coefficient_map,
+    confirms,
+    decide,
+    normalised as normal,
+)
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.synthesis.decide import decide as by_synthesis
 from disting.model.chain import Chain

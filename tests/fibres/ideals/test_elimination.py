@@ -4,13 +4,12 @@ import random
 
 import pytest
 import sympy
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.algebra.groebner.elimination import TooLarge, basis_steps
-from disting.algebra.groebner.macaulay import reaches_one
 from disting.algebra.groebner.modular import Order
 from disting.algebra.groebner.points import free_variable, solution
+from disting.fibres.ideals.confirm import reaches_one
 
 P = 10007
 

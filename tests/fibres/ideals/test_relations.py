@@ -6,10 +6,9 @@ from math import log2
 
 import pytest
 import sympy as sp
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
-from disting.fibres.ideals.relations import Bounded, relation
+from disting.fibres.ideals.bounds import Bounded, relation
 
 X, Y, A, B, C = sp.symbols("x y a b c")
 

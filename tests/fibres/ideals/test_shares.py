@@ -10,9 +10,9 @@ import pytest
 import sympy
 
 from disting import Family
+from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.modular import long_polynomial
-from disting.algebra.sampling import prime, residues
-from disting.catalogs.damper_files import damper_catalog
+from disting.catalogs.damper_family import damper_catalog
 from disting.conditions.finding import Outcome
 from disting.fibres.ideals import Limits, chains_told_apart, decide
 from disting.fibres.ideals.factored import factored, shared_fibre, values

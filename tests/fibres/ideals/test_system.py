@@ -5,8 +5,7 @@ from fractions import Fraction
 import pytest
 import sympy
 from flint import fmpz_mpoly
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.algebra.symbols import symbols
 from disting.errors import InputError

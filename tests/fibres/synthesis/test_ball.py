@@ -3,7 +3,7 @@
 import pytest
 from flint import acb, acb_poly, ctx
 
-from disting.fibres.synthesis.ball import Imprecise, enclosed, roots
+from disting.fibres.synthesis.branch import Imprecise, enclosed, roots
 
 with ctx.workprec(192):
     KNOWN = (acb(-3) / 7, acb(-1, 2) / 3, acb(-1, -2) / 3, acb(1) / 3, acb(7) / 5)

@@ -12,8 +12,7 @@ from sympy.polys.numberfields.galoisgroups import galois_group
 from disting.fibres.synthesis.conjugate import conjugate_factors
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Status, target
 from disting.model.chain import Chain
 from disting.model.family import Family
 
@@ -55,7 +54,7 @@ def test_factors_are_told_apart_where_their_fields_are_independent(factors, inde
 
 def _without_factors(monkeypatch):
     monkeypatch.setattr(
-        sys.modules["disting.fibres.synthesis.damped_neighbours"], "conjugate_factors", lambda _: ()
+        sys.modules["disting.fibres.synthesis.conjugate"], "conjugate_factors", lambda _: ()
     )
 
 

@@ -5,7 +5,7 @@ import pytest
 from disting.catalogs import Catalog, catalog
 from disting.errors import InputError
 from disting.fibres.synthesis.decide import Direction, Grounds, decide, member
-from disting.fibres.synthesis.result import Status
+from disting.fibres.synthesis.task import Status
 from disting.model.family import Family
 from disting.model.question import Membership
 from disting.verdict.query import View

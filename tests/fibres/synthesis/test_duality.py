@@ -3,10 +3,9 @@
 import pytest
 
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.duality import are_dual, dual
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, target
+from disting.fibres.synthesis.theorems import are_dual, dual
 from disting.model.chain import Chain
 from disting.model.family import Family
 

@@ -7,17 +7,15 @@ from itertools import combinations
 
 import pytest
 from flint import acb, fmpq, fmpq_poly
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Query, View, compare
 from disting.fibres.ideals import coefficient_map
-from disting.fibres.synthesis.construction import is_untested
 from disting.fibres.synthesis.decide import decide, rational_point
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import is_covered
-from disting.fibres.synthesis.result import Answer, Confirmation, Fibre, Status
-from disting.fibres.synthesis.target import Target, target
+from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Status, Target, target
+from disting.fibres.synthesis.theorems import is_untested
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.question import Membership

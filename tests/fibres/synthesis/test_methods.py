@@ -3,12 +3,23 @@
 import pytest
 from flint import acb, ctx
 
-from disting.fibres.synthesis.ball import Imprecise, poly, roots, vanishes
-from disting.fibres.synthesis.branch_ends import BOUNDARY, NONZERO, OPEN, RowValues, combined
-from disting.fibres.synthesis.damped_neighbours import inner_neighbours, interpolated
+from disting.fibres.synthesis.branch import (
+    BOUNDARY,
+    NONZERO,
+    OPEN,
+    Imprecise,
+    RowValues,
+    circle,
+    combined,
+    poly,
+    roots,
+    through,
+    vanishes,
+)
+from disting.fibres.synthesis.damped_neighbours import inner_neighbours
 from disting.fibres.synthesis.damped_next_to_end import next_to_end
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import target
 from disting.model.chain import Chain
 from disting.model.row import Row
 
@@ -33,7 +44,7 @@ def test_inner_method_finds_what_the_end_method_finds(n: int) -> None:
 
 def test_interpolation_returns_the_polynomial() -> None:
     p = poly([1, -2, 0, 5])
-    q = interpolated(p, 3)
+    q = through([p(d) for d in circle(3, 2.0)], 2.0)
     assert all(q[i].contains(p[i]) for i in range(4))
 
 

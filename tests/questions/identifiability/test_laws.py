@@ -5,8 +5,7 @@ derivatives.
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from sympy import Symbol, diff, sympify
 
 from disting import Chain, Family, Sensor, Settings

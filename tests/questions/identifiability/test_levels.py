@@ -9,8 +9,7 @@ import pytest
 
 from disting import Certainty, Chain, Family, Settings
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.structure import Mass, Ports, Structure
 from disting.questions.identifiability import (
     Formula,
@@ -23,7 +22,7 @@ from disting.questions.identifiability import (
     identifiability,
 )
 from disting.questions.identifiability.analysis import judged
-from disting.questions.identifiability.scalings import integer_kernel, scalings
+from disting.questions.identifiability.functions import integer_kernel, scalings
 from disting.questions.identifiability.solutions import Listing, foster_count, images
 from disting.questions.identifiability.tangent import short_vectors
 

@@ -23,8 +23,7 @@ from disting.model.symmetry import canonical
 from disting.questions.inclusion import CLOSURE, Sense, confirms, inclusions
 from disting.questions.inclusion.across_sizes import by_sizes, exceeds, included, twins
 from disting.questions.inclusion.limit_fibre import tells
-from disting.questions.inclusion.limits import is_limit
-from disting.questions.inclusion.meeting import least_rank, most_rank
+from disting.questions.inclusion.limits import is_limit, least_rank, most_rank
 
 ENGINE = Engine()
 

@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 from disting import Chain, Family
 from disting.behaviour.chain_model import degrees, powers
 from disting.model.chain import Sensor
-from disting.questions.inclusion.meeting import Room, room
+from disting.questions.inclusion.limits import Room, room
 
 POINTS = np.exp(np.linspace(-1, 1, 14) + 1j * (np.linspace(0.7, 21, 14) % 3.1))
 

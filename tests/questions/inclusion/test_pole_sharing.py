@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from disting import Chain, Family
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import prime, residues
 from disting.model.row import Row
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.across_sizes import included

@@ -7,8 +7,8 @@ from itertools import islice
 import pytest
 
 from disting import Family, catalog
-from disting.algebra.fractionfree import polynomial
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import prime, residues
+from disting.algebra.determinants import polynomial
 from disting.fibres.ideals import normalised
 from disting.fibres.ideals.fibre_ideal import evaluated
 from disting.fibres.ideals.system import terms

@@ -6,8 +6,8 @@ from math import comb, prod
 import pytest
 import sympy as sp
 
-from disting.algebra.fractionfree import polynomial, resultant
-from disting.algebra.sampling import prime, residues
+from disting.algebra.certainty import prime, residues
+from disting.algebra.determinants import polynomial, resultant
 from disting.model.row import Row
 from disting.questions.inclusion.row_resultants import _sums, end_resultant, inner_resultant
 

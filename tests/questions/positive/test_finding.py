@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import Excluded, Theorem
 from disting.evidence.positive import (
     Empirical,
     EmptyFibre,
-    Excluded,
     Interlacing,
     Points,
     PositiveFinding,
@@ -22,8 +21,7 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding

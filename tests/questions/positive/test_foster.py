@@ -7,8 +7,7 @@ import pytest
 
 from disting import Chain
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.questions.positive.points import random_point
 
 CASES = [

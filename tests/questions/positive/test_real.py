@@ -10,8 +10,7 @@ from disting import Chain, Family, Query, Relation, View, compare
 from disting.evidence.kinds import evidence_from
 from disting.evidence.real import RealFactors
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.result import Answer, Status
-from disting.fibres.synthesis.target import target
+from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.solutions import foster_count
 from disting.questions.positive import always_real, confirms_real, real_witness

@@ -9,13 +9,11 @@ from random import Random
 import numpy as np
 import pytest
 from flint import acb_poly, ctx, fmpq, fmpq_poly
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting import Chain
-from disting.fibres.synthesis.ball import Receptance
-from disting.fibres.synthesis.branch_ends import RowValues
-from disting.fibres.synthesis.target import Target
+from disting.fibres.synthesis.branch import Receptance, RowValues
+from disting.fibres.synthesis.task import Target
 from disting.fibres.synthesis.undamped import neighbours_at
 from disting.model.row import Row
 from disting.questions.positive.obstacles import receptances

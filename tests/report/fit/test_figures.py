@@ -13,8 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from disting.fit.judge.modes import Result, physical
-from disting.fit.results.selection import Selection
-from disting.fit.results.sweep import profile
+from disting.fit.results.selection import Selection, profile
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.report.fit import bode, collinearity_dots, importance_bars, profile_panels, waterfall

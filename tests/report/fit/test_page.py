@@ -26,11 +26,10 @@ from disting.report.fit import (
     waterfall,
     write_fit_report,
 )
-from disting.report.fit.criteria import limits, nearest, weakest
+from disting.report.fit.criteria import limits, nearest, parameters_by_threshold, weakest
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.selection_page import reasoning
 from disting.report.fit.style import Drawn
-from disting.report.fit.thresholds import parameters_by_threshold
 from disting.report.fit.words import name, readable
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
@@ -182,7 +181,7 @@ def test_more_candidates_than_fit_are_behind_details(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # the package has a function of the module's name
-    monkeypatch.setattr(import_module("disting.report.fit.selection_page"), "FIRST", 10)
+    monkeypatch.setitem(import_module("disting.report.fit.selection_page").ALWAYS, "first", 10)
     text = fit_page(selection, [], [starts], train)
     assert "<summary>All 12 candidates</summary>" in text
     assert len(re.findall('class="plain candidates"', text)) == 2

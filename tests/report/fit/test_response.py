@@ -17,10 +17,18 @@ from disting.fit.search.candidates import figure_1
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.report.fit import residuals
-from disting.report.fit.distorted import beneath, gathered
 from disting.report.fit.residuals import bands_in_words, missed
 from disting.report.fit.selection_json import selection_to_dict
-from disting.report.fit.series import BARRED, MANY, Series, barred, bars, series_of
+from disting.report.fit.series import (
+    BARRED,
+    MANY,
+    Series,
+    barred,
+    bars,
+    beneath,
+    gathered,
+    series_of,
+)
 from disting.report.fit.style import Tone
 from disting.report.fit.words import between, fit_in_words
 

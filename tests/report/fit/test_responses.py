@@ -8,7 +8,7 @@ import pytest
 
 from disting.fit.judge.explanation import Miss
 from disting.fit.judge.modes import physical
-from disting.fit.results.confidence import fit_percent
+from disting.fit.results.selection import fit_percent
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import Further, JointCost
 from disting.fit.search.setup import Setup

@@ -1,8 +1,7 @@
 """Bands are drawn by as few corners as show what they are."""
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from disting.report.fit.series import FINE, corners
 

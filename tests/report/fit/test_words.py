@@ -7,7 +7,7 @@ import pytest
 
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.report.fit.axes import spread
+from disting.report.fit.style import spread
 from disting.report.fit.words import name, percent, readable, unit_of, with_error
 
 

@@ -1,0 +1,216 @@
+"""Equivalents that theorems give: symmetries, duality, and Cauer's continued fraction.
+
+In x = s^2 the receptance N/D of a row of masses at its end obeys D/N = m x + 1/(1/k + N'/D'),
+N'/D' that of the rest (Cauer's continued fraction): m is the ratio of leading coefficients, k the
+limit of P/N, P = D - m x N, and the next receptance is (N - P/k)/P. A free end leaves nothing
+after the last mass, a wall nothing after the last spring. No root is taken, so the map is rational
+from every chain whose receptance, or that of one of its rows, belongs to one place (force and
+sensor together).
+
+Proportional damping: all springs have the same ratio d/k = tau. What holds without dampers then
+holds with them.
+
+With K the stiffness matrix and D = tau K, A(s) = M s^2 + (1 + tau s) K = (1 + tau s)(M u + K), u =
+s^2/(1 + tau s). So the receptance is H(s) = H0(u)/(1 + tau s), with u in place of s^2 in H0, the
+receptance without dampers: two undamped chains have the same receptance exactly if they have with
+D = tau K, for every tau. Equivalents of other damping are not found this way.
+
+Symmetries (`disting.model.symmetry`) rename parameters; the duality theorem
+(`disting.fibres.synthesis.theorems`) applies where both ports sit at the two sides of the gap. All
+are exact in any field, numbers or rational functions, and keep positive parameters positive.
+Symmetries, duality, symmetries again: more duality leads back, as only the mirrored form leaves
+the gap.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+from flint import fmpq
+
+from disting.algebra.symbols import RationalFunction, coefficients, symbols
+from disting.behaviour.transfer import plain_receptance
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.task import Solution, target
+from disting.fibres.synthesis.theorems import are_dual, dual
+from disting.model.chain import Chain
+from disting.model.structure import Ports, Structure
+from disting.model.symmetry import forms
+
+Number = Any  # an element of a field
+Outwards = tuple[list[Number], list[Number]]  # masses and springs from the port outwards
+Values = Mapping[str, Number]
+DUALITY = "duality of chains with both ports at the gap"
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """A chain that continued fractions lead to; `values` works out its parameters."""
+
+    chain: Chain
+    values: Callable[[], dict[str, RationalFunction]]
+
+
+def expansions(given: Chain) -> Iterator[Expansion]:
+    """The chains seen from the end of the whole receptance, of the free row, of the grounded
+    row, or of both rows.
+    """
+    if given.damped or given.ground_dampers or given.lag or given.dead_time:
+        return
+    n, g = given.n_masses, given.gap
+    if given.collocated:
+        plain = replace(given, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=1)
+        yield Expansion(
+            plain, lambda: _named(plain, *_seen(given, given.structure.ports, wall=False))
+        )
+    if not g:
+        return
+    for free, grounded in product(
+        (given.act_plus == given.meas_plus, False), (given.act_minus == given.meas_minus, False)
+    ):
+        if free or grounded:
+            yield _by_rows(given, n, g, free, grounded)
+
+
+def row_from_end(num: list[Number], den: list[Number], *, wall: bool) -> Outwards:
+    """Masses and springs from coefficients in x, lowest first, without vanishing leading ones.
+
+    >>> row_from_end([0.5], [3.0, 1.0], wall=True)
+    ([2.0], [6.0])
+    """
+    masses: list[Number] = []
+    springs: list[Number] = []
+    while num:
+        masses.append(den[-1] / num[-1])
+        rest = [d - masses[-1] * n for d, n in zip(den[1:-1], num[:-1], strict=True)]
+        rest = [den[0], *rest]
+        if len(num) == 1 and not wall:
+            break
+        springs.append(rest[-1] / num[-1])
+        num, den = [n - p / springs[-1] for n, p in zip(num[:-1], rest[:-1], strict=True)], rest
+    return masses, springs
+
+
+def _by_rows(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
+    """The chain with one or both rows seen from the gap, the other one as it is."""
+    chain = replace(given, act_plus=g + 1, meas_plus=g + 1) if free else given
+    chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
+
+    def values() -> dict[str, RationalFunction]:
+        """Masses and springs in terms of those of the given chain."""
+        known = {name: RationalFunction(p, p**0) for name, p in _ring(given).items() if name != "s"}
+        masses, springs = (
+            [known[f"m{i}"] for i in range(1, n + 1)],
+            [known[k] for k in known if k[0] == "k"],
+        )
+        if free:
+            masses[g:], springs[g:] = _seen(
+                given, Ports(0, given.act_plus, 0, given.meas_plus), wall=False
+            )
+        if grounded:
+            inner = _seen(given, Ports(given.act_minus, 0, given.meas_minus, 0), wall=True)
+            masses[:g], springs[:g] = inner[0][::-1], inner[1][::-1]
+        return _named(chain, masses, springs)
+
+    return Expansion(chain, values)
+
+
+def _seen(given: Chain, ports: Ports, *, wall: bool) -> Outwards:
+    """The row with the receptance of the given chain between these ports."""
+    structure: Structure = replace(given.structure, ports=ports)
+    ring = _ring(given)
+    one = ring["s"] ** 0
+    found = plain_receptance(structure, ring, ring["s"], one)
+    num, den = ([RationalFunction(c, one) for c in coefficients(p, "s")[::2]] for p in found)
+    return row_from_end(num, den, wall=wall)
+
+
+def _ring(given: Chain) -> dict[str, Any]:
+    return symbols(["s", *given.parameters])
+
+
+def _named(
+    chain: Chain, masses: list[RationalFunction], springs: list[RationalFunction]
+) -> dict[str, RationalFunction]:
+    return dict(zip(chain.parameters, [*masses, *springs], strict=True))
+
+
+def common_ratio(chain: Chain, point: Mapping[str, fmpq]) -> Any | None:
+    """tau = d/k if it is the same for all springs of a damped chain without other dampers."""
+    if not chain.damped or chain.ground_dampers or chain.lag or chain.dead_time:
+        return None
+    ratios = {point[f"d{name[1:]}"] / point[name] for name in chain.parameters if name[0] == "k"}
+    return ratios.pop() if len(ratios) == 1 else None
+
+
+def proportional_solutions(
+    given: Chain, point: Mapping[str, fmpq], other: Chain
+) -> tuple[Solution, ...]:
+    """The solutions of `other` with proportional damping too, where the given damping is
+    proportional.
+    """
+    tau = common_ratio(given, point)
+    if tau is None or not other.damped or other.ground_dampers or other.lag or other.dead_time:
+        return ()
+    plain, bare = replace(given, damped=False), replace(other, damped=False)
+    found = fibre(bare, target(plain.structure, {name: point[name] for name in plain.parameters}))
+    return tuple(replace(s, values=_with_dampers(other, s.values, tau)) for s in found.solutions)
+
+
+def _with_dampers(chain: Chain, values: dict[str, Any], tau: Any) -> dict[str, Any]:
+    return {
+        name: values[f"k{name[1:]}"] * tau if name[0] == "d" else values[name]
+        for name in chain.parameters
+    }
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    """A chain with the same transfer function, its parameters, and the theorems that lead to it
+    (none: the chain itself).
+    """
+
+    chain: Chain
+    values: Values
+    steps: tuple[str, ...]
+
+
+def images(chain: Chain, values: Values) -> tuple[Image, ...]:
+    """All of them, the chain itself first, those by fewer theorems before the others, none twice.
+
+    >>> two = Chain(2, damped=False)
+    >>> [str(i.chain) for i in images(two, {"m1": 1.0, "m2": 2.0, "k12": 3.0})][1]
+    '2 masses, gap 0, force 2-0, sensor 2-0'
+    """
+    found: list[Image] = []
+    for image in (*_moved(Image(chain, values, ())), *_duals(Image(chain, values, ()))):
+        if not any(image.chain == known.chain and image.values == known.values for known in found):
+            found.append(image)
+    return tuple(sorted(found, key=lambda image: len(image.steps)))
+
+
+def dual_chain(chain: Chain) -> Chain | None:
+    """The chain that the duality theorem leads to, if it applies.
+
+    >>> dual_chain(Chain(3, damped=True)) == Chain(3, 2, 2, 3, 2, 3, damped=True)
+    True
+    """
+    h = chain.n_masses - 1 - chain.gap
+    other = replace(chain, gap=h, act_minus=h, act_plus=h + 1, meas_minus=h, meas_plus=h + 1)
+    return other if are_dual(chain, other) else None
+
+
+def _moved(image: Image) -> Iterator[Image]:
+    """The forms of a chain by symmetries."""
+    for form in forms(image.chain):
+        values = {form.renaming[name]: value for name, value in image.values.items()}
+        ordered = {name: values[name] for name in form.chain.parameters}
+        yield Image(form.chain, ordered, (*image.steps, *(s.value for s in form.symmetries)))
+
+
+def _duals(image: Image) -> Iterator[Image]:
+    for form in _moved(image):
+        other = dual_chain(form.chain)
+        if other is not None:
+            yield from _moved(Image(other, dual(form.chain, form.values), (*form.steps, DUALITY)))

@@ -1,0 +1,273 @@
+"""Values that are written in steps: fractions of parameters, of values that have a name of their
+own, and of roots of quadratic equations.
+
+A value of more than some terms gets a name, and what is made of it contains the name. So what would
+be a fraction of thousands of terms is some short ones. Names are not independent: whether a value
+is zero cannot be seen from how it is written. Who builds values knows that from elsewhere, and what
+is built is put into what it is to solve (see `closed_form`).
+"""
+
+from abc import abstractmethod
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import reduce
+from typing import Any
+
+from flint import fmpz_mpoly
+
+from disting.algebra.symbols import RationalFunction, coefficients, factored, symbols
+from disting.general.orthant import TooMuch
+
+SHORT = 6
+MOST_NAMES = 60
+LARGEST = 2000  # terms of a polynomial that is factored
+Poly = tuple[Any, ...]
+"""Coefficients of x^0, x^1, .."""
+Values = tuple[tuple[str, RationalFunction], ...]
+"""By the names of parameters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A value with a name: `value`, or with `root` = (c, b, a) a root of c + b x + a x^2, that with
+    this `sign` of the square root.
+    """
+
+    name: str
+    value: RationalFunction
+    root: Poly = ()
+    sign: int = 1
+
+    @property
+    def made_of(self) -> tuple[RationalFunction, ...]:
+        """What it is written with."""
+        return self.root or (self.value,)
+
+    def renamed(self, name: str, by: Sequence[fmpz_mpoly]) -> "Step":
+        """The same in other names."""
+        root = tuple(composed(c, by) for c in self.root)
+        return Step(name, composed(self.value, by), root, self.sign)
+
+    @property
+    def discriminant(self) -> RationalFunction:
+        """b^2 - 4 a c."""
+        c, b, a = self.root
+        found: RationalFunction = b * b - four(a * c)
+        return found
+
+
+def four(value: RationalFunction) -> RationalFunction:
+    """Four times a value."""
+    return RationalFunction(4 * value.num, value.den)
+
+
+class Arithmetic:
+    """Polynomials in x over a field, of which a subclass says what its values are."""
+
+    one: Any
+
+    @property
+    def zero(self) -> Any:
+        """Nothing."""
+        return self.one - self.one
+
+    def is_zero(self, value: Any) -> bool:
+        """Whether it is written as zero."""
+        return bool(value == self.zero)
+
+    def short(self, value: Any) -> Any:
+        """The value, or a name for it."""
+        return value
+
+    def times(self, *polynomials: Poly) -> Poly:
+        """Their product."""
+        return reduce(self._times, polynomials, (self.one,))
+
+    def _times(self, one: Poly, other: Poly) -> Poly:
+        found = [self.zero] * (len(one) + len(other) - 1)
+        for i, a in enumerate(one):
+            for j, b in enumerate(other):
+                found[i + j] += a * b
+        return tuple(map(self.short, found))
+
+    def plus(self, one: Poly, other: Poly, factor: Any = None) -> Poly:
+        """one + factor other."""
+        by = self.one if factor is None else factor
+        size = max(len(one), len(other))
+        a, b = ((*p, *[self.zero] * (size - len(p))) for p in (one, other))
+        return tuple(self.short(x + by * y) for x, y in zip(a, b, strict=True))
+
+    @abstractmethod
+    def number(self, value: int) -> Any:
+        """A constant."""
+
+    @abstractmethod
+    def lifted(self, polynomial: fmpz_mpoly) -> Any:
+        """A polynomial in the parameters."""
+
+    @abstractmethod
+    def __getitem__(self, name: str) -> Any:
+        """A parameter."""
+
+    @abstractmethod
+    def factors(self, polynomial: Poly) -> list[Poly]:
+        """Polynomials whose product it is, but for a factor without x."""
+
+    @abstractmethod
+    def split(self, quadratic: Poly) -> tuple[Any, Any]:
+        """Both roots of a polynomial of degree 2 that is no product."""
+
+    @abstractmethod
+    def choose(self, names: Sequence[str]) -> None:
+        """Remember that only some sum of what these elements have is determined."""
+
+
+@dataclass
+class Field(Arithmetic):
+    """Fractions of some parameters and of values that get a name on the way; raises TooMuch where
+    these are too many.
+
+    >>> found = Field(("a", "b"))
+    >>> one, _ = found.split((found["b"], found["a"], found.one))
+    >>> str(one.num), found.steps[0].discriminant == found["a"]**2 - four(found["b"])
+    ('x1', True)
+    """
+
+    parameters: tuple[str, ...]
+    letters: int = 40  # of a value without a name
+    steps: list[Step] = field(default_factory=list)
+    choices: list[tuple[str, ...]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        free = [c for c in "uxyzwh" if not any(n.startswith(c) for n in self.parameters)]
+        if len(free) < len("ux"):
+            raise TooMuch("no letters are left for values with a name")
+        self._letters = sorted(free[:2])
+        names = [f"{c}{i}" for c in self._letters for i in range(1, MOST_NAMES + 1)]
+        self.ring = symbols([*self.parameters, *names, " "])
+        self.one = RationalFunction(self.ring[" "] ** 0, self.ring[" "] ** 0)
+
+    def __getitem__(self, name: str) -> RationalFunction:
+        return RationalFunction(self.ring[name], self.one.num)
+
+    def short(self, value: RationalFunction) -> RationalFunction:
+        """The value, or a name for it."""
+        if letters(value.num) + letters(value.den) <= self.letters:
+            return value
+        known = next((s for s in self.steps if not s.root and s.value == value), None)
+        return self[known.name] if known else self._named(0, value)
+
+    def number(self, value: int) -> RationalFunction:
+        """A constant."""
+        return RationalFunction(self.one.num * value, self.one.num)
+
+    def choose(self, names: Sequence[str]) -> None:
+        """Remember that only some sum of what these elements have is determined."""
+        if tuple(names) not in self.choices:
+            self.choices.append(tuple(names))
+
+    def split(self, quadratic: Poly) -> tuple[RationalFunction, RationalFunction]:
+        """Both roots of a polynomial of degree 2, by names."""
+        known = [s for s in self.steps if s.root == quadratic]
+        if known:
+            one, other = (self[s.name] for s in known)
+        else:
+            one, other = (self._named(1, self.one, quadratic, sign) for sign in (1, -1))
+        return one, other
+
+    def _named(
+        self, letter: int, value: RationalFunction, root: Poly = (), sign: int = 1
+    ) -> RationalFunction:
+        start = self._letters[letter]
+        number = 1 + sum(s.name.startswith(start) for s in self.steps)
+        if number > MOST_NAMES:
+            raise TooMuch(f"more than {MOST_NAMES} values with a name")
+        self.steps.append(Step(f"{start}{number}", value, root, sign))
+        return self[f"{start}{number}"]
+
+    def written(self, values: Values) -> tuple[tuple[Step, ...], Values]:
+        """The steps that values are made of, numbered anew, and the values: one that is a name that
+        occurs nowhere else is written out.
+        """
+        steps = {s.name: s for s in self._needed(v for _, v in values)}
+        used = Counter(
+            name
+            for v in (*(v for _, v in values), *(x for s in steps.values() for x in s.made_of))
+            for name in names_in(v)
+        )
+        kept = dict(values)
+        for name, value in values:
+            symbol = next(iter(names_in(value)), "")
+            alone = symbol in steps and used[symbol] == 1 and value == self[symbol]
+            if alone and not steps[symbol].root:
+                kept[name] = steps.pop(symbol).value
+        numbers, images = Counter[str](), dict(self.ring)
+        for name in steps:
+            numbers[name[0]] += 1
+            images[name] = self.ring[f"{name[0]}{numbers[name[0]]}"]
+        by = list(images.values())
+        return (
+            tuple(s.renamed(str(images[s.name]), by) for s in steps.values()),
+            tuple((name, composed(v, by)) for name, v in kept.items()),
+        )
+
+    def _needed(self, values: Iterable[RationalFunction]) -> tuple[Step, ...]:
+        wanted, kept = {n for v in values for n in names_in(v)}, list[Step]()
+        for step in reversed(self.steps):
+            if step.name in wanted or (step.root and self._other_root(step) in wanted):
+                kept.append(step)
+                wanted |= {n for v in step.made_of for n in names_in(v)}
+        return tuple(reversed(kept))
+
+    def _other_root(self, step: Step) -> str:
+        return next(s.name for s in self.steps if s.root == step.root and s.sign != step.sign)
+
+    def lifted(self, polynomial: fmpz_mpoly) -> RationalFunction:
+        """A polynomial in the parameters."""
+        images = [self.ring[n] for n in polynomial.context().names()]
+        return RationalFunction(
+            polynomial.compose(*images, ctx=self.one.num.context()), self.one.num
+        )
+
+    def factors(self, polynomial: Poly) -> list[Poly]:
+        """Polynomials whose product it is, but for a factor without x; none of them a product as
+        far as is seen from how its coefficients are written.
+        """
+        common = reduce(_multiple, (c.den for c in polynomial))
+        x = self.ring[" "]
+        whole = sum(((c.num * (common // c.den)) * x**i for i, c in enumerate(polynomial)), x - x)
+        if len(whole) > LARGEST:
+            return [polynomial]
+        return [
+            tuple(RationalFunction(c, self.one.num) for c in coefficients(f, " "))
+            for f, power in factored(whole)[1]
+            for _ in range(power)
+            if f.degrees()[-1]
+        ]
+
+
+def composed(value: RationalFunction, by: Sequence[fmpz_mpoly]) -> RationalFunction:
+    """The value with other symbols in place of those of its ring."""
+    ring = value.num.context()
+    return RationalFunction(*(side.compose(*by, ctx=ring) for side in (value.num, value.den)))
+
+
+def letters(polynomial: fmpz_mpoly) -> int:
+    """How many symbols are written, powers apart; a number is one."""
+    return sum(max(1, sum(map(bool, e))) for e in polynomial.monoms())
+
+
+def names_in(value: RationalFunction) -> set[str]:
+    """The symbols that occur."""
+    names = value.num.context().names()
+    return {
+        name
+        for side in (value.num, value.den)
+        for name, degree in zip(names, side.degrees(), strict=True)
+        if degree
+    }
+
+
+def _multiple(one: fmpz_mpoly, other: fmpz_mpoly) -> fmpz_mpoly:
+    return one // one.gcd(other) * other

@@ -1,0 +1,217 @@
+"""Values of networks whose parts replace each other (see `disting.network.normal_form`): part by
+part, each by synthesis.
+
+A one-port of two kinds of elements is a part as a whole, however it is made, if the other one is in
+series and parallel. Else both networks are drawn as graphs with parts at their edges, and edges are
+matched that have the same sets of functions. Parts of three kinds are matched branch by branch.
+"""
+
+from collections.abc import Iterator, Sequence
+from functools import partial, reduce
+from itertools import product
+from typing import Any
+
+from disting.general.closed_form import ClosedForm
+from disting.general.field import Arithmetic, Field, Poly
+from disting.general.matrix_model import AnyModel
+from disting.general.model import Model
+from disting.general.orthant import TooMuch
+from disting.general.powers import placed_network
+from disting.general.replacement import set_of
+from disting.general.synthesis import (
+    NoFormulas,
+    Tree,
+    Values,
+    leaf,
+    parallel,
+    series,
+    synthesized,
+)
+from disting.network.element import Port
+from disting.network.graph import joined
+from disting.network.network import Network
+from disting.network.normal_form import Power
+
+LETTERS = (12, 24, 48, 96, 192)  # of a value without a name: what is written shorter is kept
+TWO = 2  # kinds of elements
+Edges = dict[frozenset[int], Tree]
+
+
+def by_parts(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
+    """The values of another network, one form for each way to share terms among its branches, as
+    short as names of values make it. Raises NoFormulas. Both models are in powers of one variable.
+
+    >>> from disting.general.any_model import of_network
+    >>> from disting.network import network_of
+    >>> one, two = (of_network(network_of(t)) for t in ("R0-p(R1,C1)", "p(R1,R2-C1)"))
+    >>> print(by_parts(one, two)[0].text)
+    C1' = C1*R1**2/(R0 + R1)**2
+    R1' = R0 + R1
+    R2' = R0*(R0 + R1)/R1
+    """
+    found = list[list[ClosedForm]]()
+    for letters in LETTERS:
+        try:
+            found.append(list(_forms(given, other, Field(given.parameters, letters))))
+        except TooMuch:
+            continue
+    if not found:
+        raise NoFormulas("they have too many terms")
+    return min(found, key=lambda forms: sum(f.length for f in forms))
+
+
+def _forms(given: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedForm]:
+    for values in values_over(field, given, other):
+        kept = tuple((name, values[name]) for name in other.parameters)
+        steps, written = field.written(kept)
+        yield ClosedForm(given.parameters, steps, written, choices=tuple(field.choices))
+
+
+def values_over(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values]:
+    """Yield the values of the other network, for each way to share terms among its branches."""
+    ways = _of_one_port(field, given, other)
+    yield from _of_edges(field, _placed(given), _placed(other)) if ways is None else ways
+
+
+def _placed(model: AnyModel) -> Network:
+    network = model.network
+    if network is None or network.is_directed or any(e.ratio for e in network.elements):
+        raise NoFormulas("they are not made of parts that replace each other")
+    powers = next(iter(model.entries)).powers
+    return placed_network(network, powers).grounded
+
+
+def _of_one_port(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values] | None:
+    """Of two one-ports of two kinds, None of others."""
+    known = set_of(given)
+    if known is None or known != set_of(other) or not isinstance(given, Model):
+        return None
+    edges = _edges(_placed(other))
+    if len(edges) != 1:
+        return None
+    (tree,) = edges.values()
+    low, high = sorted(known[1].kinds)
+    return synthesized(field, tree, *function_of(field, given, low, high))
+
+
+def _edges(plain: Network) -> Edges:
+    held = {i for p in plain.ports for i in (p.plus, p.minus)}
+    return joined([(e.nodes, leaf(e)) for e in plain.elements], held, series, parallel)
+
+
+def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tuple[Poly, Poly]:
+    """F(x) of a one-port of two kinds, as polynomials in x."""
+    network = model.network
+    if network is None:
+        raise NoFormulas("they are known of networks")
+    first, last = (model.powers.placed.of_element(*power) for power in (low, high))
+    step, shift = last - first, first - model.powers.step * network.order
+    start = next(i for i, c in enumerate(model.denominator) if not c.is_zero())
+    sides = [
+        {(i + by - start) // step: field.lifted(c) for i, c in enumerate(side) if not c.is_zero()}
+        for side, by in ((model.numerator, shift), (model.denominator, 0))
+    ]
+    least, zero = min(i for side in sides for i in side), field.zero
+    top, bottom = (
+        tuple(side.get(i + least, zero) for i in range(max(side) - least + 1)) for side in sides
+    )
+    return (top if network.sign_of_one_port > 0 else tuple(-c for c in top)), bottom
+
+
+def _of_edges(field: Arithmetic, given: Network, other: Network) -> Iterator[Values]:
+    """Of networks that are one graph with parts at the edges."""
+    one, two = _edges(given), _edges(other)
+    for places in _matches(given, one, other, two):
+        parts = [_of_part(field, one[ends], two[places[ends]]) for ends in one]
+        for chosen in product(*parts):
+            yield {name: x for values in chosen for name, x in values.items()}
+        return
+    raise NoFormulas("they are not made of parts that replace each other")
+
+
+def _matches(
+    given: Network, one: Edges, other: Network, two: Edges
+) -> Iterator[dict[frozenset[int], frozenset[int]]]:
+    """Yield the edges of the other graph by those of the given one, same sets at both and the same
+    ports; force and sensor may be exchanged.
+    """
+    import networkx  # imported late: it takes longer than most of what is asked
+
+    wanted = _drawn(one, given.inputs, given.outputs)
+    readings = [(other.inputs, other.outputs)]
+    if len(other.inputs) == len(other.outputs) == 1:
+        readings.append((other.outputs, other.inputs))
+    for inputs, outputs in readings:
+        matcher = networkx.algorithms.isomorphism.GraphMatcher(
+            wanted,
+            _drawn(two, inputs, outputs),
+            lambda a, b: a == b,
+            lambda a, b: a == b,
+        )
+        for nodes in matcher.isomorphisms_iter():
+            yield {ends: frozenset(nodes[i] for i in ends) for ends in one}
+
+
+def _drawn(edges: Edges, inputs: Sequence[Port], outputs: Sequence[Port]) -> Any:
+    import networkx
+
+    graph: Any = networkx.Graph()
+    for ends, tree in edges.items():
+        graph.add_edge(*ends, part=tree.part.generic)
+    for number, port in enumerate((*inputs, *outputs)):
+        for node in (port.plus, port.minus):
+            graph.add_node(node)
+            graph.nodes[node].setdefault("ports", []).append(number)
+    return graph
+
+
+def _of_part(field: Arithmetic, given: Tree, other: Tree) -> list[Values]:
+    """The values of one part in those of another one of the same set."""
+    if given.element and other.element:
+        return [{other.element.value: field[given.element.value]}]
+    if len(given.part.kinds) == TWO:
+        low, _ = sorted(given.part.kinds)
+        return list(synthesized(field, other, *_composed(field, given, low)))
+    pairs = _paired(given, other)
+    found = [_of_part(field, a, b) for a, b in pairs]
+    return [{n: x for values in chosen for n, x in values.items()} for chosen in product(*found)]
+
+
+def _paired(given: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
+    """Branches with the same sets."""
+    left, pairs = list(other.inside), list[tuple[Tree, Tree]]()
+    for branch in given.inside if given.form == other.form else ():
+        found = next((b for b in left if b.part.generic == branch.part.generic), None)
+        if found is None:
+            break
+        left.remove(found)
+        pairs.append((branch, found))
+    if left or len(pairs) != len(given.inside):
+        raise NoFormulas("parts of three kinds of elements differ by more than their branches")
+    return pairs
+
+
+def _composed(field: Arithmetic, tree: Tree, low: Power) -> tuple[Poly, Poly]:
+    """F(x) of branches of two kinds, of which one has the power `low`."""
+    zero, one = field.zero, field.one
+    if tree.element is not None:
+        value = field[tree.element.value]
+        value = value if tree.element.kind.divides else one / value
+        return (value,), ((one,) if tree.element.power == low else (zero, one))
+    functions = [_composed(field, t, low) for t in tree.inside]
+    if tree.form == "S":
+        return reduce(partial(_sum, field), functions)
+    return _inverse(*reduce(partial(_sum, field), (_inverse(*f) for f in functions)))
+
+
+def _inverse(top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
+    return bottom, top
+
+
+def _sum(field: Arithmetic, one: tuple[Poly, Poly], other: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
+    """Of fractions without common factors but x."""
+    (a, b), (c, d), zero = one, other, field.zero
+    if field.is_zero(b[0]) and field.is_zero(d[0]):
+        top, bottom = _sum(field, (a, b[1:]), (c, d[1:]))
+        return top, (zero, *bottom)
+    return field.plus(field.times(a, d), field.times(c, b)), field.times(b, d)

@@ -1,0 +1,257 @@
+"""One door for all files with measured data.
+
+Which signals of a record are input and output, from their names.
+"""
+
+import inspect
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from disting.errors import InputError, listed
+from disting.files import write_whole
+from disting.measurement.formats import FORMATS, Format, Options, Records, format_of
+from disting.measurement.response import FrequencyResponse, Signal
+from disting.measurement.source import Source, source
+from disting.measurement.tabular import ESCAPED, MARK
+from disting.measurement.time_series import TimeSeries
+
+FORMULA = re.compile(
+    rf"(?<=[,;])[=+@-]|(?<=[,;] )[=+@-]|{ESCAPED.pattern[:2]}(?={ESCAPED.pattern[2:]})"
+)
+# options that only a time series has
+SERIES = ("input", "output", "reference", "segment", "period", "sampling_rate", "time")
+
+
+def csv_text(response: FrequencyResponse) -> str:
+    """Comment lines with sensor, signals and origin; a header; one line a frequency.
+
+    >>> from disting.measurement import from_arrays
+    >>> csv_text(from_arrays(range(1, 9), [1j, 2j] * 4, sensor="velocity")).splitlines()[1]
+    '# sensor: velocity'
+    """
+    return "\n".join([*_head(response), *_rows(response), ""])
+
+
+def write_csv(response: FrequencyResponse, path: str | Path) -> None:
+    """Write `csv_text` to a file; `read` gives an equal response. Raises InputError where the
+    file cannot be written.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> from disting.measurement import from_arrays, read
+    >>> data = from_arrays(range(1, 9), [1j, 2j] * 4)
+    >>> with TemporaryDirectory() as folder:
+    ...     write_csv(data, Path(folder, "a.csv"))
+    ...     bool((read(Path(folder, "a.csv")).G == data.G).all())
+    True
+    """
+    try:
+        write_whole(Path(path), [csv_text(response)])
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror}") from None
+
+
+def _head(response: FrequencyResponse) -> Iterator[str]:
+    yield f"# {MARK}"
+    yield f"# sensor: {response.sensor.value}"
+    for role, signal in (("input", response.input), ("output", response.output)):
+        yield from (
+            f"# {role} {part}: {_line(text)}"
+            for part, text in zip(Signal._fields, signal, strict=True)
+            if text
+        )
+    if response.origin:
+        yield f"# origin: {_line(response.origin)}"
+    yield from (f"# note: {_line(note)}" for note in response.notes)
+
+
+def _rows(response: FrequencyResponse) -> Iterator[str]:
+    extra = [
+        (name, c)
+        for name, c in (("std", response.deviation), ("coherence", response.coherence))
+        if c is not None
+    ]
+    yield ",".join(["omega [rad/s]", "Re G", "Im G", *(name for name, _ in extra)])
+    columns = (response.omega, response.G.real, response.G.imag, *(column for _, column in extra))
+    for numbers in zip(*(column.tolist() for column in columns), strict=True):
+        yield ",".join(map(repr, numbers))
+
+
+def _line(text: str) -> str:
+    r"""A text of one line. Spreadsheets split comments too: what they would compute is written
+    as \\u003d and the like.
+    """
+    return FORMULA.sub(lambda sign: f"\\u{ord(sign[0]):04x}", " ".join(text.split()))
+
+
+def read(path: str | Path, **options: Any) -> FrequencyResponse:
+    """Frequency response from a file; `suspicions` and `notes` of the result say what should be
+    looked at.
+
+    - text (CSV and the like): `column`, `columns`, `sensor`, `sign`, `phase_unit`,
+      `frequency_unit`, `magnitude_unit` (`tabular.frequency_response`);
+    - MATLAB `.mat`: `frequency`, `response`, `deviation`, `coherence`, `frequency_unit`, `index`,
+      `sensor`, `sign` (`variables.from_variables`); `response` may name an object frd or idfrd
+      (`stored.from_stored`), in a struct as `frf.Pv`, with the number of output and input as
+      `frf.Pv[2,1]`;
+    - universal file `.uff`, `.unv`: `record`, `sensor`, `sign` (`uff.read_uff`).
+
+    With `input` and `output` the file is read as a time series (`read_time_series`), likewise a
+    file of a clock without frequencies, whose input and output are then told by their names. Its
+    options and those of `TimeSeries.response` (`period`, `transient`, `lines`, `band`, `segment`,
+    `least_coherence`) are then accepted; `sensor` is the quantity of the recorded output, `to` the
+    quantity wanted. Raises InputError for a file or an option that cannot be understood.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> lines = ["frequency [Hz],re,im", *(f"{f},1,{f}" for f in range(1, 20))]
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "frf.csv")
+    ...     _ = file.write_text("\\n".join(lines))
+    ...     len(read(file)), read(file, sensor="velocity", sign=-1).G[0]
+    (19, np.complex128(-1-1j))
+    """
+    file = source(path)
+    known = format_of(file)
+    if options.keys() & set(SERIES) or (known.records and known.records.held(file, options)):
+        return _through_time(file, _records(file, known), options)
+    return known.response(file, options)
+
+
+def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[int, ...] | None:
+    """Columns, from 1, at which the responses of a text file begin; None for another file, or
+    where it is a record of time series.
+
+    `columns` as for `read`. Raises InputError where columns are missing.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> lines = ["f [Hz],re1,im1,re2,im2", *(f"{f},1,2,3,4" for f in range(1, 20))]
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "two.csv")
+    ...     _ = file.write_text("\\n".join(lines))
+    ...     beginnings(file)
+    (2, 4)
+    """
+    file = source(path)
+    known = format_of(file)
+    if known.begin is None or (known.records and known.records.held(file, {})):
+        return None
+    return known.begin(file, columns)
+
+
+def read_time_series(
+    path: str | Path, input: str | int, output: str | int, **options: Any
+) -> TimeSeries:
+    """Samples of `input` and `output` (headers of a text file, names of MATLAB variables) from a
+    file.
+
+    Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable [s]);
+    `sensor` = quantity of the output, default position; `sign`; `reference` = the signal that a
+    controller was asked for, of a record in closed loop. Raises InputError, with the remedy, for a
+    file that is not there or not read, and for signals that it does not hold.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> lines = ["t [s],iq [A],angle [rad]", *(f"{k / 100},{k % 7},{k % 5}" for k in range(60))]
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "record.csv")
+    ...     _ = file.write_text("\\n".join(lines))
+    ...     read_time_series(file, "iq [A]", "angle [rad]", time="t [s]").sampling_rate
+    100.0
+    """
+    file = source(path)
+    return _records(file, format_of(file)).read(file, input, output, options)
+
+
+def _records(file: Source, known: Format) -> Records:
+    if known.records is None:
+        able = " and ".join(other.name for other in FORMATS if other.records)
+        raise InputError(f"{file.name}: time series are read from {able} files")
+    return known.records
+
+
+def _signals(file: Source, records: Records, given: Options) -> tuple[Options, tuple[str, ...]]:
+    """Input and output, guessed by their names where neither is given, and the note that says
+    so.
+    """
+    if {"input", "output"} <= given.keys():
+        return given, ()
+    names = list(records.names(file))
+    if given.keys() & {"input", "output"}:
+        raise InputError(
+            f"{file.name}: a time series has an input and an output, give both; there are"
+            f" {listed(sorted(names))}"
+        )
+    input, output, note = guessed((name for name in names if name), file.name)
+    return given | {"input": input, "output": output}, (note,)
+
+
+def _through_time(file: Source, records: Records, options: Options) -> FrequencyResponse:
+    ours = {"to", *_keywords(TimeSeries.response)} - {"sensor"}
+    estimate = {name: value for name, value in options.items() if name in ours}
+    rest, notes = _signals(
+        file, records, {name: value for name, value in options.items() if name not in ours}
+    )
+    wanted = estimate.pop("to", None)
+    input, output = rest.pop("input"), rest.pop("output")
+    return records.read(file, input, output, rest).response(wanted, **estimate).noted(*notes)
+
+
+def _keywords(reader: Callable[..., Any]) -> set[str]:
+    return {name for name in inspect.signature(reader).parameters if name != "self"}
+
+
+WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+INPUTS = {
+    "u",
+    "input",
+    "torque",
+    "force",
+    "current",
+    "iq",
+    "i",
+    "tau",
+    "trq",
+    "moment",
+    "strom",
+    "kraft",
+    "drehmoment",
+    "eingang",
+}
+OUTPUTS = {
+    "y", "output", "position", "pos", "theta", "phi", "angle", "q", "x", "speed", "velocity", "vel",
+    "omega", "acceleration", "acc", "weg", "lage", "winkel", "drehzahl", "geschwindigkeit",
+    "beschleunigung", "ausgang",
+}  # fmt: skip
+# not what was measured
+ASKED_FOR = {"ref", "reference", "set", "setpoint", "cmd", "command", "desired", "soll", "target"}
+CLOCKS = {"t", "time", "zeit", "timestamp"}
+
+
+def guessed(names: Iterable[str], origin: str) -> tuple[str, str, str]:
+    """Names of input and output, and a note that says so; raises InputError listing the names
+    where more or fewer fit.
+
+    >>> guessed(["t", "iq [A]", "iq_ref", "theta"], "a.csv")[:2]
+    ('iq [A]', 'theta')
+    """
+    known = list(names)
+    words = {
+        name: {word.lower() for word in WORD.findall(name.partition("[")[0])} for name in known
+    }
+    measured = [name for name in known if not words[name] & (ASKED_FOR | CLOCKS)]
+    inputs, outputs = (
+        [name for name in measured if words[name] & kind] for kind in (INPUTS, OUTPUTS)
+    )
+    if len(inputs) != 1 or len(outputs) != 1 or inputs == outputs:
+        raise InputError(
+            f"{origin}: which signal is the input, which the output? give --read"
+            f" input=NAME --read output=NAME; there are {listed(sorted(known))}"
+        )
+    return (
+        inputs[0],
+        outputs[0],
+        (
+            f"input taken as {inputs[0]}, output as {outputs[0]}, by their names; if not, give"
+            " --read input=NAME --read output=NAME"
+        ),
+    )

@@ -1,0 +1,176 @@
+"""Claims of section 2: the cost function and the criteria."""
+
+from math import pi, sqrt
+
+import numpy as np
+
+from disting.fit.judge.practical import (
+    collinearity_index,
+    condition_indices,
+    importance,
+    unit_columns,
+)
+from disting.fit.search.cost import Case, Cost
+from disting.fit.search.plant import Plant
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.paper.claim import Claim, Findings, Found
+
+SAMPLE = np.array([[3.0, 1.0], [4.0, 2.0], [0.0, 2.0]])  # columns of lengths 5 and 3
+# condition index, PII ratio, collinearity index: their thresholds, test bed 1, test bed 2
+TABLE_1 = (
+    ((30, 1000, 20), (6.4, 10.2, 4.0), (11.3, 12.0, 7.0)),
+    ((10, 1000, 10), (6.4, 10.2, 4.0), (10.3, 7.7, 7.0)),
+    ((10, 1000, 5), (6.4, 10.2, 4.0), (2.6, 7.5, 1.9)),
+)
+TABLE_1_SIZES = ((9, 12), (9, 9), (9, 6))  # N_p of those models (section 3.1)
+DRIVE = Chain(4, damped=True, ground_dampers=(1, 3), lag=True, dead_time=True)
+DRIVE_VALUES = np.array(
+    [0.01, 0.02, 0.01, 0.03, 900.0, 700.0, 500.0, 0.1, 0.2, 0.05, 0.3, 0.1, 1e-3, 2e-3]
+)
+OMEGA = 2 * pi * np.geomspace(5.0, 300.0, 60)
+
+
+def weights(findings: Findings) -> Found:
+    """Cost (14) of a factor 10 in the amplitude and of half a turn of the phase."""
+    measured = FrequencyResponse(OMEGA, Plant(DRIVE.structure, OMEGA).response(DRIVE_VALUES))
+    larger, turned = (
+        float(Cost(measured).total(measured.G * factor)) / len(OMEGA) for factor in (10, -1)
+    )
+    return Found("π² a line for either", bool(np.allclose([larger, turned], pi**2)))
+
+
+def importance_index(findings: Findings) -> Found:
+    """(16) of columns of known length."""
+    found = importance(SAMPLE)
+    return Found(
+        "the length of each column S_j Δp_j, with Δp_j = p_j", bool(np.allclose(found, [5.0, 3.0]))
+    )
+
+
+def collinearity_formula(findings: Findings) -> Found:
+    """(17) against Table 1: with "singular value", kappa / gamma^2 would be mu_max, between 1
+    and sqrt(N_p).
+    """
+    rows = [
+        (row[k + 1], sizes[k])
+        for row, sizes in zip(TABLE_1, TABLE_1_SIZES, strict=True)
+        for k in (0, 1)
+    ]
+    printed = [kappa / gamma**2 >= 1 for (kappa, _, gamma), _ in rows]
+    ours = [1 <= kappa / gamma <= sqrt(n) for (kappa, _, gamma), n in rows]
+    smallest = np.linalg.svd(unit_columns(SAMPLE), compute_uv=False)[-1]
+    as_used = np.isclose(collinearity_index(SAMPLE), 1 / np.sqrt(smallest))
+    return Found(
+        "γ = 1/μ, μ the smallest singular value of S̃: μ² is the smallest eigenvalue of S̃ᵀS̃. Of"
+        f" Table 1's {len(rows)} pairs κ, γ this reading allows {sum(ours)}, the printed one"
+        f" {sum(printed)}",
+        bool(all(printed) and as_used),
+    )
+
+
+def condition_index(findings: Findings) -> Found:
+    """(18) from the singular values of unit columns."""
+    values = np.linalg.svd(SAMPLE / [5.0, 3.0], compute_uv=False)
+    return Found("μ_max/μ_k of S̃", bool(np.allclose(condition_indices(SAMPLE), values[0] / values)))
+
+
+def sensitivities(findings: Findings) -> Found:
+    """(13) and (15), written out as printed, against `Cost.sensitivity`; weights 1."""
+    plant = Plant(DRIVE.structure, OMEGA)
+    response, gradient = plant.logarithmic_gradient(DRIVE_VALUES)
+    measured, absolute = FrequencyResponse(OMEGA, response), gradient * response
+    along = response.imag * absolute.imag + response.real * absolute.real
+    across = (response.real * absolute.imag - response.imag * absolute.real) / np.abs(response) ** 2
+    printed = {
+        Case.AMPLITUDE: along / np.abs(response),
+        Case.LOGARITHM: along / np.abs(response) ** 2 / np.log(10),
+    }
+    equal = [
+        np.allclose(
+            Cost(measured, case, (1.0, 1.0)).sensitivity(response, gradient),
+            np.concatenate([first, across], axis=-1).T,
+        )
+        for case, first in printed.items()
+    ]
+    return Found("the same matrices", all(equal))
+
+
+def phase(findings: Findings) -> Found:
+    """The phase residual of a response that turns many times, off by 0.1 rad everywhere."""
+    response = Plant(DRIVE.structure, OMEGA).response(DRIVE_VALUES) * np.exp(-0.2j * OMEGA)
+    error = Cost(FrequencyResponse(OMEGA, response)).residual(response * np.exp(0.1j))[len(OMEGA) :]
+    turns = int(np.sum(np.abs(np.diff(np.angle(response))) > pi))
+    continuous = turns > 10 and np.allclose(error, 0.1)
+    return Found(
+        "the phase error is arg(G/G_M) in (−π, π]: nothing is interpolated", not continuous
+    )
+
+
+COST_CLAIMS = (
+    Claim(
+        key="weights",
+        place="Section 2.3, after (14)",
+        text=(
+            "“… π and 1 can be chosen as weightings for amplitude and phase, respectively. Then 20"
+            " dB difference in the amplitude has an equivalent effect as 180° in the phase.”"
+        ),
+        printed="20 dB ≙ 180°",
+        check=weights,
+    ),
+    Claim(
+        key="sensitivities",
+        place="Equations (13), (15)",
+        text=(
+            "The sensitivities of amplitude, of its logarithm and of the phase in terms of S_r and"
+            " S_i."
+        ),
+        printed="formulas",
+        check=sensitivities,
+    ),
+    Claim(
+        key="phase",
+        about="Continuity of the phase",
+        place="Section 2.3, end",
+        text=(
+            "“A potential problem is, however, that the measured and simulated phase must be"
+            " interpolated continuous beyond ±2π.”"
+        ),
+        printed="must be interpolated",
+        check=phase,
+        reason=(
+            "The difference of the phases is the argument of the quotient; neither phase has to be"
+            " unwrapped."
+        ),
+    ),
+    Claim(
+        key="importance",
+        place="Equation (16)",
+        text="msqr parameter importance index “given by Brun et al. (2001): δ_j = ‖S_j Δp_j‖₂”",
+        printed="‖S_j Δp_j‖₂",
+        check=importance_index,
+        reason=(
+            "Brun et al. divide by the number of rows under the root; the ratio of two indices,"
+            " which is thresholded, is the same."
+        ),
+    ),
+    Claim(
+        key="collinearity",
+        about="Formula of the collinearity index",
+        place="Equation (17)",
+        text="“γ_k = 1/√λ_k … λ_k is the smallest singular value of S̃”",
+        printed="smallest singular value under the root",
+        check=collinearity_formula,
+        reason=(
+            "A misprint: with unit columns 1 ≤ μ_max ≤ √N_p, which the printed formula contradicts"
+            " in every row of Table 1. Brun et al. take the smallest eigenvalue of S̃ᵀS̃."
+        ),
+    ),
+    Claim(
+        key="condition",
+        place="Equation (18)",
+        text="“η̃_k = μ_max/μ_k”, with the singular values of S̃",
+        printed="μ_max/μ_k",
+        check=condition_index,
+    ),
+)
