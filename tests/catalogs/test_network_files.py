@@ -18,7 +18,8 @@ from disting.cli.run import main
 from disting.errors import CatalogError
 from disting.files import shipped_folder
 from disting.general.any_model import of_network
-from disting.general.model_side import BRIEFLY, WAS_BRIEF, positive_question
+from disting.general.forms import BRIEFLY, WAS_BRIEF
+from disting.general.model_side import positive_question
 from disting.network.families import family_of
 from disting.verdict.engine import Engine
 from disting.verdict.result import Relation
@@ -27,7 +28,8 @@ QUICK = ("circuits-4", "compartments-2")
 
 
 @pytest.mark.parametrize(
-    "name", [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in set(SHIPPED) - {*QUICK})]
+    "name",
+    [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in sorted({*SHIPPED} - {*QUICK}))],
 )
 def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine()) == []
