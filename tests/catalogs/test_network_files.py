@@ -28,13 +28,16 @@ QUICK = ("circuits-4", "compartments-2")
 
 
 @pytest.mark.parametrize(
-    "name", [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in set(SHIPPED) - {*QUICK})]
+    "name",
+    [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in sorted({*SHIPPED} - {*QUICK}))],
 )
 def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine()) == []
 
 
-@pytest.mark.parametrize("name", ["machines-2", "compartments-2"])
+@pytest.mark.parametrize(
+    "name", [pytest.param("machines-2", marks=pytest.mark.slow), "compartments-2"]
+)
 def test_what_is_looked_up_is_what_is_decided(name):
     models = [of_network(n) for n in family_of(name).networks]
     known, fresh = Engine(), Engine()

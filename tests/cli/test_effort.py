@@ -1,14 +1,17 @@
 """Long work says so before it begins: how much, how long about, and how there would be less."""
 
+import io
 import os
 import re
 import signal
 import subprocess
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
 
 from disting import Family
+from disting.cli import main
 from disting.cli.compare import LESS, LONGER
 from disting.cli.workers import LONG, Work, announced, pairs_by_size, told_if_long
 from disting.measurement import write_csv
@@ -28,19 +31,49 @@ LARGE = [
 ]
 
 
-@pytest.mark.skipif(os.name != "posix", reason="a signal has another number there")
+class Pressing(io.StringIO):
+    """Where words are written, by someone who presses Ctrl-C as soon as they say what it does."""
+
+    def write(self, text: str) -> int:
+        written = super().write(text)
+        said = self.getvalue()
+        if said.endswith("\n") and said.count("\n") == 1 and "Ctrl-C" in said:
+            raise KeyboardInterrupt
+        return written
+
+
+def stopped(command: str) -> tuple[int, str, str]:
+    """Status, output and words of a command that is stopped when it says how."""
+    with (
+        pytest.MonkeyPatch.context() as patch,
+        redirect_stdout(io.StringIO()) as out,
+        redirect_stderr(Pressing()) as error,
+    ):
+        patch.setenv("DISTING_CACHE", "off")
+        return main(command.split()), out.getvalue(), error.getvalue()
+
+
 @pytest.mark.parametrize(("command", "count"), LARGE)
 def test_long_work_is_told_before_it_begins_and_can_be_stopped(
-    tmp_path: Path, command: str, count: int
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str, count: int
 ) -> None:
     write_csv(demo(0).response("acceleration"), tmp_path / "demo.csv")
+    monkeypatch.chdir(tmp_path)
+    status, out, words = stopped(command)
+    first, rest = words.split("\n", 1)
+    found = SAID.fullmatch(first + "\n")
+    assert found is not None and int(found[1]) == count
+    assert (status, out) == (130, "") and rest.startswith("disting: interrupted")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a signal has another number there")
+def test_long_work_of_a_process_can_be_stopped() -> None:
     process = subprocess.Popen(
-        [*COMMAND, *command.split()],
+        [*COMMAND, *LARGE[0][0].split()],
         stdin=subprocess.DEVNULL,  # nothing is asked
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        cwd=tmp_path,
         env=os.environ | {"DISTING_CACHE": "off"},
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
@@ -48,7 +81,7 @@ def test_long_work_is_told_before_it_begins_and_can_be_stopped(
     first = SAID.fullmatch(process.stderr.readline())
     process.send_signal(signal.SIGINT)
     said, rest = process.communicate(timeout=60)
-    assert first is not None and int(first[1]) == count
+    assert first is not None and int(first[1]) == LARGE[0][1]
     assert (process.returncode, said) == (130, "") and rest.startswith("disting: interrupted")
 
 
@@ -109,24 +142,18 @@ def test_more_masses_take_longer(work: Work) -> None:
     assert seconds == sorted(seconds) and seconds[-1] > seconds[0] > 0
 
 
-@pytest.mark.skipif(os.name != "posix", reason="a signal has another number there")
 @pytest.mark.parametrize(
     "command", ["report compartments-3 --out pages", "verdicts compartments-3"]
 )
-def test_a_family_that_is_not_shipped_says_how_long_it_takes(tmp_path: Path, command: str) -> None:
-    process = subprocess.Popen(
-        [*COMMAND, *command.split()], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
-        cwd=tmp_path, env=os.environ | {"DISTING_CACHE": "off"},
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )  # fmt: skip
-    assert process.stderr is not None
-    first = process.stderr.readline()
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
+def test_a_family_that_is_not_shipped_says_how_long_it_takes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    _, _, words = stopped(command)
     assert re.fullmatch(
         r"disting: all pairs of compartments-3, which may take about an? .*; less to do: two networks"
-        r" alone \(disting compare\); Ctrl-C stops it, and what is done stays in the cache\n",
-        first,
+        r" alone \(disting compare\); Ctrl-C stops it, and what is done stays in the cache",
+        words.split("\n")[0],
     )
 
 

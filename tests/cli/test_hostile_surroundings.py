@@ -15,8 +15,12 @@ from tests.cli.process import COMMAND, called, heed_signals, marked
     ("encoding", "command"),
     [
         ("ascii", ("compare", "4:2", "4:6")),
-        ("cp1252", ("compare", "3:1", "3:4", "--damped", "--prove")),
-        ("ascii", ("models", "3", "--damped", "--identifiability")),
+        pytest.param(
+            "cp1252", ("compare", "3:1", "3:4", "--damped", "--prove"), marks=pytest.mark.slow
+        ),
+        pytest.param(
+            "ascii", ("models", "3", "--damped", "--identifiability"), marks=pytest.mark.slow
+        ),
         ("latin-1", ("equivalents", "3:1", "--to", "3:11", "--damped", "--formulas")),
     ],
 )
@@ -36,7 +40,9 @@ def test_output_that_the_terminal_cannot_encode_is_no_error(encoding, command):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="processes are looked up by POSIX means")
-@pytest.mark.parametrize("by", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+@pytest.mark.parametrize(
+    "by", [signal.SIGTERM, pytest.param(signal.SIGHUP, marks=pytest.mark.slow), signal.SIGKILL]
+)
 def test_workers_end_with_their_parent(tmp_path, by):
     command = [*COMMAND, "verdicts", "5", "--damped", "--jobs", "2"]
     environment = os.environ | {"DISTING_CACHE": "off", "MARK": str(tmp_path)}
@@ -66,7 +72,11 @@ def test_workers_end_with_their_parent(tmp_path, by):
     ("name", "command"),
     [
         ("a.csv", ("verdicts", 3, "--csv")),
-        ("chains-1-undamped.html", ("report", 1, "--undamped", "--out")),
+        pytest.param(
+            "chains-1-undamped.html",
+            ("report", 1, "--undamped", "--out"),
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path, name, command):

@@ -37,9 +37,16 @@ def models(tmp_path: Path) -> Path:
 
 
 @POSIX
-@pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
 @pytest.mark.parametrize(
-    "asked", [f"{PAIR} --json", "verdicts models.json --json", "verdicts models.json --csv"]
+    ("asked", "encoding"),
+    [
+        (f"{PAIR} --json", "ascii"),
+        ("verdicts models.json --json", "cp1252"),
+        ("verdicts models.json --csv", "ascii"),
+        pytest.param(f"{PAIR} --json", "cp1252", marks=pytest.mark.slow),
+        pytest.param("verdicts models.json --json", "ascii", marks=pytest.mark.slow),
+        pytest.param("verdicts models.json --csv", "cp1252", marks=pytest.mark.slow),
+    ],
 )
 def test_data_are_the_same_bytes_in_a_file_and_on_any_standard_output(
     models: Path, monkeypatch: pytest.MonkeyPatch, asked: str, encoding: str
@@ -56,8 +63,8 @@ def test_data_are_the_same_bytes_in_a_file_and_on_any_standard_output(
 @pytest.mark.parametrize(
     "command",
     [
-        "$D {} --json - > out",
-        "$D {} --json /dev/stdout > out",
+        pytest.param("$D {} --json - > out", marks=pytest.mark.slow),
+        pytest.param("$D {} --json /dev/stdout > out", marks=pytest.mark.slow),
         "$D {} --json /dev/stdout | cat > out",
         "$D {} --json >(cat > out); wait $!",
         "$D {} --json /dev/fd/3 3> out",

@@ -78,7 +78,9 @@ def test_only_bounded_findings_have_a_bound():
     assert shortfall(Certainty.THEOREM, 0) == shortfall(None, 0) == ""
 
 
-@pytest.mark.parametrize(("left", "right"), LONG, ids=str)
+@pytest.mark.parametrize(
+    ("left", "right"), [pytest.param(*LONG[0], marks=pytest.mark.slow), *LONG[1:]], ids=str
+)
 def test_long_chains_keep_to_the_floor(left, right):
     """Points of 192 bits gave 2^-99 for 7 masses and 2^-82 for 8."""
     verdict = compare(left, right)

@@ -47,7 +47,9 @@ def test_numbers_that_floating_point_cannot_square_are_refused(data):
         fitted(*data)
 
 
-@pytest.mark.parametrize("name", TAKEN)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow) if n == "wide" else n for n in TAKEN]
+)
 def test_other_numbers_are_fitted_without_a_warning(name):
     """What only the units make large or small is explained as it is in other units."""
     found = fitted(*TAKEN[name])

@@ -171,7 +171,14 @@ def resonance(samples):
     return record, lambda f: scipy.signal.freqz([0, 1], a, f, fs=RATE)[1]
 
 
-@pytest.mark.parametrize(("segment", "short"), [(500, True), (8000, True), (40_000, False)])
+@pytest.mark.parametrize(
+    ("segment", "short"),
+    [
+        (500, True),
+        pytest.param(8000, True, marks=pytest.mark.slow),
+        (40_000, False),
+    ],
+)
 def test_segments_that_are_too_short_for_a_resonance_say_so_and_count_what_they_miss(
     segment, short
 ):

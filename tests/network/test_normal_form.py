@@ -80,7 +80,10 @@ def test_a_verdict_by_replacement_is_checked_again():
 FAMILIES = ["machines-3", "trees-4", "circuits-5", "cells-4", "compartments-3"]
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=pytest.mark.slow) if n == "trees-4" else n for n in FAMILIES],
+)
 def test_pairs_of_families_have_twins_both_ways(name):
     draw = random.Random(name)
     for left, right in draw.sample(list(same_pairs(name)), 4):

@@ -17,7 +17,7 @@ from tests.oracles.twins import twin
 needs_singular = pytest.mark.skipif(not PROGRAM, reason="Singular is not installed")
 SECONDS = 5.0
 TRIED = 3  # points of each network at which a twin is looked for that should not be
-FEW = [("machines-2", 40), ("compartments-2", 40), ("circuits-4", 50), ("cells-4", 50)]
+FEW = [("machines-2", 20), ("compartments-2", 40), ("circuits-4", 25), ("cells-4", 20)]
 MANY = [
     ("circuits-4", 200),
     ("cells-4", 250),
@@ -68,7 +68,7 @@ def agree_with_singular(pairs, record_property):
 
 
 @pytest.mark.parametrize(
-    ("name", "most"), [("machines-2", 8), ("compartments-2", 10), ("circuits-4", 12)]
+    ("name", "most"), [("machines-2", 8), ("compartments-2", 10), ("circuits-4", 6)]
 )
 def test_some_verdicts_over_positive_values(name, most, record_property):
     agree_with_twins(of_family(name, most), 1, record_property)
