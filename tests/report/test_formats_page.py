@@ -11,7 +11,7 @@ from disting.catalogs.dampers import COLUMNS as DAMPERS
 from disting.catalogs.export import CSV_COLUMNS as VERDICTS
 from disting.measurement import csv_text
 from disting.measurement.response import FrequencyResponse
-from disting.report.fit import plan_write
+from disting.report.fit import write
 from disting.report.fit.left_words import MEASURED_COLUMNS
 from disting.report.fit.write import COLUMNS as CANDIDATES
 from disting.report.model_list import COLUMNS as MODELS
@@ -32,7 +32,7 @@ def response() -> str:
 
 
 def test_every_header_is_shown_as_it_is_written() -> None:
-    assert PLAN in Path(plan_write.__file__).read_text("utf-8")
+    assert PLAN in Path(write.__file__).read_text("utf-8")
     named = (
         VERDICTS,
         DAMPERS,
@@ -57,7 +57,7 @@ def test_no_other_module_writes_a_table() -> None:
     assert found <= {
         "catalogs/catalog.py", "catalogs/damper_family.py", "catalogs/dampers.py",
         "catalogs/export.py", "cli/dampers.py", "cli/next.py", "cli/verdicts.py",
-        "measurement/writing.py", "report/fit/plan_write.py", "report/fit/write.py",
+        "measurement/files.py", "report/fit/write.py",
         "report/model_list.py", "report/write.py", "simulation/excitation.py",
     }  # fmt: skip
 
