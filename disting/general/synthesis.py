@@ -7,8 +7,7 @@ branch that has one, the terms are shared by their numbers; with one branch of t
 roots, with more of them the denominator is a product of as many polynomials. Of a branch in
 parallel 1/(x F) is looked at likewise, with both kinds exchanged. Every share is what a branch can
 be, and is positive for positive values (the theorem there). So all values are fractions where the
-denominators have the factors that are needed; a factor of degree 2 gives its roots by a square
-root.
+denominators have the factors that are needed; one of degree 2 gives its roots by a square root.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -21,7 +20,7 @@ from disting.general.field import Arithmetic, Poly
 from disting.network.element import Element
 from disting.network.normal_form import Part, Power, in_parallel, in_series, turned
 
-QUADRATIC = TWO = 2
+QUADRATIC = 2
 Cut = list[tuple[int, ...]]
 """For each branch the positions of its factors."""
 Values = dict[str, Any]
@@ -103,8 +102,7 @@ def synthesized(
     `view`: "S" of F, "P" of 1/(x F). Raises NoFormulas.
     """
     low, high = sorted(tree.part.kinds) if len(tree.part.kinds) > 1 else (None, None)
-    if tree.element is not None:
-        raise AssertionError("an element is given its value by the branches that it is among")
+    assert tree.element is None  # it is given its value by the branches that it is among
     if tree.form != view:
         yield from synthesized(field, tree, *_inverse(field, top, bottom), tree.form)
         return
@@ -188,7 +186,7 @@ def shared(
     field: Arithmetic, branches: Sequence[tuple[int, Shaped, int]], top: Poly, bottom: Poly
 ) -> Iterator[dict[int, tuple[Poly, Poly]]]:
     """Yield the terms of branches, by their places: of so many terms each."""
-    if len(branches) < TWO:
+    if len(branches) < 2:
         yield {place: (top, bottom) for place, _, _ in branches}
         return
     for factors, cut in _partitions(field, branches, bottom):
@@ -290,14 +288,13 @@ def _quotient(field: Arithmetic, top: Poly, bottom: Poly, by: Poly) -> Poly:
         pivot = next((r for r in rows[at:] if not field.is_zero(r[at])), None)
         if pivot is None:
             raise NoFormulas("two terms of the function have one pole")
-        rows.remove(pivot)
-        rows.insert(at, pivot)
+        rows.insert(at, rows.pop(rows.index(pivot)))
         for r in rows[at + 1 :]:
             factor = field.short(r[at] / pivot[at])
             r[at:] = [field.short(a - factor * b) for a, b in zip(r[at:], pivot[at:], strict=True)]
     found = list[Any]()
     for r in reversed(rows):
-        known = zip(r[degree - len(found) : degree], found, strict=True)
-        total = sum((a * b for a, b in known), zero)
+        known = r[degree - len(found) : degree]
+        total = sum((a * b for a, b in zip(known, found, strict=True)), zero)
         found.insert(0, field.short((r[-1] - total) / r[degree - 1 - len(found)]))
     return tuple(found)

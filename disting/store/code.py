@@ -41,7 +41,7 @@ def modules_of(module: str) -> tuple[str, ...]:
     names.
 
     >>> modules_of("disting.algebra.certainty")
-    ('disting.algebra.certainty',)
+    ('disting.algebra.certainty', 'disting.algebra.content')
     """
     sources, found, new = _sources(), set[str](), {module}
     while new:

@@ -9,6 +9,7 @@ import pytest
 import sympy
 
 from disting import Family, Query, View, catalog, compare, transfer_function
+from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Counts, Ranks
 from disting.experiments import Experiment
 from disting.model.names import chain_of
@@ -120,9 +121,16 @@ def test_a_sensor_that_stands_still():
     assert re.search(r"sensor of .+ locked never moves, that of .+ locked does", shown(verdict))
 
 
+TOO_LARGE = "ask smaller ones of the same kind"
+REMEDIES = (TOO_LARGE, "without --conditions", "'disting equivalents' with --set")
 OPEN = [
     (("3:1", "3:11"), {"query": Query(View.COMBINED)}, "without --conditions"),
-    (("1=2=3=4=5, 3=6; F1; S1", "1=2=3=4=5, 2=6; F1; S1"), {}, "ask smaller ones of the same kind"),
+    pytest.param(  # 20 s
+        ("1=2=3=4=5=6, 3=7; F1; S1", "1=2=3=4=5=6, 2=7; F1; S1"),
+        {},
+        TOO_LARGE,
+        marks=pytest.mark.slow,
+    ),
     (("#~1, #~2, 1~2; F1; S2", "#~1, 1~2; F1; S2"), {}, "'disting equivalents' with --set"),
 ]
 
@@ -134,4 +142,10 @@ def test_what_is_not_known_says_why_and_what_helps(models, asked, remedy):
     assert verdict.relation is Relation.UNDECIDED
     said = shown(verdict)
     assert said.startswith("Not known: ") and all(name in said for name in models)
-    assert remedy in said and sum(words in said for _, _, words in OPEN) == 1
+    assert remedy in said and sum(words in said for words in REMEDIES) == 1
+
+
+def test_what_took_too_long_says_what_helps():
+    silent = compare("3:1", "3:11", query=Query(View.COMBINED))
+    late = replace(silent, notes=(f"{EXACT.in_words()} was abandoned: out of time (60 s)",))
+    assert TOO_LARGE in shown(late) and TOO_LARGE not in shown(silent)

@@ -176,6 +176,7 @@ def _seen(branch: Branch, d: Ball) -> Seen:
 def subset_sums(items: list[Ball], size: int) -> list[Ball]:
     """The sum of every subset of that size, in the order of itertools.combinations.
 
+    >>> from flint import acb
     >>> subset_sums([acb(1), acb(2), acb(4)], 2) == [3, 5, 6]
     True
     """
