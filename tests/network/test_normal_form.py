@@ -13,7 +13,7 @@ from disting.network.network import Network
 from disting.network.notation import network_of
 from disting.network.simplest import simplest
 from disting.verdict.verdict_file import verdict_file
-from tests.oracles.twins import twin
+from tests.oracles.twins import STARTS, twin
 
 SAME = [
     ("R0-p(R1,C1)-p(R2,C2)", "R0-p(C1,R1-p(R2,C2))"),
@@ -117,4 +117,4 @@ def has_twin(given: Network, other: Network, draw: random.Random) -> bool:
     """Whether positive values of the other network are found that give the transfer function of the
     given one at random positive values.
     """
-    return twin(given, other, draw)[1] is not None
+    return twin(given, other, draw, 4 * STARTS)[1] is not None
