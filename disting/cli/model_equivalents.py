@@ -162,8 +162,10 @@ def _formulas(
             yield f"{mark}{ways}{form.checked}"
             yield from (f"{mark}{name}' = {same}" for name, same in sorted(x.exponents))
             yield from (f"{mark}where {g} > 0" for g in form.where)
-            if form.partial:
-                yield f"{mark}positive for some given values; for others --set may find more"
+            if form.seen:
+                yield f"{mark}{form.seen}; for your values see --set"
+            if form.chosen:
+                yield f"{mark}chosen, other numbers may do the same: {', '.join(form.chosen)}"
             yield from (
                 f"{mark}{', '.join(names)} can share a part in any proportion; here they share"
                 " it equally"

@@ -71,8 +71,8 @@ def _of_chains(given: AnyModel, other: AnyModel) -> list[ClosedForm] | None:
 
 
 def _solved(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
-    """Sections of the equations that hold for all generic positive values, or a root that does;
-    else all that is known over complex values, of which some are positive somewhere.
+    """Sections of the equations that hold for all generic positive values; else the roots of a
+    path, one of which does, or all that is known over complex values, as far as seen positive.
     """
     field, found = Field(given.parameters), way(given, other, Domain.POSITIVE)
     if found is not None and found.covering:
@@ -82,9 +82,8 @@ def _solved(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
         degree = int(root.equation.degrees()[root.at])
         if degree > QUADRATIC:
             raise NoFormulas(f"roots of a polynomial of degree {degree} are needed")
-        forms = _of_root(found, root.at, root.equation, root.values)
-        return [f for f in forms if _positive(f) == TRIALS] or _somewhere(forms)
-    return _somewhere(_of_cases(given, other))
+        return _seen(_of_root(found, root.at, root.equation, root.values))
+    return _seen(_of_cases(given, other))
 
 
 def _of_cases(given: AnyModel, other: AnyModel) -> Iterator[ClosedForm]:
@@ -106,9 +105,11 @@ def _of_cases(given: AnyModel, other: AnyModel) -> Iterator[ClosedForm]:
         yield from _of_root(found, at, case.equations[0], [known[i] for i in ring.unknowns])
 
 
-def _somewhere(forms: Iterable[ClosedForm]) -> list[ClosedForm]:
-    """Those that are positive at some points that are tried."""
-    return [replace(form, partial=True) for form in forms if _positive(form)]
+def _seen(forms: Iterable[ClosedForm]) -> list[ClosedForm]:
+    """Those that are positive at some points that are tried, and at how many: no proof of more."""
+    counts = ((form, _positive(form)) for form in forms)
+    words = "positive at {} of {} points that were tried"
+    return [replace(f, seen=words.format(n, TRIALS)) for f, n in counts if n]
 
 
 def _positive(form: ClosedForm) -> int:

@@ -63,15 +63,6 @@ class Balls(Arithmetic):
             ]
         return _linear(polynomial)
 
-    def split(self, quadratic: Poly) -> tuple[Any, Any]:
-        """Never asked for."""
-        raise NotImplementedError("all factors are linear")
-
-    def choose(self, names: Sequence[str]) -> None:
-        """Remember that only some sum of what these elements have is determined."""
-        if tuple(names) not in self.choices:
-            self.choices.append(tuple(names))
-
 
 def _linear(polynomial: Sequence[Any]) -> list[Poly]:
     try:

@@ -38,8 +38,8 @@ Written = Callable[[RationalFunction], str]
 class ClosedForm:
     """`values` of the parameters of another model, in those of the given one and in `steps`, for
     values at which all of `where` are positive. `choices`: elements that share equally what could
-    be shared in infinitely many ways. `partial`: they are positive for some given values, and may
-    be negative for others.
+    be shared in infinitely many ways. `seen`: at how many points
+    they were positive, where no theorem says that they are everywhere.
 
     They give the same transfer functions wherever no denominator is zero; a wrong formula would
     have passed with a probability of at most 2^-safety.
@@ -50,13 +50,18 @@ class ClosedForm:
     values: tuple[tuple[str, RationalFunction], ...]
     where: tuple[fmpz_mpoly, ...] = ()
     choices: tuple[tuple[str, ...], ...] = ()
-    partial: bool = False
+    seen: str = ""
     safety: int = 0
 
     @property
     def checked(self) -> str:
         """How surely it is an identity, in words."""
         return f"identity checked, {Certainty.BOUNDED.in_words(self.safety)}"
+
+    @property
+    def chosen(self) -> tuple[str, ...]:
+        """Parameters whose values are numbers, whatever the given ones are."""
+        return tuple(n for n, v in self.values if v.num.is_constant() and v.den.is_constant())
 
     @property
     def length(self) -> int:

@@ -20,7 +20,7 @@ from flint import fmpz_mpoly
 from disting.algebra.symbols import RationalFunction, coefficients, factored, symbols
 from disting.general.orthant import TooMuch
 
-SHORT = 6
+QUADRATIC = 2
 MOST_NAMES = 60
 LARGEST = 2000  # terms of a polynomial that is factored
 Poly = tuple[Any, ...]
@@ -64,9 +64,12 @@ def four(value: RationalFunction) -> RationalFunction:
 
 
 class Arithmetic:
-    """Polynomials in x over a field, of which a subclass says what its values are."""
+    """Polynomials in x over a field, of which a subclass says what its values are. `choices`:
+    elements of which only some sum of what they have is determined.
+    """
 
     one: Any
+    choices: list[tuple[str, ...]]
 
     @property
     def zero(self) -> Any:
@@ -115,13 +118,14 @@ class Arithmetic:
     def factors(self, polynomial: Poly) -> list[Poly]:
         """Polynomials whose product it is, but for a factor without x."""
 
-    @abstractmethod
-    def split(self, quadratic: Poly) -> tuple[Any, Any]:
-        """Both roots of a polynomial of degree 2 that is no product."""
+    def linear(self, factor: Poly) -> list[Poly]:
+        """Factors of one of `factors` with a new root, itself where there are none."""
+        return [factor]
 
-    @abstractmethod
     def choose(self, names: Sequence[str]) -> None:
         """Remember that only some sum of what these elements have is determined."""
+        if tuple(names) not in self.choices:
+            self.choices.append(tuple(names))
 
 
 @dataclass
@@ -163,10 +167,11 @@ class Field(Arithmetic):
         """A constant."""
         return RationalFunction(self.one.num * value, self.one.num)
 
-    def choose(self, names: Sequence[str]) -> None:
-        """Remember that only some sum of what these elements have is determined."""
-        if tuple(names) not in self.choices:
-            self.choices.append(tuple(names))
+    def linear(self, factor: Poly) -> list[Poly]:
+        """Both of a factor of degree 2, by names of its roots; others as they are."""
+        if len(factor) - 1 != QUADRATIC:
+            return [factor]
+        return [(-root, self.one) for root in self.split(factor)]
 
     def split(self, quadratic: Poly) -> tuple[RationalFunction, RationalFunction]:
         """Both roots of a polynomial of degree 2, by names."""

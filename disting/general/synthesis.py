@@ -20,7 +20,6 @@ from disting.general.field import Arithmetic, Poly
 from disting.network.element import Element
 from disting.network.normal_form import Part, Power, in_parallel, in_series, turned
 
-QUADRATIC = 2
 Cut = list[tuple[int, ...]]
 """For each branch the positions of its factors."""
 Values = dict[str, Any]
@@ -211,20 +210,14 @@ def _partitions(
     factors = field.factors(bottom)
     wanted = [(count, tree.shape) for _, tree, count in branches]
     cuts = list(_cuts([len(f) - 1 for f in factors], wanted))
-    if not cuts and any(len(f) - 1 == QUADRATIC for f in factors):
-        factors = [g for f in factors for g in _linear(field, f)]
+    if not cuts:
+        factors = [g for f in factors for g in field.linear(f)]
         cuts = list(_cuts([len(f) - 1 for f in factors], wanted))
     if not cuts:
         degree = max(len(f) - 1 for f in factors)
         raise NeedsRoots(f"roots of a polynomial of degree {degree} are needed")
     for cut in cuts:
         yield factors, cut
-
-
-def _linear(field: Arithmetic, factor: Poly) -> list[Poly]:
-    if len(factor) - 1 != QUADRATIC:
-        return [factor]
-    return [(-root, field.one) for root in field.split(factor)]
 
 
 def _cuts(degrees: Sequence[int], wanted: Sequence[tuple[int, object]]) -> Iterator[Cut]:

@@ -10,7 +10,7 @@ never on the number of masses: so each is held once, under a name that the page'
 """
 
 from collections.abc import Iterable, Iterator
-from itertools import product
+from itertools import combinations, product
 
 from disting.catalogs import Catalog
 from disting.model.chain import Chain
@@ -93,8 +93,8 @@ def part_name(chain: Chain, layer: Layer) -> str:
 
 
 def machines(catalogs: Iterable[Catalog]) -> list[dict[str, object]]:
-    """Of each catalogue: its models' five indices in order, groups, what depends on the values,
-    how many verdicts are open.
+    """Of each catalogue: its models' five indices in order, groups, of whose models special values
+    are left aside, what depends on the values, how many verdicts are open.
     """
     return [_machine(c) for c in catalogs]
 
@@ -111,10 +111,17 @@ def _machine(c: Catalog) -> dict[str, object]:
         "below": height_with_dampers(c.n_masses) - scene.height,
         "models": [chain.indices[1:] for chain in c.family],
         "groups": c.classes(),
+        "aside": _with_exceptions(c),
         "depends": _depending(c),
         "open": _undecided(c),
         "known": {row.number: said for row in c.rows if (said := not_known(row))},
     }
+
+
+def _with_exceptions(c: Catalog) -> list[int]:
+    """The models that some other one of their group equals but for special values."""
+    pairs = (pair for members in c.classes() for pair in combinations(members, 2))
+    return sorted({m for pair in pairs if c.verdict(*pair).has_exceptions for m in pair})
 
 
 def _depending(c: Catalog) -> dict[int, list[int]]:

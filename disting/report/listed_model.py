@@ -100,6 +100,7 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
         shown=shown,
         card=card,
         twins=twins,
+        aside=any(v.has_exceptions for v in verdicts.values()),
         complex_same=complex_same,
         told_apart=told_apart(verdicts),
         drawings=drawn,

@@ -149,6 +149,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         row=model.row,
         twins=twins,
         always=[t for t in twins if t.relation is Relation.INDISTINGUISHABLE],
+        aside=any(v.has_exceptions for v in verdicts.values()),
         sometimes=[t for t in twins if t.relation is Relation.SOMETIMES],
         open=[t for t in twins if t.relation is Relation.UNDECIDED],
         complex_same=_over_complex(catalog, number, Relation.INDISTINGUISHABLE),

@@ -69,6 +69,23 @@ def test_a_twin_is_drawn_along_with_its_structure(left):
         assert apart < 0.05 * moved and np.ptp(twin.p, axis=0).min() > 0
 
 
+def test_a_twin_of_values_far_away_does_the_same_or_is_left_out(left):
+    """To first order values a factor e away lead to responses that are others, and overflow."""
+    omega = left.task.cost.measured.omega
+    (own,) = drawn(left.members[:1], left.task)
+    away = np.exp(np.random.default_rng(5).normal(size=(40, own.p.shape[1])))
+    away[0] = 1.0
+    wide = Drawn(own.chain, own.p[0] * away)
+    exact = Plant(own.chain.structure, omega).response(wide.p)
+    most = np.abs(np.log(exact / exact[0])).max()
+    _, *twins = with_twins(left.members[:1], [wide], omega)
+    assert twins
+    for twin in twins:
+        seen = Plant(twin.chain.structure, omega).response(twin.p)
+        apart = np.abs(np.log(seen[:, None] / exact)).max(axis=-1).min(axis=1)
+        assert len(seen) > 10 and apart.max() < 0.1 * most
+
+
 def test_what_is_known_badly_says_what_helps():
     source = np.random.default_rng(2)
     wide, narrow = (np.exp(s * source.normal(size=(200, 1))) for s in (0.5, 0.01))

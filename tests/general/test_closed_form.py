@@ -93,25 +93,28 @@ def test_both_give_the_same(one, other, count, by_roots):
 
 
 SOLVED = (
-    ("1>2, 1>3, 2>1, 3>1; in 2; out 3", "1>2, 2>1, 3>1; in 3; out 2", True, False),
-    ("1>2, 1>3, 2>3; in 1; out 3", "1>2, 1>3, 2>1, 2>3; in 1; out 3", False, True),
-    ("1<>2, 1>0; in 1; out 1", "1<>2, 2>0; in 1; out 1", False, False),
+    ("1>2, 1>3, 2>1, 3>1; in 2; out 3", "1>2, 2>1, 3>1; in 3; out 2", True, "at 40 of 40", ()),
+    ("1>2, 1>3, 2>3; in 1; out 3", "1>2, 1>3, 2>1, 2>3; in 1; out 3", False, "of 40", ("a23",)),
+    ("1<>2, 1>0; in 1; out 1", "1<>2, 2>0; in 1; out 1", False, "", ()),
 )
 
 
-@pytest.mark.parametrize(("one", "other", "by_roots", "partial"), SOLVED)
-def test_equations_of_few_values(one, other, by_roots, partial):
-    """Compartments: positive for all values, or said to be so for some."""
+@pytest.mark.parametrize(("one", "other", "by_roots", "seen", "chosen"), SOLVED)
+def test_equations_of_few_values(one, other, by_roots, seen, chosen):
+    """Compartments: positive for all values, or at how many points that is seen; what is a number
+    is a choice.
+    """
     found = formulas(one, other)
     assert any(s.root for f in found for s in f.steps) is by_roots
-    assert {f.partial for f in found} == {partial}
+    assert all(seen in f.seen and bool(f.seen) is bool(seen) for f in found)
+    assert {f.chosen for f in found} == {chosen}
     (model,) = models(one)
     values = {n: sympy.Rational(i * i + 3, i + 2) for i, n in enumerate(model.parameters)}
     for form in found:
         there = {n: sympy.N(x, 40) for n, x in numbers(form, values).items()}
         difference = response(one, values, 5) / response(other, there, 5) - 1
         assert abs(sympy.N(difference, 40)) < 1e-30
-        if not partial:
+        if not chosen:
             assert all(x > 0 for x in there.values())
 
 

@@ -122,7 +122,7 @@
     put("remark", how ? `Listed with ${how}: the transfer function is the same.` : "");
     put("known", (c.known[number] || "").replace("{0}", `A${number}`)); // before any "distinguishable"
     put("twins", ...(twins.length ? [
-      `Whatever its positive parameters, ${twins.length} other ${one ? "model" : "models"} cannot be told apart from it with this force and sensor: `,
+      `Whatever its positive parameters${c.aside.includes(number) ? ", special values aside" : ""}, ${twins.length} other ${one ? "model" : "models"} cannot be told apart from it with this force and sensor: `,
       ...links(twins), ".",
     ] : others ? [open || depends.length ? "No other model is known that can never be told apart from it." : "With generic positive parameters it is distinguishable from every other model of this catalogue."] : ["The only model of this size."]));
     put("depends", ...(depends.length ? ["It depends on the positive parameters whether an experiment tells it from ", ...links(depends), "."] : []));
