@@ -14,8 +14,9 @@ Where the ports share a node, one of both is empty: all terms have one sign, and
 where all values are 1 is not zero. Where they do not, forests are counted (`.trees`).
 Gears: where x_i = h_i y_i with products h of ratios turns each e_i - g e_j into a multiple of
 e_i - e_j, D and N are those of a network without gears at values times products of ratios, and N is
-multiplied by one: as many terms, of the same signs. Where ratios meet in a loop that does not allow
-it, nothing is said.
+multiplied by one: as many terms, of the same signs but for one that all terms of N share. Where
+ratios meet in a loop that does not allow it, nothing is said. Ratios that are numbers multiply each
+term by a number.
 
 The coefficients where all values are 1 are whole numbers, read as the digits of D and N at s = 2^B,
 with 2^B above their sum.
@@ -38,7 +39,8 @@ whatever their size.
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import lru_cache
 
 from flint import fmpz_mat
@@ -53,6 +55,8 @@ MOST_STATES = 5000
 REMEMBERED = 1024
 APART = 20  # bits: a network has fewer elements than 2^19
 Sides = tuple[tuple[int, ...], tuple[int, ...]]
+Height = tuple[Fraction, int]
+"""h_i as a product: a number, and the sum of the steps of unknown ratios."""
 
 
 def forests(weights: Mapping[Edge, int], kept: Iterable[int]) -> Mapping[Partition, int] | None:
@@ -102,13 +106,17 @@ def _without(states: Counter[Partition], node: int) -> Counter[Partition]:
 @dataclass(frozen=True, slots=True)
 class Counts:
     """How many terms the coefficients of s^0, s^1, .. of both sides have, where none cancel, and
-    the largest degree of a term in the values; `free`: the power of s whose coefficient in N, and
-    in D, is a number (None where none is).
+    the largest degree of a term in the values; `size`: the largest sum of the sizes of the numbers
+    of a coefficient's terms, which are 1 without known ratios, and `mean` their mean in the leading
+    one of D; `free`: the power of s whose coefficient in N, and in D, is a number (None where none
+    is).
     """
 
     num: tuple[int, ...]
     den: tuple[int, ...]
     degree: int
+    size: int
+    mean: Fraction
     free: tuple[int | None, int | None] = (None, None)
 
     @property
@@ -147,7 +155,9 @@ def counts(of: Assembly) -> Counts | None:
     """
     if not _ratios_agree(of):
         return None
-    sides = _digits(of, [e.power for e in of.frame.entries])
+    powers, given = [e.power for e in of.frame.entries], of
+    of = replace(of, frame=of.frame.ungeared, scale=1)
+    sides = _digits(of, powers)
     # twice the values that do not divide, once the s of compartments and the ratios
     weights = [1 if e.place is None else 2 * (not e.divides) for e in of.frame.entries]
     ratios = sorted({e.ratio for e in of.frame.entries if e.ratio is not None})
@@ -166,38 +176,43 @@ def counts(of: Assembly) -> Counts | None:
         if side
     ]
     num, den = sides
+    sizes = sides if of == given else _digits(given, powers) or sides
     directed = any(e.place is None for e in of.frame.entries)
     free = (n - 1 + of.gained, n) if directed else (None, None)
-    return Counts((0,) * of.gained + num if num else (), den, max(degrees), free)
+    size, mean = max(map(max, filter(None, sizes))), Fraction(sizes[1][-1], den[-1])
+    return Counts((0,) * of.gained + num if num else (), den, max(degrees), size, mean, free)
 
 
 def _ratios_agree(of: Assembly) -> bool:
     """Whether gears allow to count: the h_i exist, and are the same at both ends of a port."""
-    geared = sorted({e.ratio for e in of.frame.entries if e.ratio is not None})
-    if not geared:
+    entries = of.frame.entries
+    unknown = sorted({e.ratio for e in entries if e.ratio is not None})
+    steps = {ratio: 1 << APART * k for k, ratio in enumerate(unknown)} | {None: 0}
+    links = [(*_link(e), steps[e.ratio]) for e in entries if len(e.feels) > 1]
+    if not any(step or ratio != 1 for *_, ratio, step in links):
         return True
-    heights: dict[int, int] = {}  # h_i as a sum of the steps of its ratios
-    steps = {None: 0} | {ratio: 1 << APART * k for k, ratio in enumerate(geared)}
-    links = [
-        (i, j, steps[e.ratio]) for e in of.frame.entries if len(e.feels) > 1 for i, j in [_rows(e)]
-    ]
+    links += [(j, i, 1 / ratio, -step) for i, j, ratio, step in links]
+    heights: dict[int, Height] = {}
     for start in range(of.frame.size):
         todo = [] if start in heights else [start]
-        heights.setdefault(start, 0)
+        heights.setdefault(start, (Fraction(1), 0))
         while todo:
-            i = todo.pop()
-            for a, b, step in [*links, *((b, a, -step) for a, b, step in links)]:
-                if a == i and b not in heights:
-                    todo.append(b)
-                if a == i and heights.setdefault(b, heights[i] - step) != heights[i] - step:
-                    return False
+            number, steps_up = heights[i := todo.pop()]
+            for a, b, ratio, step in links:
+                if a == i:
+                    other = number / ratio, steps_up - step
+                    if b not in heights:
+                        todo.append(b)
+                    if heights.setdefault(b, other) != other:
+                        return False
     level = all(len({heights[i] for i, _ in port}) < 2 for port in (of.force, of.sensor))
     return level and _sign(of) != 0
 
 
-def _rows(e: Entry) -> tuple[int, int]:
-    (i, _), (j, _) = e.feels
-    return i, j
+def _link(e: Entry) -> tuple[int, int, Fraction]:
+    """Both rows of an element, and its ratio where that is a number."""
+    (i, x), (j, y) = e.feels
+    return i, j, Fraction(-y, x)
 
 
 def _digits(of: Assembly, powers: Sequence[int], ratios: Collection[int] = ()) -> Sides | None:
@@ -218,7 +233,7 @@ def _digits(of: Assembly, powers: Sequence[int], ratios: Collection[int] = ()) -
 
 
 def _at_ones(of: Assembly, terms: Sequence[int], point: Sequence[int]) -> tuple[int, int] | None:
-    """c^T adj P b, all signs left out, and det P, over the integers."""
+    """c^T adj P b times `scale`, all signs left out, and det P, over the integers."""
     rows, sign = of.frame.rows(terms, point), _sign(of)
     den = int(fmpz_mat(rows).det())
     if not sign:
@@ -230,7 +245,7 @@ def _at_ones(of: Assembly, terms: Sequence[int], point: Sequence[int]) -> tuple[
             edge[i] = x
     above = [[*row, x] for row, x in zip(rows, edges[0], strict=True)]
     bordered = fmpz_mat([*above, [*(-x for x in edges[1]), 0]])
-    return sign * int(bordered.det()), den
+    return of.scale * abs(int(bordered.det())), den
 
 
 def _sign(of: Assembly) -> int:
