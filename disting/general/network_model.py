@@ -33,7 +33,7 @@ from disting.general.behaviour import (
 from disting.general.matrix_model import AnyModel
 from disting.model.protocol import ZERO, Columns, Degrees
 from disting.network.at_points import Assembly, Sides, assembly, quotient_at, sides_at
-from disting.network.forests import Counts, counts, counts_of
+from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
 
 
@@ -121,7 +121,7 @@ class NetworkModel:
 
     @property
     def _counts(self) -> tuple[Counts | None, ...]:
-        return tuple(None if of is None else counts(of) for of in self._assemblies)
+        return tuple(None if c is None else counts_of(c, self.halves) for c in self.cells)
 
 
 def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:

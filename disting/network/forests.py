@@ -12,11 +12,10 @@ forests of two trees, one through A, one through B,
 
 Where the ports share a node, one of both is empty: all terms have one sign, and what is not zero
 where all values are 1 is not zero. Where they do not, forests are counted (`.trees`).
-Gears: where x_i = h_i y_i with products h of ratios turns each e_i - g e_j into a multiple of
-e_i - e_j, D and N are those of a network without gears at values times products of ratios, and N is
-multiplied by one: as many terms, of the same signs but for one that all terms of N share. Where
-ratios meet in a loop that does not allow it, nothing is said. Ratios that are numbers multiply each
-term by a number.
+Gears: where ratios agree (`.gears`) D and N are those of a network without gears at values times
+products of ratios, and N is multiplied by one: as many terms, of the same signs but for one that
+all terms of N share. Of others nothing is said. Ratios that are numbers multiply each term by a
+number.
 
 The coefficients where all values are 1 are whole numbers, read as the digits of D and N at s = 2^B,
 with 2^B above their sum.
@@ -46,7 +45,8 @@ from functools import lru_cache
 from flint import fmpz_mat
 
 from disting.algebra.certainty import about, prime, residues
-from disting.network.at_points import Assembly, Entry, Vector, assembly, quotient_at
+from disting.network.at_points import Assembly, Vector, assembly, quotient_at
+from disting.network.gears import ungeared
 from disting.network.network import Network
 
 Partition = frozenset[frozenset[int]]
@@ -55,8 +55,6 @@ MOST_STATES = 5000
 REMEMBERED = 1024
 APART = 20  # bits: a network has fewer elements than 2^19
 Sides = tuple[tuple[int, ...], tuple[int, ...]]
-Height = tuple[Fraction, int]
-"""h_i as a product: a number, and the sum of the steps of unknown ratios."""
 
 
 def forests(weights: Mapping[Edge, int], kept: Iterable[int]) -> Mapping[Partition, int] | None:
@@ -136,8 +134,11 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     None of others.
     """
     of = assembly(network, halves)
-    known = None if of is None else counts(of)
-    if of is None or known is None or not any(known.num) or not any(known.den):
+    geared = any(e.ratio for e in network.elements)
+    if of is None or (geared and (ungeared(network) is None or not _sign(of))):
+        return None
+    known = _counted(of)
+    if known is None or not any(known.num) or not any(known.den):
         return None
     label = about("lowest terms", network.elements, network.ports, network.order, halves)
     modulus = prime(label)
@@ -148,13 +149,10 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     return known if kept and all(a or b for a, b in slopes) else None
 
 
-@lru_cache(maxsize=REMEMBERED)
-def counts(of: Assembly) -> Counts | None:
-    """Those of an assembly; None of one whose terms are not counted, or where both sides share the
-    ratio of a gear.
+def _counted(of: Assembly) -> Counts | None:
+    """Those of an assembly whose ratios agree; None of one whose terms are not counted, or where
+    both sides share the ratio of a gear.
     """
-    if not _ratios_agree(of):
-        return None
     powers, given = [e.power for e in of.frame.entries], of
     of = replace(of, frame=of.frame.ungeared, scale=1)
     sides = _digits(of, powers)
@@ -181,38 +179,6 @@ def counts(of: Assembly) -> Counts | None:
     free = (n - 1 + of.gained, n) if directed else (None, None)
     size, mean = max(map(max, filter(None, sizes))), Fraction(sizes[1][-1], den[-1])
     return Counts((0,) * of.gained + num if num else (), den, max(degrees), size, mean, free)
-
-
-def _ratios_agree(of: Assembly) -> bool:
-    """Whether gears allow to count: the h_i exist, and are the same at both ends of a port."""
-    entries = of.frame.entries
-    unknown = sorted({e.ratio for e in entries if e.ratio is not None})
-    steps = {ratio: 1 << APART * k for k, ratio in enumerate(unknown)} | {None: 0}
-    links = [(*_link(e), steps[e.ratio]) for e in entries if len(e.feels) > 1]
-    if not any(step or ratio != 1 for *_, ratio, step in links):
-        return True
-    links += [(j, i, 1 / ratio, -step) for i, j, ratio, step in links]
-    heights: dict[int, Height] = {}
-    for start in range(of.frame.size):
-        todo = [] if start in heights else [start]
-        heights.setdefault(start, (Fraction(1), 0))
-        while todo:
-            number, steps_up = heights[i := todo.pop()]
-            for a, b, ratio, step in links:
-                if a == i:
-                    other = number / ratio, steps_up - step
-                    if b not in heights:
-                        todo.append(b)
-                    if heights.setdefault(b, other) != other:
-                        return False
-    level = all(len({heights[i] for i, _ in port}) < 2 for port in (of.force, of.sensor))
-    return level and _sign(of) != 0
-
-
-def _link(e: Entry) -> tuple[int, int, Fraction]:
-    """Both rows of an element, and its ratio where that is a number."""
-    (i, x), (j, y) = e.feels
-    return i, j, Fraction(-y, x)
 
 
 def _digits(of: Assembly, powers: Sequence[int], ratios: Collection[int] = ()) -> Sides | None:

@@ -23,7 +23,7 @@ from disting.model.question import Settings
 from disting.network.at_points import assembly, solved
 from disting.network.chains import of_chain
 from disting.network.families import circuits, family_of
-from disting.network.forests import counts, counts_of
+from disting.network.forests import counts_of
 from disting.network.notation import network_of
 from disting.simulation import frequency_response
 from disting.verdict.result import Relation
@@ -122,7 +122,7 @@ def networks_of_size(n):
 
 def profiled(network):
     """The model made of the network and its profile, nothing kept from before."""
-    for kept in (assembly, counts, counts_of, solved):
+    for kept in (assembly, counts_of, solved):
         kept.cache_clear()
     return one_profile(behaviour_of(of_network(network)))
 
