@@ -29,7 +29,7 @@ def ungeared(network: Network) -> Network | None:
 
     >>> from disting.network.notation import network_of
     >>> [str(e) for e in ungeared(network_of("1~2*5/2, 2~3*i; F1; S3")).elements]
-    ['k12 1 2', 'k23 2 3', 'm1 1', 'm2 2', 'm3 3']
+    ['m1 1', 'm2 2', 'm3 3', 'k12 1 2', 'k23 2 3']
     >>> ungeared(network_of("1~2*3, 2~3, 3~1; F1; S3"))
     """
     if not any(e.ratio for e in network.elements):
@@ -49,7 +49,7 @@ def units(network: Network) -> dict[str, Height]:
 
     >>> from disting.network.notation import network_of
     >>> {n: str(x) for n, (x, _) in units(network_of("1~2*5/2; F1; S2")).items()}
-    {'k12': '5/2', 'm1': '5/2', 'm2': '2/5'}
+    {'m1': '5/2', 'm2': '2/5', 'k12': '5/2'}
     """
     heights = _heights(network)
     if heights is None or not any(e.ratio for e in network.elements):
