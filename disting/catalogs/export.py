@@ -7,11 +7,11 @@ import re
 from collections.abc import Iterable, Sequence
 
 from disting.algebra.certainty import Certainty
+from disting.conditions.inclusion import Inclusion, Sense
 from disting.evidence.positive import PositiveFinding
 from disting.files import Format
 from disting.model.chain import Premise
 from disting.model.question import Domain
-from disting.questions.inclusion import Inclusion, Sense
 from disting.verdict.decisions import Decisions
 from disting.verdict.joint import family_safety
 from disting.verdict.result import Relation, Verdict, error_bound

@@ -10,6 +10,7 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
+from disting.conditions.inclusion import Inclusion, inclusions_from_dict
 from disting.conditions.rule import RULES, Role, Stage
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
@@ -17,8 +18,7 @@ from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.questions.identifiability import Identifiability
-from disting.questions.inclusion import Inclusion, inclusions_from_dict
+from disting.questions.identifiability.answer import Identifiability
 from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
 from disting.verdict.cascade import Step, open_note
 from disting.verdict.query import View

@@ -28,7 +28,7 @@ from disting.cli.output import emitted
 from disting.cli.relations import query
 from disting.cli.workers import engine_for, told_if_long
 from disting.errors import InputError
-from disting.experiments import named
+from disting.experiments.places import named
 from disting.general.any_model import measured
 from disting.general.matrix_model import AnyModel
 from disting.general.special_values import SpecialValues, special_values

@@ -5,14 +5,15 @@ within ranges.
 from collections.abc import Iterator, Sequence
 
 from disting.cli.relations import in_colour
+from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.errors import InputError, listed
-from disting.experiments import Experiment, MeasuredChain, Places, moved
+from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.experiments.places import Places, moved
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.model.chain import Chain, text_drawing
 from disting.model.question import Domain
 from disting.network.element import Sort
-from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.verdict.everywhere import Answer, Everywhere
 from disting.verdict.meaning import RESPONSE, shown
 from disting.verdict.result import Relation, Verdict

@@ -15,8 +15,9 @@ from disting.cli.compare_words import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import Work, announced, engine_for
 from disting.errors import InputError, listed
-from disting.experiments import Experiment, MeasuredChain, named
+from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
+from disting.experiments.places import named
 from disting.general.any_model import of_network, unnamed
 from disting.general.identifiability import PARAMETERS
 from disting.model.chain import LEGEND, text_drawing
@@ -24,7 +25,9 @@ from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option
 from disting.network.network import Network
-from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
+from disting.questions.identifiability.answer import Identifiability
+from disting.questions.identifiability.by_parameter import ParameterIdentifiability
+from disting.questions.identifiability.parts import Level
 from disting.verdict.engine import Engine, Progress
 
 NOT_ASKED = "·"

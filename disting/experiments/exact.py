@@ -70,7 +70,7 @@ from disting.fibres.synthesis.task import Answer, Solution
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 from disting.questions.same.exact import SAFETY, decided
 from disting.questions.same.real_and_positive import positive_share
 

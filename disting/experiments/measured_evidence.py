@@ -29,7 +29,7 @@ from disting.fibres.synthesis.task import Answer, fraction
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.positive import proves
 from disting.questions.same.exact import by_labels

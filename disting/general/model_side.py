@@ -15,6 +15,7 @@ from functools import cached_property
 from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import GENERIC, Ask, Side
 from disting.conditions.sufficient import condition_6
@@ -47,7 +48,6 @@ from disting.general.readings import readings, told
 from disting.general.replacement import replaceable
 from disting.model.chain import Chain, Premise
 from disting.model.question import Domain, Question, Relation
-from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"

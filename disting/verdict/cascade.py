@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import Inclusion, Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Role, Stage
 from disting.conditions.side import AnySide, notes_of
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
@@ -24,7 +25,6 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.questions.inclusion import Inclusion, Inclusions
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict

@@ -15,13 +15,13 @@ from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
+from disting.conditions.inclusion import Inclusion, Inclusions, Sense
 from disting.conditions.rule import ADMISSIBLE, RULES, Stage
 from disting.conditions.side import AnySide
 from disting.conditions.table import NECESSARY
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
 from disting.model.presentation import Shown, plural, summary
-from disting.questions.inclusion import Inclusion, Inclusions, Sense
 from disting.verdict.buckets import classes_of
 from disting.verdict.cascade import Step, decide, verdict_of
 from disting.verdict.query import Query

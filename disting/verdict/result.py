@@ -3,6 +3,12 @@
 from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, bits_in_words
+from disting.conditions.inclusion import (
+    Inclusion,
+    Inclusions,
+    inclusions_from_dict,
+    inclusions_to_dict,
+)
 from disting.conditions.rule import EXACT, RULES, Role, Stage
 from disting.conditions.side import COUNTED, GENERIC
 from disting.evidence.conditions import capital
@@ -12,12 +18,6 @@ from disting.evidence.real import BothWays
 from disting.model.chain import Premise
 from disting.model.presentation import Shown, summary
 from disting.model.question import Domain, Relation as Relation
-from disting.questions.inclusion import (
-    Inclusion,
-    Inclusions,
-    inclusions_from_dict,
-    inclusions_to_dict,
-)
 
 
 def error_bound(certainty: str, safety: int) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, shown
-from disting.experiments import Experiment, MeasuredChain
+from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.general.any_model import as_chain, of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model

@@ -26,6 +26,7 @@ from disting.catalogs import Catalog
 from disting.catalogs.build import build
 from disting.catalogs.export import decisions_csv
 from disting.catalogs.verify import false_evidence
+from disting.conditions.inclusion import Inclusion
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors
@@ -33,8 +34,7 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Answer, Status, target
 from disting.model.question import Domain, Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import identifiability
-from disting.questions.inclusion import Inclusion
+from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import positive_finding, proves
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.real_and_positive import (

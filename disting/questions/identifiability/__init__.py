@@ -7,7 +7,8 @@ with one behaviour; the row space of its Jacobian tells which functions of the p
 determined at all.
 
 >>> from disting import Family
->>> from disting.questions.identifiability import confirms, identifiabilities
+>>> from disting.questions.identifiability.analysis import identifiabilities
+>>> from disting.questions.identifiability.check import confirms
 >>> family = Family(3)
 >>> first, fourth = identifiabilities([family[1], family[4]])
 >>> first.rank, fourth.least, fourth.renamings[0].symmetries  # of a Renaming
@@ -20,34 +21,7 @@ Alternative with its Origin. It is on the canonical form of a chain, and `as_giv
 Of any model `local` gives a Local, `by_parameter` the level of each parameter, `joint` the grade of
 several statements together; `encoded` and `decoded` are for a store.
 
->>> from disting.questions.identifiability import joint
+>>> from disting.questions.identifiability.by_parameter import joint
 >>> joint([100, 120])
 (<Certainty.BOUNDED: 'bounded'>, 99)
 """
-
-from disting.questions.identifiability.analysis import (
-    IDENTIFIABILITY as IDENTIFIABILITY,
-    as_given as as_given,
-    identifiabilities as identifiabilities,
-    identifiability as identifiability,
-)
-from disting.questions.identifiability.answer import Identifiability as Identifiability
-from disting.questions.identifiability.by_parameter import (
-    Local as Local,
-    ParameterIdentifiability as ParameterIdentifiability,
-    by_parameter as by_parameter,
-    decoded as decoded,
-    encoded as encoded,
-    joint as joint,
-    local as local,
-)
-from disting.questions.identifiability.check import confirms as confirms
-from disting.questions.identifiability.parts import (
-    Alternative as Alternative,
-    Combination as Combination,
-    Formula as Formula,
-    Level as Level,
-    Origin as Origin,
-    Renaming as Renaming,
-    Scaling as Scaling,
-)

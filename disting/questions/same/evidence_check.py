@@ -31,7 +31,7 @@ from disting.model.minors import embeddings
 from disting.model.question import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import confirms_real, proves
 from disting.questions.same.exact import exact_again, rational_part, theorem
 from disting.questions.same.real_and_positive import real_factors

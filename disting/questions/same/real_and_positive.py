@@ -34,7 +34,7 @@ from disting.evidence.positive import PositiveFinding, Share, Values
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings
-from disting.questions.identifiability import Identifiability
+from disting.questions.identifiability.answer import Identifiability
 from disting.questions.positive import always_real, positive_finding, real_witness
 from disting.questions.same.exact import theorem
 
