@@ -62,7 +62,6 @@ if TYPE_CHECKING:
     )
     from disting.questions.identifiability.parts import Level as Level
     from disting.store import CacheWarning as CacheWarning, Store as Store
-    from disting.verdict.cascade import Step as Step
     from disting.verdict.comparison import (
         compare as compare,
         findings as findings,
@@ -76,7 +75,7 @@ if TYPE_CHECKING:
         everywhere_file as everywhere_file,
     )
     from disting.verdict.query import Query as Query, View as View
-    from disting.verdict.result import Relation as Relation, Verdict as Verdict
+    from disting.verdict.result import Relation as Relation, Step as Step, Verdict as Verdict
     from disting.verdict.verdict_file import verdict_file as verdict_file
     from disting.verdict.verification import Verification as Verification, verify as verify
 
@@ -109,13 +108,12 @@ _NAMES = {
     "disting.questions.identifiability.by_parameter": "ParameterIdentifiability",
     "disting.questions.identifiability.parts": "Level",
     "disting.store": "CacheWarning Store",
-    "disting.verdict.cascade": "Step",
     "disting.verdict.comparison": "compare findings identifiability prove",
     "disting.verdict.decisions": "Decisions",
     "disting.verdict.engine": "Engine",
     "disting.verdict.everywhere": "compare_everywhere everywhere_file",
     "disting.verdict.query": "Query View",
-    "disting.verdict.result": "Relation Verdict",
+    "disting.verdict.result": "Relation Step Verdict",
     "disting.verdict.verdict_file": "verdict_file",
     "disting.verdict.verification": "Verification verify",
 }

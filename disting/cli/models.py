@@ -11,7 +11,7 @@ from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_list_or_network
-from disting.cli.compare_words import in_letters
+from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import Work, announced, engine_for
 from disting.errors import InputError, listed

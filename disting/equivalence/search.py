@@ -38,10 +38,11 @@ from disting.errors import ContradictionError, InputError
 from disting.experiments.experiment import Experiment
 from disting.experiments.places import named
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Fibre, Solution, Status, target
+from disting.fibres.synthesis.task import Fibre, Solution, Status, target
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chains_named, name_of
+from disting.model.question import Answer
 
 Point = Mapping[str, fmpq]
 

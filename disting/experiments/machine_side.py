@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import weakest
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding import Finding, Outcome, positive_ways
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import Ask, Side
@@ -29,7 +29,6 @@ from disting.experiments.measured_evidence import confirms, confirms_inclusion, 
 from disting.model.chain import Premise
 from disting.model.question import Domain, Question
 from disting.questions.same.exact import resting_on_ranks
-from disting.questions.same.real_and_positive import positive_ways
 
 NOT_COMPARABLE = "ranks, degrees or dead times differ (conditions 2 to 4)"
 NOT_KNOWN = "whether equivalents under these experiments are {} is not known"

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
-from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding import Finding, Outcome, positive_ways
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import EXACT
 from disting.conditions.side import Ask, Side
@@ -44,7 +44,6 @@ from disting.questions.same.real_and_positive import (
     POSITIVELY,
     Asked,
     needs_counts,
-    positive_ways,
     real_finding,
     witness_ways,
 )

@@ -33,12 +33,12 @@ from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.identifiability.by_parameter import ParameterIdentifiability
-from disting.verdict.cascade import Step, steps
+from disting.verdict.cascade import steps
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query
-from disting.verdict.result import Verdict
+from disting.verdict.result import Step, Verdict
 from disting.verdict.sides import (
     NOT_CHAINS,
     Given,

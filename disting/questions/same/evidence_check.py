@@ -10,7 +10,8 @@ from disting.behaviour.expanded import is_renaming
 from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
-from disting.evidence.kind import Kind, Seen, SeenPair, seen
+from disting.evidence.kind import Kind
+from disting.evidence.model_samples import Seen, SeenPair, seen
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (

@@ -9,7 +9,8 @@ import pytest
 
 from disting import Certainty, Chain, Family, Settings
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.task import Answer, Status, target
+from disting.fibres.synthesis.task import Status, target
+from disting.model.question import Answer
 from disting.model.structure import Mass, Ports, Structure
 from disting.questions.identifiability.analysis import identifiabilities, identifiability, judged
 from disting.questions.identifiability.answer import Identifiability
