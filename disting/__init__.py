@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from disting.network.network import Network as Network
     from disting.network.notation import network_of as network_of
     from disting.questions.identifiability.answer import Identifiability as Identifiability
-    from disting.questions.identifiability.by_parameter import (
+    from disting.questions.identifiability.levels import (
         ParameterIdentifiability as ParameterIdentifiability,
     )
     from disting.questions.identifiability.parts import Level as Level
@@ -105,7 +105,7 @@ _NAMES = {
     "disting.network.network": "Network",
     "disting.network.notation": "network_of",
     "disting.questions.identifiability.answer": "Identifiability",
-    "disting.questions.identifiability.by_parameter": "ParameterIdentifiability",
+    "disting.questions.identifiability.levels": "ParameterIdentifiability",
     "disting.questions.identifiability.parts": "Level",
     "disting.store": "CacheWarning Store",
     "disting.verdict.comparison": "compare findings identifiability prove",

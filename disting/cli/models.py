@@ -26,7 +26,7 @@ from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option
 from disting.network.network import Network
 from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.by_parameter import ParameterIdentifiability
+from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.questions.identifiability.parts import Level
 from disting.verdict.engine import Engine, Progress
 

@@ -6,12 +6,23 @@ makes a measured chain a side of a comparison, `places` tells which mass of one 
 the other.
 
 >>> from disting import Chain
->>> from disting.experiments.places import moved, named, ways
+>>> from disting.experiments import moved, named, ways
 >>> asked = named("sensor=2")  # a Named experiment
 >>> ways(Chain(2), Chain(2), [asked])  # each of them Places
 [((2, 1),), ((2, 2),)]
 >>> moved(asked.experiment, ((2, 1),))
 Experiment(sensor=1)
 
-`measured_evidence` finds evidence of a verdict under experiments again, as `disting.verify` does.
+`confirms` finds evidence of a verdict under experiments again, as `disting.verify` does.
 """
+
+from disting.experiments.changes import GENERIC as GENERIC, Change as Change
+from disting.experiments.experiment import Experiment as Experiment, MeasuredChain as MeasuredChain
+from disting.experiments.measured_evidence import confirms as confirms
+from disting.experiments.places import (
+    Named as Named,
+    Places as Places,
+    moved as moved,
+    named as named,
+    ways as ways,
+)

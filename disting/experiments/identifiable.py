@@ -24,7 +24,7 @@ from disting.experiments.maps import stacked_map
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.task import Confirmation
 from disting.model.question import Question, Settings
-from disting.questions.identifiability.by_parameter import (
+from disting.questions.identifiability.levels import (
     Local,
     ParameterIdentifiability,
     by_parameter,

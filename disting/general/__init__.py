@@ -1,8 +1,7 @@
 """General parametric models: any rational transfer functions with parameters, with one input and
 one output or with several, compared as chains are.
 
->>> from disting import Model, alternatives
->>> from disting.general.any_model import as_chain, unnamed
+>>> from disting.general import Model, alternatives, as_chain, unnamed
 >>> lag = Model.from_transfer_function("k", "T*s + 1", name="lag")
 >>> other = Model.from_transfer_function("a", "b*s + c", name="other")
 >>> found = alternatives(lag, {"k": 2, "T": 3}, other)
@@ -13,17 +12,41 @@ one output or with several, compared as chains are.
 
 What data determine of one of them, a GlobalIdentifiability and a LocalIdentifiability:
 
->>> from disting import global_identifiability, local_identifiability
+>>> from disting.general import global_identifiability, local_identifiability
 >>> global_identifiability(other).sentence
 '3 parameters, only 2 determinable: a/b, c/b.'
 >>> local_identifiability(other).rank
 2
 
-Evidence of a verdict is found again, as `disting.verify` does: Witnesses by
-`model_evidence.confirms`, formulas by `is_explicit`, that there are none by `is_without`:
+Evidence of a verdict is found again, as `disting.verify` does: Witnesses by `confirms`, formulas by
+`is_explicit`, that there are none by `is_without`:
 
 >>> from disting import compare
->>> from disting.general.formulas import is_explicit
+>>> from disting.general import is_explicit
 >>> is_explicit(compare(lag, other).evidence, lag, other)
 True
 """
+
+from disting.evidence.general import Witnesses as Witnesses
+from disting.general.alternatives import Alternatives as Alternatives, alternatives as alternatives
+from disting.general.any_model import as_chain as as_chain, unnamed as unnamed
+from disting.general.equivalent import Equivalent as Equivalent
+from disting.general.fibre import Extent as Extent
+from disting.general.formulas import is_explicit as is_explicit, is_without as is_without
+from disting.general.global_identifiability import (
+    GlobalIdentifiability as GlobalIdentifiability,
+    global_identifiability as global_identifiability,
+)
+from disting.general.identifiability import (
+    LocalIdentifiability as LocalIdentifiability,
+    local_identifiability as local_identifiability,
+    parameter_identifiability as parameter_identifiability,
+)
+from disting.general.matrix_model import AnyModel as AnyModel, MatrixModel as MatrixModel
+from disting.general.model import Model as Model
+from disting.general.model_evidence import confirms as confirms
+from disting.general.model_files import (
+    ModelList as ModelList,
+    read_models as read_models,
+    write_models as write_models,
+)

@@ -18,7 +18,7 @@ from disting.general.model_side import OTHER_ORDER, ComparedModel
 from disting.general.network_model import behaviour_of
 from disting.model.presentation import summary
 from disting.model.question import Question, Settings
-from disting.questions.identifiability.by_parameter import (
+from disting.questions.identifiability.levels import (
     ParameterIdentifiability,
     by_parameter,
     decoded,

@@ -32,7 +32,7 @@ from disting.model.names import chains_named
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.by_parameter import ParameterIdentifiability
+from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.verdict.cascade import steps
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions

@@ -7,8 +7,7 @@ with one behaviour; the row space of its Jacobian tells which functions of the p
 determined at all.
 
 >>> from disting import Family
->>> from disting.questions.identifiability.analysis import identifiabilities
->>> from disting.questions.identifiability.check import confirms
+>>> from disting.questions.identifiability import confirms, identifiabilities
 >>> family = Family(3)
 >>> first, fourth = identifiabilities([family[1], family[4]])
 >>> first.rank, fourth.least, fourth.renamings[0].symmetries  # of a Renaming
@@ -21,7 +20,65 @@ Alternative with its Origin. It is on the canonical form of a chain, and `as_giv
 Of any model `local` gives a Local, `by_parameter` the level of each parameter, `joint` the grade of
 several statements together; `encoded` and `decoded` are for a store.
 
->>> from disting.questions.identifiability.by_parameter import joint
+>>> from disting.questions.identifiability import joint
 >>> joint([100, 120])
 (<Certainty.BOUNDED: 'bounded'>, 99)
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from disting.questions.identifiability.analysis import (
+        IDENTIFIABILITY as IDENTIFIABILITY,
+        as_given as as_given,
+        identifiabilities as identifiabilities,
+        identifiability as identifiability,
+    )
+    from disting.questions.identifiability.answer import Identifiability as Identifiability
+    from disting.questions.identifiability.check import confirms as confirms
+    from disting.questions.identifiability.levels import (
+        Local as Local,
+        ParameterIdentifiability as ParameterIdentifiability,
+        by_parameter as by_parameter,
+        decoded as decoded,
+        encoded as encoded,
+        joint as joint,
+        local as local,
+    )
+    from disting.questions.identifiability.parts import (
+        Alternative as Alternative,
+        Combination as Combination,
+        Formula as Formula,
+        Level as Level,
+        Origin as Origin,
+        Renaming as Renaming,
+        Scaling as Scaling,
+    )
+
+# The same list, by which a name is found when it is used, as those of `disting` are: whoever reads
+# an answer that is stored needs none of what finds it.
+_NAMES = {
+    "analysis": "IDENTIFIABILITY as_given identifiabilities identifiability",
+    "answer": "Identifiability",
+    "check": "confirms",
+    "levels": "Local ParameterIdentifiability by_parameter decoded encoded joint local",
+    "parts": "Alternative Combination Formula Level Origin Renaming Scaling",
+}
+_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
+
+
+def __dir__() -> list[str]:
+    """What the Tab key offers."""
+    return sorted(_HOME)
+
+
+def _named(name: str) -> object:
+    """A name that is imported when it is used."""
+    if name not in _HOME:
+        raise AttributeError(f"{__name__} has no {name}; dir() of it lists what it has")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+if not TYPE_CHECKING:  # else any name would be right to a type checker
+    __getattr__ = _named
