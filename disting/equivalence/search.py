@@ -35,8 +35,7 @@ from disting.equivalence.theorems import (
     proportional_solutions,
 )
 from disting.errors import ContradictionError, InputError
-from disting.experiments.experiment import Experiment
-from disting.experiments.places import named
+from disting.experiments import Experiment, named
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Fibre, Solution, Status, target
 from disting.model.chain import Chain
