@@ -33,7 +33,7 @@ from disting.files import Format
 from disting.model.chain import Premise
 from disting.model.family import Family
 from disting.model.presentation import Shown, plural, summary
-from disting.verdict.buckets import classes_of
+from disting.verdict.forest import classes_of
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 

@@ -10,6 +10,8 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
+from disting.conditions.finding import NOT_REAL, positive_ways
+from disting.conditions.inclusion import Inclusion, inclusions_from_dict
 from disting.conditions.rule import RULES, Role, Stage
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
@@ -17,12 +19,9 @@ from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.questions.identifiability import Identifiability
-from disting.questions.inclusion import Inclusion, inclusions_from_dict
-from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
-from disting.verdict.cascade import Step, open_note
+from disting.questions.identifiability.answer import Identifiability
 from disting.verdict.query import View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation, Step, Verdict, open_note
 
 INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 

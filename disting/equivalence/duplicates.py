@@ -24,7 +24,7 @@ from disting.model.names import chains_named, name_of
 from disting.model.presentation import Shown, plural, summary
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
-from disting.questions.identifiability import ParameterIdentifiability
+from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.further import further

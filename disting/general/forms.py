@@ -20,7 +20,7 @@ from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses
-from disting.evidence.kind import seen
+from disting.evidence.model_samples import seen
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed
 from disting.general.matrix_model import AnyModel

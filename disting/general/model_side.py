@@ -15,8 +15,9 @@ from functools import cached_property
 from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.conditions.side import GENERIC, Ask, Side
+from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
@@ -46,8 +47,8 @@ from disting.general.network_model import NetworkModel, behaviour_of
 from disting.general.readings import readings, told
 from disting.general.replacement import replaceable, same_in_units
 from disting.model.chain import Chain, Premise
+from disting.model.presentation import GENERIC
 from disting.model.question import Domain, Question, Relation
-from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
