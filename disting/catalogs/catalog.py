@@ -222,6 +222,10 @@ class Catalog(Shown):
         """What was asked for: pages ask a few times for each verdict, and for the groups."""
         return {}
 
+    def forget(self) -> None:
+        """Let go of the verdicts that were asked for: whoever asks again has them read again."""
+        self._known.clear()
+
     def _once(self, key: object, made: Callable[[], Any]) -> Any:
         if key not in self._known:
             self._known[key] = made()

@@ -52,8 +52,13 @@ def parsed(name: str) -> Module:
     ]
     imports = {alias.asname or alias.name: Place(origin, alias.name) for origin, alias in aliases}
     handed_on = tuple(alias.name for _, alias in aliases if alias.asname == alias.name)
+    # functions of its own are most of a module's tree, and nobody asks for them
     definitions = {
-        key: node for node in tree.body if isinstance(node, Definition) for key in _names(node)
+        key: node
+        for node in tree.body
+        if isinstance(node, Definition)
+        for key in _names(node)
+        if not (isinstance(node, ast.FunctionDef) and key.startswith("_"))
     }
     return Module(
         name, ast.get_docstring(tree) or "", definitions, imports, _texts(tree.body), handed_on
