@@ -41,11 +41,11 @@ def window(browser) -> Iterator[object]:  # type: ignore[no-untyped-def]
 
 @pytest.fixture
 def tab(window) -> object:  # type: ignore[no-untyped-def]
-    """The tab as it was when it was opened: empty, light, on a desk."""
+    """The tab as it was when it was opened: empty, light, on a desk; nothing moves by itself."""
     if window.url != "about:blank":
         window.goto("about:blank")
     window.set_viewport_size({"width": 1280, "height": 800})
-    window.emulate_media(media="null", color_scheme="null", reduced_motion="null")
+    window.emulate_media(media="null", color_scheme="null", reduced_motion="reduce")
     window.mouse.move(0, 0)
     return window
 
