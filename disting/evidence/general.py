@@ -163,8 +163,9 @@ class Witnesses(OverDomain):
 @dataclass(frozen=True, slots=True)
 class Replaced(Kind):
     """What is true of two networks that give the same transfer functions as these for all positive
-    values, special ones aside: `left` and `right` are those networks, `inner` is the evidence on
-    them. One that is `larger` may give more: that shows only that there are no equivalents.
+    values, special ones aside: `left` and `right` are those networks, the simplest ones or others
+    as texts have them, `inner` is the evidence on them. One that is `larger` may give more: that
+    shows only that there are no equivalents.
     """
 
     kind: ClassVar[str] = "replaced"
@@ -173,7 +174,7 @@ class Replaced(Kind):
     right: str
     left_larger: bool
     right_larger: bool
-    inner: Explicit | NoEquivalent | Witnesses | Theorem
+    inner: "OfNetworks"
 
     def shows(self, domain: Domain) -> Relation:
         """What the inner one shows, of positive values: those theorems speak of no others."""
@@ -211,7 +212,7 @@ class AtInverse(Kind):
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE)
     left: str
     right: str
-    inner: Explicit | NoEquivalent | Witnesses | Theorem | Replaced
+    inner: "OfNetworks"
 
     def shows(self, domain: Domain) -> Relation:
         """What the inner one shows, of positive values."""
@@ -235,6 +236,7 @@ class AtInverse(Kind):
         return self.inner.formula
 
 
+OfNetworks = Explicit | NoEquivalent | Witnesses | Theorem | Replaced | AtInverse
 OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced | AtInverse
 
 

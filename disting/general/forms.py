@@ -19,18 +19,26 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses
+from disting.evidence.general import (
+    AtInverse,
+    Explicit,
+    NoEquivalent,
+    OfNetworks,
+    Replaced,
+    Witnesses,
+)
 from disting.evidence.kind import seen
 from disting.general.admissible import admissible_finding
-from disting.general.any_model import of_network, on_one_variable, unnamed
+from disting.general.any_model import of_network, on_one_variable, unnamed, with_names
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import confirms_models
 from disting.general.network_model import behaviour_of
 from disting.general.orthant import BRIEF, THOROUGH, Effort
-from disting.general.replacement import simplest_network
+from disting.general.replacement import replaceable, simplest_network
 from disting.model.question import Domain, Question, Settings
 from disting.network.inverse import at_inverse
 from disting.network.network import Network
+from disting.network.notation import network_of
 from disting.network.simplest import same_drawing
 
 WAS_BRIEF = "the search was brief, disting compare of the two alone goes on for longer"
@@ -44,7 +52,7 @@ class Forms:
     models: tuple[AnyModel, AnyModel]
     larger: tuple[bool, bool]
 
-    def evidence(self, inner: Explicit | NoEquivalent | Witnesses | Theorem) -> Replaced:
+    def evidence(self, inner: OfNetworks) -> Replaced:
         """What evidence on them says of the others."""
         left, right = (model.name for model in self.models)
         return Replaced(left, right, *self.larger, inner)
@@ -145,18 +153,47 @@ def confirms_forms(
     """Whether these networks stand for both, and what is said of them is true."""
     inner = evidence.inner
     if isinstance(evidence, Replaced):
-        forms = forms_of(left, right, evidence.left_larger or evidence.right_larger)
-        if forms is None or evidence != forms.evidence(evidence.inner):
-            return False
-        models = forms.models
+        found = _stand_for(evidence, left, right)
     else:
         found = inverse_of(left, right)
-        if found is None or (evidence.left, evidence.right) != tuple(m.name for m in found):
+        if found and (evidence.left, evidence.right) != tuple(m.name for m in found):
             return False
-        models = found
-    if isinstance(inner, Replaced):
-        return confirms_forms(inner, *models, representation)
-    return confirms_models(inner, *models, representation)
+    if found is None:
+        return False
+    if isinstance(inner, Replaced | AtInverse):
+        return confirms_forms(inner, *found, representation)
+    return confirms_models(inner, *found, representation)
+
+
+def _stand_for(
+    evidence: Replaced, left: AnyModel, right: AnyModel
+) -> tuple[AnyModel, AnyModel] | None:
+    """The networks that it names, if they stand for both: the simplest ones, or such as texts have
+    them.
+    """
+    forms = forms_of(left, right, evidence.left_larger or evidence.right_larger)
+    if forms and evidence == forms.evidence(evidence.inner):
+        return forms.models
+    exponents = any(m.powers.weights for m in (left, right))
+    if exponents or evidence.left_larger or evidence.right_larger:
+        return None
+    try:
+        named = [network_of(text) for text in (evidence.left, evidence.right)]
+        one, other = on_one_variable([_with_network(of_network(n), n) for n in named])
+    except InputError:
+        return None
+    return (one, other) if replaceable(one, left) and replaceable(other, right) else None
+
+
+def carried(found: Finding, left: str, right: str) -> Finding:
+    """What is found of two networks with these texts, of two others that give the same."""
+    evidence = found.evidence
+    if not isinstance(evidence, OfNetworks):
+        note = with_names(found.note, left, right)
+        return replace(found, note=f"of {left} and {right}, which give the same, {note}")
+    if isinstance(evidence, Replaced) and not (evidence.left_larger or evidence.right_larger):
+        return found  # their simplest networks are those of the others
+    return replace(found, evidence=Replaced(left, right, False, False, evidence))
 
 
 def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:

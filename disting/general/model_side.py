@@ -7,7 +7,6 @@ renaming makes identical stays identical, and points with and without an admissi
 looked for otherwise (see `admissible`).
 """
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -25,7 +24,16 @@ from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
-from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
+from disting.general.any_model import (
+    LEFT,
+    RIGHT,
+    as_chain,
+    cells_of,
+    is_renamed,
+    same,
+    unnamed,
+    with_names,
+)
 from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
 from disting.general.exponents import determined
@@ -54,7 +62,6 @@ NO_SHARES = "of general models it is not asked which positive ones have positive
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
 NETWORKS = {REPLACEMENT: replaceable, INTERLACING: interlace}
-LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
@@ -90,6 +97,16 @@ class ComparedModel(Side[AnyModel]):
     def in_s(self) -> bool:
         """Whether powers of v are those of s, or of its root."""
         return not self.subject.powers.weights
+
+    @cached_property
+    def as_left(self) -> AnyModel:
+        """The network that it is, on the left of a question over positive parameters."""
+        return _as_network(self.subject, LEFT)
+
+    @cached_property
+    def as_right(self) -> AnyModel:
+        """The same on the right."""
+        return _as_network(self.subject, RIGHT)
 
     @cached_property
     def other_orders(self) -> tuple[tuple[tuple[str, ...], Renaming | None], ...]:
@@ -211,9 +228,7 @@ class ComparedModel(Side[AnyModel]):
             return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
         found = self._in_every_order(other, found)
-        names = {LEFT: self.name, RIGHT: other.name}
-        note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
-        return replace(found, note=note)
+        return replace(found, note=with_names(found.note, self.name, other.name))
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
         """Both statements on two models of unequal rank."""
@@ -263,11 +278,15 @@ def _unnamed(
     left: ComparedModel, right: ComparedModel, domain: Domain
 ) -> tuple[AnyModel, AnyModel]:
     """Both as they are asked about: over positive parameters as the networks that they are."""
-    found = unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
-    for model, side in zip(found, (left, right), strict=True):
-        network = side.subject.network
-        if domain is Domain.POSITIVE and network is not None:
-            object.__setattr__(model, "network", replace(network, name="network"))
+    if domain is Domain.POSITIVE:
+        return left.as_left, right.as_right
+    return unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
+
+
+def _as_network(model: AnyModel, name: str) -> AnyModel:
+    found = unnamed(model, name)
+    if model.network is not None:
+        object.__setattr__(found, "network", replace(model.network, name="network"))
     return found
 
 
