@@ -136,6 +136,14 @@ def unnamed(model: AnyModel, name: str = "model") -> AnyModel:
     return replace(model, name=name)
 
 
+def as_network(model: AnyModel, name: str) -> AnyModel:
+    """The same as the network that it is, whatever that is called."""
+    found = unnamed(model, name)
+    if model.network is not None:
+        object.__setattr__(found, "network", replace(model.network, name="network"))
+    return found
+
+
 def with_names(note: str, left: str, right: str) -> str:
     """A note of an answer that was kept, with the names of both in it."""
     names = {LEFT: left, RIGHT: right}

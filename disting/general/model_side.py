@@ -19,7 +19,7 @@ from disting.conditions.side import GENERIC, Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import AtInverse, Constants, OverDomain, Replaced
+from disting.evidence.general import AtInverse, Constants, OfPart, OverDomain, Replaced
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
@@ -28,6 +28,7 @@ from disting.general.any_model import (
     LEFT,
     RIGHT,
     as_chain,
+    as_network,
     cells_of,
     is_renamed,
     same,
@@ -37,10 +38,7 @@ from disting.general.any_model import (
 from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
 from disting.general.exponents import determined
-from disting.general.forms import (
-    ADMISSIBLY,
-    confirms_forms,
-)
+from disting.general.forms import ADMISSIBLY, confirms_forms
 from disting.general.interlacing import interlace
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import constants_finding
@@ -62,8 +60,6 @@ NO_SHARES = "of general models it is not asked which positive ones have positive
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
 NETWORKS = {REPLACEMENT: replaceable, INTERLACING: interlace}
-
-
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
 Pair = tuple["ComparedModel", "ComparedModel"]
 
@@ -99,14 +95,9 @@ class ComparedModel(Side[AnyModel]):
         return not self.subject.powers.weights
 
     @cached_property
-    def as_left(self) -> AnyModel:
-        """The network that it is, on the left of a question over positive parameters."""
-        return _as_network(self.subject, LEFT)
-
-    @cached_property
-    def as_right(self) -> AnyModel:
-        """The same on the right."""
-        return _as_network(self.subject, RIGHT)
+    def asked_about(self) -> tuple[AnyModel, AnyModel]:
+        """The network that it is, on the left and the right of a question over positive values."""
+        return as_network(self.subject, LEFT), as_network(self.subject, RIGHT)
 
     @cached_property
     def other_orders(self) -> tuple[tuple[tuple[str, ...], Renaming | None], ...]:
@@ -195,7 +186,7 @@ class ComparedModel(Side[AnyModel]):
             return False
         if isinstance(evidence, Theorem) and evidence.name in NETWORKS:
             return self.is_writable and other.is_writable and _applies(evidence.name, self, other)
-        if isinstance(evidence, Replaced | AtInverse):
+        if isinstance(evidence, Replaced | AtInverse | OfPart):
             return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = self.subject, other.subject
         if isinstance(evidence, OverDomain):
@@ -279,15 +270,8 @@ def _unnamed(
 ) -> tuple[AnyModel, AnyModel]:
     """Both as they are asked about: over positive parameters as the networks that they are."""
     if domain is Domain.POSITIVE:
-        return left.as_left, right.as_right
+        return left.asked_about[0], right.asked_about[1]
     return unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
-
-
-def _as_network(model: AnyModel, name: str) -> AnyModel:
-    found = unnamed(model, name)
-    if model.network is not None:
-        object.__setattr__(found, "network", replace(model.network, name="network"))
-    return found
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
