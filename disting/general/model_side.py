@@ -7,7 +7,6 @@ renaming makes identical stays identical, and points with and without an admissi
 looked for otherwise (see `admissible`).
 """
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -21,19 +20,26 @@ from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import AtInverse, Constants, OverDomain, Replaced
+from disting.evidence.general import AtInverse, Constants, OfPart, OverDomain, Replaced
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
-from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
+from disting.general.any_model import (
+    LEFT,
+    RIGHT,
+    as_chain,
+    as_network,
+    cells_of,
+    is_renamed,
+    same,
+    unnamed,
+    with_names,
+)
 from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
 from disting.general.exponents import determined
-from disting.general.forms import (
-    ADMISSIBLY,
-    confirms_forms,
-)
+from disting.general.forms import ADMISSIBLY, confirms_forms
 from disting.general.interlacing import interlace
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import constants_finding
@@ -55,9 +61,6 @@ NO_SHARES = "of general models it is not asked which positive ones have positive
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
 NETWORKS = {GEARS: same_in_units, REPLACEMENT: replaceable, INTERLACING: interlace}
-LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
-
-
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
 Pair = tuple["ComparedModel", "ComparedModel"]
 
@@ -91,6 +94,11 @@ class ComparedModel(Side[AnyModel]):
     def in_s(self) -> bool:
         """Whether powers of v are those of s, or of its root."""
         return not self.subject.powers.weights
+
+    @cached_property
+    def asked_about(self) -> tuple[AnyModel, AnyModel]:
+        """The network that it is, on the left and the right of a question over positive values."""
+        return as_network(self.subject, LEFT), as_network(self.subject, RIGHT)
 
     @cached_property
     def other_orders(self) -> tuple[tuple[tuple[str, ...], Renaming | None], ...]:
@@ -181,7 +189,7 @@ class ComparedModel(Side[AnyModel]):
             return False
         if isinstance(evidence, Theorem) and evidence.name in NETWORKS:
             return _applies(evidence.name, self, other)
-        if isinstance(evidence, Replaced | AtInverse):
+        if isinstance(evidence, Replaced | AtInverse | OfPart):
             return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = self.subject, other.subject
         if isinstance(evidence, OverDomain):
@@ -216,9 +224,7 @@ class ComparedModel(Side[AnyModel]):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
         found = self._in_every_order(other, found)
-        names = {LEFT: self.name, RIGHT: other.name}
-        note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
-        return replace(found, note=note)
+        return replace(found, note=with_names(found.note, self.name, other.name))
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
         """Both statements on two models of unequal rank."""
@@ -265,18 +271,13 @@ def _unnamed(
     left: ComparedModel, right: ComparedModel, domain: Domain
 ) -> tuple[AnyModel, AnyModel]:
     """Both as they are asked about: over positive parameters as the networks that they are."""
-    found = unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
-    for model, side in zip(found, (left, right), strict=True):
-        network = side.subject.network
-        if domain is Domain.POSITIVE and network is not None:
-            object.__setattr__(model, "network", replace(network, name="network"))
-    return found
+    if domain is Domain.POSITIVE:
+        return left.asked_about[0], right.asked_about[1]
+    return unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
-    """Whether the exact decision is computed: ranks and degrees are equal, something varies, the
-    terms are not too many, no theorem tells it.
-    """
+    """Whether the exact decision is computed: it is not known from ranks, degrees or theorems."""
     one, other = left.transfer_profile, right.transfer_profile
     alike = one.rank == other.rank > 0 and one.degrees == other.degrees
     written = alike and left.is_writable and right.is_writable
@@ -284,9 +285,7 @@ def comparable(left: ComparedModel, right: ComparedModel) -> bool:
 
 
 def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> str:
-    """The theorem by which both are networks that give the same functions over a domain, special
-    ones aside; "" of none.
-    """
+    """The theorem by which networks give the same functions over a domain; "" of none."""
     shown = (n for n in NETWORKS if Theorem(n).shows(domain) is Relation.INDISTINGUISHABLE)
     return next((name for name in shown if _applies(name, left, right)), "")
 
