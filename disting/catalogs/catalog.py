@@ -208,19 +208,25 @@ class Catalog(Shown):
 
     def to_json(self, view: View = View.POSITIVE) -> str:
         """All verdicts with evidence and sentences as JSON text."""
-        verdicts = [v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view)]
+        written = partial(json.dumps, ensure_ascii=False, separators=(",", ":"))
         plain = {
             "format": Format.CATALOGUE.value,
             "header": self.record(0),
             "view": view.value,
-            "verdicts": verdicts,
+            "verdicts": [],
         }
-        return json.dumps(plain, ensure_ascii=False, separators=(",", ":")) + "\n"
+        # one after the other: together they take more memory than their text
+        verdicts = (v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view))
+        return f"{written(plain).removesuffix(']}')}{','.join(map(written, verdicts))}]}}\n"
 
     @cached_property
     def _known(self) -> dict[object, Any]:
         """What was asked for: pages ask a few times for each verdict, and for the groups."""
         return {}
+
+    def forget(self) -> None:
+        """Let go of the verdicts that were asked for: whoever asks again has them read again."""
+        self._known.clear()
 
     def _once(self, key: object, made: Callable[[], Any]) -> Any:
         if key not in self._known:

@@ -4,7 +4,7 @@ data beside them.
 
 import argparse
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
@@ -178,7 +178,8 @@ def _pages(site: Site) -> Iterator[File]:
     remembers of its verdicts is let go with its pages.
     """
     for c in site.catalogs:
-        yield from _files(replace(c), site.pages)
+        yield from _files(c, site.pages)
+        c.forget()
     for family in site.dampers:
         yield _damper_file(family, site.pages)
     for known in PAGES:
