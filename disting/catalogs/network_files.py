@@ -12,12 +12,12 @@ small bounds is undecided in the file, and `disting compare` of the two alone go
 """
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from itertools import combinations
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
+from disting.catalogs.network_search import in_order, same_pairs, search_in_brief, standing_for
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.side import AnySide
@@ -25,17 +25,16 @@ from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import of_network, unnamed
-from disting.general.forms import BRIEFLY
+from disting.general.forms import carried
 from disting.general.identifiability import PARAMETERS
 from disting.general.model_side import ComparedModel, positive_question
+from disting.general.replacement import replaceable
 from disting.network.families import NetworkFamily, family_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, question_key, silent
 from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
 
 SCHEMA = 1
-EVIDENCE = 4  # its place in the list that a finding is written as
 COMMAND = "disting catalog families"
 SHIPPED = (
     "machines-2",
@@ -46,8 +45,9 @@ SHIPPED = (
     "cells-4",
     "cells-5",
     "compartments-2",
+    "compartments-3",
 )
-IN_BRIEF = ("machines-3",)  # of the shipped ones
+IN_BRIEF = ("machines-3", "trees-4", "compartments-3")  # of the shipped ones
 COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
 
 
@@ -73,7 +73,7 @@ def build_networks(
     sides = engine.general_subjects([of_network(n) for n in family.networks])
     over_complex = engine.decisions(sides, COMPLEX, executor=executor, progress=progress)
     if family.name in IN_BRIEF:
-        _search_in_brief(engine, sides, over_complex, executor, progress)
+        search_in_brief(engine, sides, over_complex, executor, progress)
     over_positive = engine.decisions(sides, POSITIVE, executor=executor, progress=progress)
     group = {i: g for g, members in enumerate(over_complex.classes(), 1) for i in members}
     header: Record = {
@@ -99,33 +99,14 @@ def build_networks(
     return lines([header, *models, *pairs])
 
 
-def _search_in_brief(
-    engine: Engine,
-    sides: list[ComparedModel],
-    over_complex: Decisions,
-    executor: Executor | None,
-    progress: Progress,
-) -> None:
-    """Let the engine know what a brief search tells of each pair, in place of a long one."""
-    asked = [positive_question(sides[i], sides[j]) for i, j in _same(over_complex, len(sides))]
-    every = [models for _, models in asked]
-    engine.answer_all(BRIEFLY, every, executor=executor, progress=progress)
-    for question, models in asked:
-        engine.remember(question, models, engine.answer(BRIEFLY, models, engine.settings))
-
-
-def _same(over_complex: Decisions, count: int) -> Iterator[tuple[int, int]]:
-    """Yield the pairs that are not told apart over complex parameters."""
-    for i, j in combinations(range(count), 2):
-        if over_complex.relation(i, j) is not Relation.DISTINGUISHABLE:
-            yield i, j
-
-
 def _pairs(
     engine: Engine, sides: list[ComparedModel], over_complex: Decisions, over_positive: Decisions
 ) -> Iterator[Record]:
-    """Yield the lines of the pairs that are the same over complex parameters."""
-    for i, j in _same(over_complex, len(sides)):
+    """Yield the lines of the pairs that are the same over complex parameters; what is carried over
+    from another pair says from which, and where it differs from that.
+    """
+    found = dict[tuple[int, int], Record]()
+    for i, j in same_pairs(over_complex, len(sides)):
         question, models = positive_question(sides[i], sides[j])
         finding = engine.answers.get(question_key(question, models, engine.settings))
         record: Record = {"left": i + 1, "right": j + 1, "complex": _told(over_complex, i, j)}
@@ -133,7 +114,30 @@ def _pairs(
         if isinstance(finding, Finding):
             del record["positive"]["evidence"]
             record["finding"] = json.loads(finding.to_json())
-        yield record
+        found[i + 1, j + 1] = record
+    standing, names = [i + 1 for i in standing_for(sides)], [s.name for s in sides]
+    for (i, j), record in found.items():
+        origin = standing[i - 1], standing[j - 1]
+        base = found.get(in_order(*origin), {})
+        if origin == (i, j) or not {"finding"} <= record.keys() & base.keys():
+            yield record
+            continue
+        from_it = _carried(_finding(base), origin, names)
+        if json.loads(from_it.to_json()) != record["finding"]:
+            yield record
+            continue
+        differs = {x: record[x] for x in ("complex", "positive") if record[x] != base[x]}
+        yield {"left": i, "right": j, "as": [*origin], **differs}
+
+
+def _carried(found: Finding, origin: tuple[int, int], names: Sequence[str]) -> Finding:
+    """The finding of a pair that has it from these two networks; `found`: that of both in order."""
+    a, b = origin
+    return carried(found if a < b else found.turned, names[a - 1], names[b - 1])
+
+
+def _finding(record: Record) -> Finding:
+    return Finding.from_json(json.dumps(record["finding"]), rule=ADMISSIBLE)
 
 
 def _told(decided: Decisions, i: int, j: int) -> Record:
@@ -163,15 +167,27 @@ def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
         return  # other random points: what is known by these is not what is asked
     sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
     for r in records[1 + len(sides) :]:
-        question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
         if "finding" in r:
-            found = Finding.from_json(json.dumps(r["finding"]), rule=ADMISSIBLE)
-            engine.remember(question, models, found)
+            question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
+            engine.remember(question, models, r["finding"])
+
+
+def _whole(records: Sequence[Record], names: Sequence[str]) -> Iterator[Record]:
+    """Yield the records of pairs, what they have from others written out, findings as such."""
+    at = {(r["left"], r["right"]): r for r in records}
+    known = {pair: _finding(r) for pair, r in at.items() if "finding" in r}
+    for pair, r in at.items():
+        if "as" not in r:
+            yield r | ({"finding": known[pair]} if pair in known else {})
+            continue
+        a, b = r["as"]
+        found = _carried(known[in_order(a, b)], (a, b), names)
+        yield at[in_order(a, b)] | r | {"finding": found}
 
 
 def read(path: Path) -> list[Record]:
-    """The records of a file; raises CatalogError where it is damaged, of another schema, or of
-    other networks than the family has.
+    """The records of a file, findings as such; raises CatalogError where it is damaged, of another
+    schema, or of other networks than the family has.
     """
     try:
         records = [json.loads(line) for line in intact_text(path).splitlines()]
@@ -183,9 +199,10 @@ def read(path: Path) -> list[Record]:
         for r in records[1 + len(names) :]:
             if not 0 < r["left"] < r["right"] <= len(names):
                 raise ValueError(f"no pair: {r['left']}, {r['right']}")
+        pairs = _whole(records[1 + len(names) :], names)
+        return [*records[: 1 + len(names)], *pairs]
     except (OSError, ValueError, LookupError, TypeError) as reason:
         raise CatalogError(f"{path} cannot be read ({reason}); make it with '{COMMAND}'") from None
-    return records
 
 
 def verify_networks(
@@ -221,10 +238,17 @@ def _false_evidence(family: NetworkFamily, records: list[Record], engine: Engine
         pair: tuple[AnySide, AnySide] = (left, right)
         if a is not None and b is not None:
             pair = engine.subject(left.name, a), engine.subject(right.name, b)
-        for told in (r["complex"], r["positive"]):
-            evidence = told["evidence"] if "evidence" in told else r["finding"][EVIDENCE]
-            if evidence and not pair[0].confirms(
-                pair[1], evidence_from(evidence), told["representation"]
-            ):
+        origin = r.get("as")
+        if origin and not all(
+            replaceable(s.subject, sides[at - 1].subject)
+            for s, at in zip((left, right), origin, strict=True)
+        ):
+            wrong.append(f"{left.name} and {right.name}: not the same as {origin}")
+        for told in (r["complex"],) if origin else (r["complex"], r["positive"]):
+            data = told.get("evidence")
+            evidence = evidence_from(data) if data else None
+            if "evidence" not in told:
+                evidence = r["finding"].evidence
+            if evidence and not pair[0].confirms(pair[1], evidence, told["representation"]):
                 wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
     return wrong

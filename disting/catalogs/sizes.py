@@ -10,13 +10,14 @@ from typing import Any
 
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE
+from disting.conditions.inclusion import inclusions_from_dict
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.question import Models, Question
 from disting.model.symmetry import canonical
-from disting.questions.inclusion import CLOSURE, IMAGE, inclusions_from_dict, turned
+from disting.questions.inclusion.decide import CLOSURE, IMAGE, turned
 from disting.questions.same.real_and_positive import POSITIVELY
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
@@ -80,7 +81,7 @@ def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
     """
     n = len(catalog.family)
     forms = [canonical(chain).chain for chain in catalog.family]
-    ranks = [record["rank"] for record in catalog.records[1 : 1 + n]]
+    ranks = [catalog.record(number)["rank"] for number in range(1, 1 + n)]
     for record in catalog.records[1 + n :]:
         i, j = record["left"] - 1, record["right"] - 1
         for name, given, other in ((LEFT_POSITIVE, i, j), (RIGHT_POSITIVE, j, i)):

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from functools import cache
 
 from disting.catalogs import Catalog, ModelRow
+from disting.conditions.inclusion import Inclusion
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain
-from disting.questions.identifiability import Level
-from disting.questions.inclusion import Inclusion
+from disting.questions.identifiability.parts import Level
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
@@ -157,7 +157,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         parts=held(parts),
         drawings=drawings,
         transfer=written(model.row.chain),
-        free=catalog.records[number]["free"],
+        free=catalog.record(number)["free"],
         basis=combinations(model.row.identifiability.basis),
         told_apart=told_apart(
             {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}

@@ -1,0 +1,77 @@
+"""The brief search of a large family: of networks that give the same functions one is asked about,
+the others have it from that one.
+"""
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
+from itertools import combinations
+
+from disting.general.forms import BRIEFLY, carried
+from disting.general.model_side import ComparedModel, positive_question
+from disting.general.replacement import simplest_network
+from disting.network.simplest import same_drawing
+from disting.verdict.decisions import Decisions
+from disting.verdict.engine import Engine, Progress
+from disting.verdict.result import Relation
+
+
+def search_in_brief(
+    engine: Engine,
+    sides: list[ComparedModel],
+    over_complex: Decisions,
+    executor: Executor | None,
+    progress: Progress,
+) -> None:
+    """Let the engine know what a brief search tells of each pair, in place of a long one; of
+    networks that give the same one is asked about.
+    """
+    standing = standing_for(sides)
+    same = [pair for pair in same_pairs(over_complex, len(sides)) if _is_searched(sides, *pair)]
+    pairs = sorted({in_order(standing[i], standing[j]) for i, j in same})
+    asked = {(i, j): positive_question(sides[i], sides[j])[1] for i, j in pairs if i < j}
+    engine.answer_all(BRIEFLY, [*asked.values()], executor=executor, progress=progress)
+    for i, j in same:
+        a, b = standing[i], standing[j]
+        if a == b:
+            continue  # a theorem tells it
+        found = engine.answer(BRIEFLY, asked[in_order(a, b)], engine.settings)
+        found = found if a < b else found.turned
+        if (a, b) != (i, j):
+            found = carried(found, sides[a].name, sides[b].name)
+        question, models = positive_question(sides[i], sides[j])
+        engine.remember(question, models, found)
+
+
+def standing_for(sides: Sequence[ComparedModel]) -> list[int]:
+    """For each the number of the network that stands for it: of those that give the same, one that
+    is no chain and a simplest one, if there is one.
+    """
+    forms = [simplest_network(s.subject) for s in sides]
+
+    def order(i: int) -> tuple[bool, bool, int]:
+        """The smallest is the one that is asked about."""
+        network, form = sides[i].subject.network, forms[i]
+        plain = network is not None and form is not None and same_drawing(network, form)
+        return sides[i].chain is not None, not plain, i
+
+    found = dict[object, int]()
+    for i in sorted(range(len(sides)), key=order):
+        found.setdefault(forms[i] or i, i)
+    return [found[form or i] for i, form in enumerate(forms)]
+
+
+def _is_searched(sides: Sequence[ComparedModel], i: int, j: int) -> bool:
+    """Whether one of them is no chain: chains have their own ways."""
+    return sides[i].chain is None or sides[j].chain is None
+
+
+def in_order(i: int, j: int) -> tuple[int, int]:
+    """Both, the smaller one first."""
+    return (i, j) if i < j else (j, i)
+
+
+def same_pairs(over_complex: Decisions, count: int) -> Iterator[tuple[int, int]]:
+    """Yield the pairs that are not told apart over complex parameters."""
+    for i, j in combinations(range(count), 2):
+        if over_complex.relation(i, j) is not Relation.DISTINGUISHABLE:
+            yield i, j
