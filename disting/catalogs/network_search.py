@@ -1,13 +1,16 @@
 """The brief search of a large family: of networks that give the same functions one is asked about,
-the others have it from that one.
+the others have it from that one; what is left open parts of the networks may tell (see `parts`).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from itertools import combinations
+from itertools import combinations, islice
 
-from disting.general.forms import BRIEFLY, carried
+from disting.conditions.finding import Finding, Outcome
+from disting.evidence.kind import Labels
+from disting.general.forms import BRIEFLY, carried, of_part
 from disting.general.model_side import ComparedModel, positive_question
+from disting.general.parts import parts_of
 from disting.general.replacement import simplest_network
 from disting.network.simplest import same_drawing
 from disting.verdict.decisions import Decisions
@@ -30,16 +33,53 @@ def search_in_brief(
     pairs = sorted({in_order(standing[i], standing[j]) for i, j in same})
     asked = {(i, j): positive_question(sides[i], sides[j])[1] for i, j in pairs if i < j}
     engine.answer_all(BRIEFLY, [*asked.values()], executor=executor, progress=progress)
+    answers = {ij: engine.answer(BRIEFLY, models, engine.settings) for ij, models in asked.items()}
+    answers |= dict(_by_parts(sides, standing, answers))
     for i, j in same:
         a, b = standing[i], standing[j]
         if a == b:
             continue  # a theorem tells it
-        found = engine.answer(BRIEFLY, asked[in_order(a, b)], engine.settings)
-        found = found if a < b else found.turned
+        found = _ordered(answers, a, b)
         if (a, b) != (i, j):
             found = carried(found, sides[a].name, sides[b].name)
         question, models = positive_question(sides[i], sides[j])
         engine.remember(question, models, found)
+
+
+def _ordered(answers: Mapping[tuple[int, int], Finding], i: int, j: int) -> Finding:
+    return answers[i, j] if i < j else answers[j, i].turned
+
+
+def _by_parts(
+    sides: Sequence[ComparedModel],
+    standing: Sequence[int],
+    answers: Mapping[tuple[int, int], Finding],
+) -> Iterator[tuple[tuple[int, int], Finding]]:
+    """Yield what the answers on parts of two networks tell of pairs that are left open."""
+    numbers = {form: i for i in standing if (form := simplest_network(sides[i].subject))}
+    parts = dict[int, list[tuple[Labels, int]]]()
+
+    def known_parts(i: int) -> list[tuple[Labels, int]]:
+        """Names of what is left out, and the network that stands for the rest."""
+        if i not in parts:
+            every = [(names, simplest_network(p)) for names, p in parts_of(sides[i].subject)]
+            parts[i] = [(names, numbers[form]) for names, form in every if form in numbers]
+        return parts[i]
+
+    def told(i: int, j: int) -> Iterator[Finding]:
+        """What parts of either tell."""
+        for left_is_part, whole in ((True, i), (False, j)):
+            for missing, part in known_parts(whole):
+                a, b = (part, j) if left_is_part else (i, part)
+                if in_order(a, b) in answers:
+                    found = carried(_ordered(answers, a, b), sides[a].name, sides[b].name)
+                    whole_found = of_part(found, left_is_part, missing)
+                    if whole_found is not None:
+                        yield whole_found
+
+    for (i, j), found in answers.items():
+        if found.outcome is Outcome.ABANDONED:
+            yield from (((i, j), better) for better in islice(told(i, j), 1))
 
 
 def standing_for(sides: Sequence[ComparedModel]) -> list[int]:
