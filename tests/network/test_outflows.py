@@ -103,18 +103,18 @@ def with_outflows(a, other, enter, leave):
     n = len(a)
     inverse = np.linalg.inv(-a)
     ratios = {m: inverse[m, leave] - inverse[m, enter] for m in other}
-    l, small = np.zeros(n), 1e-3
+    parts, small = np.zeros(n), 1e-3
     above = [m for m in other if ratios[m] > 1e-12]
     below = [m for m in other if ratios[m] < -1e-12]
     while True:
-        l[:] = 0
-        l[other] = small
-        gap = sum(l[m] * ratios[m] for m in other)
+        parts[:] = 0
+        parts[other] = small
+        gap = sum(parts[m] * ratios[m] for m in other)
         if abs(gap) > 1e-12:
             at = max(below if gap > 0 else above, key=lambda m: abs(ratios[m]))
-            l[at] -= gap / ratios[at]
-        if all(l[other] > 0):
-            found, w = scaled(a, l)
+            parts[at] -= gap / ratios[at]
+        if all(parts[other] > 0):
+            found, w = scaled(a, parts)
             assert abs(w[leave] / w[enter] - 1) < 1e-9
             return found
         small /= 2
