@@ -12,6 +12,7 @@ from disting.catalogs.network_files import (
     name_of,
     read,
     recall,
+    recall_of,
     verify_networks,
 )
 from disting.cli.run import main
@@ -24,7 +25,9 @@ from disting.general.any_model import of_network
 from disting.general.forms import BRIEFLY, WAS_BRIEF
 from disting.general.model_side import positive_question
 from disting.network.families import family_of
+from disting.network.notation import network_of
 from disting.verdict.engine import Engine
+from disting.verdict.model_equivalents import model_equivalents
 from disting.verdict.result import Relation
 from tests.oracles.twins import STARTS, twin
 
@@ -112,6 +115,24 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
         evidence = r["finding"].evidence if "finding" in r else None
         evidence = evidence or evidence_from(r["positive"]["evidence"])
         assert left.confirms(right, evidence, r["positive"]["representation"])
+
+
+@pytest.mark.parametrize("text", ["#~1, 1~2; F1; S1", "#~2, 2~1; F2; S2"])
+def test_a_network_of_a_family_in_any_numbers_is_looked_up(text):
+    given, engine = of_network(network_of(text)), Engine()
+    others = [of_network(n) for n in family_of("machines-2").networks if n.name != text]
+    recall_of(given, "machines-2", engine)
+    known = len(engine.answers)
+    found = model_equivalents(given, others, engine=engine)
+    assert known and len(engine.answers) == known
+    fresh = model_equivalents(given, others, engine=Engine())
+    assert [(x.model.name, x.verdict.relation) for x in found] == [
+        (x.model.name, x.verdict.relation) for x in fresh
+    ]
+    for x in found:
+        left, right = engine.general_subjects([given, x.model])
+        evidence = x.verdict.evidence
+        assert evidence is None or left.confirms(right, evidence, x.verdict.representation)
 
 
 def lied(record):
