@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from disting.behaviour.expanded import transfer_function as transfer_function
     from disting.catalogs import Catalog as Catalog, ModelRow as ModelRow, catalog as catalog
     from disting.conditions.finding import Finding as Finding, Outcome as Outcome
+    from disting.conditions.inclusion import Inclusion as Inclusion
     from disting.conditions.table import CONDITIONS as CONDITIONS
     from disting.equivalence import (
         equivalents as equivalents,
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
         DistingError as DistingError,
         InputError as InputError,
     )
-    from disting.experiments import Experiment as Experiment
+    from disting.experiments.experiment import Experiment as Experiment
     from disting.files import __version__ as __version__
     from disting.general.alternatives import (
         Alternatives as Alternatives,
@@ -55,14 +56,12 @@ if TYPE_CHECKING:
     from disting.network.element import Element as Element, Port as Port
     from disting.network.network import Network as Network
     from disting.network.notation import network_of as network_of
-    from disting.questions.identifiability import (
-        Identifiability as Identifiability,
-        Level as Level,
+    from disting.questions.identifiability.answer import Identifiability as Identifiability
+    from disting.questions.identifiability.levels import (
         ParameterIdentifiability as ParameterIdentifiability,
     )
-    from disting.questions.inclusion import Inclusion as Inclusion
+    from disting.questions.identifiability.parts import Level as Level
     from disting.store import CacheWarning as CacheWarning, Store as Store
-    from disting.verdict.cascade import Step as Step
     from disting.verdict.comparison import (
         compare as compare,
         findings as findings,
@@ -76,7 +75,7 @@ if TYPE_CHECKING:
         everywhere_file as everywhere_file,
     )
     from disting.verdict.query import Query as Query, View as View
-    from disting.verdict.result import Relation as Relation, Verdict as Verdict
+    from disting.verdict.result import Relation as Relation, Step as Step, Verdict as Verdict
     from disting.verdict.verdict_file import verdict_file as verdict_file
     from disting.verdict.verification import Verification as Verification, verify as verify
 
@@ -86,10 +85,11 @@ _NAMES = {
     "disting.behaviour.expanded": "transfer_function",
     "disting.catalogs": "Catalog ModelRow catalog",
     "disting.conditions.finding": "Finding Outcome",
+    "disting.conditions.inclusion": "Inclusion",
     "disting.conditions.table": "CONDITIONS",
     "disting.equivalence": "equivalents explicit_map gate",
     "disting.errors": "CatalogError ConstraintViolation ContradictionError DistingError InputError",
-    "disting.experiments": "Experiment",
+    "disting.experiments.experiment": "Experiment",
     "disting.files": "__version__",
     "disting.general.alternatives": "Alternatives alternatives",
     "disting.general.global_identifiability": "global_identifiability",
@@ -104,16 +104,16 @@ _NAMES = {
     "disting.network.element": "Element Port",
     "disting.network.network": "Network",
     "disting.network.notation": "network_of",
-    "disting.questions.identifiability": "Identifiability Level ParameterIdentifiability",
-    "disting.questions.inclusion": "Inclusion",
+    "disting.questions.identifiability.answer": "Identifiability",
+    "disting.questions.identifiability.levels": "ParameterIdentifiability",
+    "disting.questions.identifiability.parts": "Level",
     "disting.store": "CacheWarning Store",
-    "disting.verdict.cascade": "Step",
     "disting.verdict.comparison": "compare findings identifiability prove",
     "disting.verdict.decisions": "Decisions",
     "disting.verdict.engine": "Engine",
     "disting.verdict.everywhere": "compare_everywhere everywhere_file",
     "disting.verdict.query": "Query View",
-    "disting.verdict.result": "Relation Verdict",
+    "disting.verdict.result": "Relation Step Verdict",
     "disting.verdict.verdict_file": "verdict_file",
     "disting.verdict.verification": "Verification verify",
 }

@@ -28,6 +28,7 @@ def pytest_collection():
         return (yield)
     finally:
         gc.freeze()
+        gc.set_threshold(100_000, 20, 100)  # a test makes much, and little of it in circles
         gc.enable()
 
 

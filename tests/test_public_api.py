@@ -150,6 +150,16 @@ def test_the_list_of_commands_is_told_without_the_libraries_of_any():
     assert not {"numpy", "flint", "disting.verdict"} & set(fresh(code.replace("\n", "\n")))
 
 
+def test_a_verdict_is_looked_up_without_what_decides_it():
+    """A pair of a shipped catalogue: records of evidence are read without what checks them."""
+    code = "import sys; from disting.cli import main; main(['compare', '3:1', '3:11']); print(*sys.modules)"
+    loaded = fresh(code)
+    assert "disting.evidence.kinds" in loaded
+    decides = ("engine", "cascade", "verification")
+    assert not {"numpy", *(f"disting.verdict.{name}" for name in decides)} & {*loaded}
+    assert not [name for name in loaded if name.startswith(("disting.fibres.", "disting.general"))]
+
+
 def test_commands_load_sympy_only_where_they_write_an_expression():
     """One after the other in one process, whose last one writes one."""
     commands = ("compare 3:2 3:5", "models 3", "equivalents 3:4 --to 3:1 --undamped --formulas")

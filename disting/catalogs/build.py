@@ -15,12 +15,12 @@ from disting.catalogs.files import (
     name_of,
     write_provenance,
 )
+from disting.conditions.inclusion import inclusions_to_dict
 from disting.conditions.rule import Stage
 from disting.files import write_whole
 from disting.model.family import Family
 from disting.model.question import Domain
-from disting.questions.identifiability import Identifiability
-from disting.questions.inclusion import inclusions_to_dict
+from disting.questions.identifiability.answer import Identifiability
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent

@@ -33,7 +33,7 @@ from disting.files import Format
 from disting.model.chain import Premise
 from disting.model.family import Family
 from disting.model.presentation import Shown, plural, summary
-from disting.verdict.buckets import classes_of
+from disting.verdict.forest import classes_of
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -117,12 +117,10 @@ class Catalog(Shown):
     def relation(self, left: int, right: int, view: View = View.POSITIVE) -> Relation:
         """Relation of two models, without building the verdict."""
         low, high = sorted((left, right))
-        known = self._known.get((low, high, view))
-        return (
-            relation_of(self._deciding(self._pair(low, high), view))
-            if known is None
-            else known.relation
-        )
+        known: Verdict | None = self._known.get((low, high, view))
+        if known is None:
+            return relation_of(deciding(self._pair(low, high), view))
+        return known.relation
 
     @cached_property
     def rows(self) -> tuple[ModelRow, ...]:
@@ -145,7 +143,7 @@ class Catalog(Shown):
 
     def _classes_of(self, view: View) -> tuple[tuple[int, ...], ...]:
         pairs = self.records[1 + len(self.family) :]
-        relations = {(r["left"], r["right"]): relation_of(self._deciding(r, view)) for r in pairs}
+        relations = {(r["left"], r["right"]): relation_of(deciding(r, view)) for r in pairs}
         names = [str(number) for number in range(1, 1 + len(self.family))]
         try:
             classes = classes_of(names, lambda i, j: relations[i + 1, j + 1])
@@ -164,17 +162,15 @@ class Catalog(Shown):
         return tuple(
             (r["left"], r["right"])
             for r in pairs
-            if relation_of(self._deciding(r, view)) is Relation.SOMETIMES
+            if relation_of(deciding(r, view)) is Relation.SOMETIMES
         )
 
     def counts(self, view: View = View.POSITIVE) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the
         undecided ones.
         """
-        found = Counter(
-            self._deciding(r, view).get("decided_by", "")
-            for r in self.records[1 + len(self.family) :]
-        )
+        steps = (deciding(r, view) for r in self.records[1 + len(self.family) :])
+        found = Counter(step.finding.rule.name if step else "" for step in steps)
         return {name: found[name] for name in ("", *RULES) if found[name] or not name}
 
     def matrix(self, view: View = View.POSITIVE) -> "pd.DataFrame":
@@ -233,20 +229,13 @@ class Catalog(Shown):
 
     @cached_property
     def _known(self) -> dict[object, Any]:
-        """What was asked for: pages ask a few times for each verdict, for the step that decides it,
-        and for the groups of a view.
-        """
+        """What was asked for: pages ask a few times for each verdict, and for the groups."""
         return {}
 
     def _once(self, key: object, made: Callable[[], Any]) -> Any:
         if key not in self._known:
             self._known[key] = made()
         return self._known[key]
-
-    def _deciding(self, record: Record, view: View) -> dict[str, Any]:
-        key = ("step", record["left"], record["right"], view)
-        step: dict[str, Any] = self._once(key, lambda: deciding(record, view)[1])
-        return step
 
     def _verdict(self, record: Record, view: View) -> Verdict:
         key = (record["left"], record["right"], view)

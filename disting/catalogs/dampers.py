@@ -18,9 +18,9 @@ from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.question import Domain
-from disting.verdict.buckets import classes_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.forest import classes_of
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 

@@ -2,19 +2,14 @@
 
 import csv
 import io
-import json
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
-from disting.algebra.certainty import Certainty
+from disting.conditions.inclusion import Inclusion
 from disting.evidence.positive import PositiveFinding
-from disting.files import Format
 from disting.model.chain import Premise
 from disting.model.question import Domain
-from disting.questions.inclusion import Inclusion, Sense
-from disting.verdict.decisions import Decisions
-from disting.verdict.joint import family_safety
-from disting.verdict.result import Relation, Verdict, error_bound
+from disting.verdict.result import Relation, Verdict
 
 FORMULA = re.compile(r"(?:^|(?<=[,;])|(?<=[,;] ))[=+@-]")
 CSV_COLUMNS = (
@@ -60,35 +55,6 @@ def csv_text(rows: Iterable[Row]) -> str:
     return out.getvalue()
 
 
-def decisions_csv(decided: Decisions) -> str:
-    """CSV text of all pairs, models numbered from 1, or named N:I where they are of several
-    sizes.
-    """
-    names = [cell(name) for name in _names(decided)]
-
-    def rest(i: int, j: int) -> tuple[Domain, str, str, str, str, str, str]:
-        """Domain, image, closure, the positive equivalents of both sides, damping, quantity."""
-        sides = decided.subjects[i].premise, decided.subjects[j].premise
-        here, there = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
-        image, closure = (inclusion_text(decided.inclusion(i, j, sense)) for sense in Sense)
-        return decided.query.view.domain, image, closure, here, there, *premise_text(*sides)
-
-    graded = (
-        (
-            names[i],
-            names[j],
-            decided.relation(i, j),
-            rule,
-            where,
-            certainty,
-            error_bound(certainty, safety),
-            *rest(i, j),
-        )
-        for i, j, rule, where, certainty, safety in decided.grades()
-    )
-    return csv_text(graded)
-
-
 def premise_text(left: Premise | None, right: Premise | None) -> tuple[str, str]:
     """Texts of two columns: whether springs have dampers (true, false) and the sensor quantity, of
     both models where they differ, left/right; "" of models that are no chains.
@@ -110,17 +76,6 @@ def share_text(found: PositiveFinding | None) -> str:
     return "" if found is None else found.share.value
 
 
-def _names(decided: Decisions) -> Sequence[int | str]:
-    """Numbers from 1 for the numbered chains of one size, named 3:1, .. or A1, .., else the
-    subjects' names.
-    """
-    names, sizes = [s.name for s in decided.subjects], set(decided.sizes)
-    numbers = range(1, len(names) + 1)
-    heads = ("A", f"{min(sizes)}:") if len(sizes) == 1 else ()
-    numbered = any(names == [f"{head}{number}" for number in numbers] for head in heads)
-    return numbers if numbered else names
-
-
 def cell(name: int | str) -> int | str:
     """A name that no spreadsheet takes for a formula: = + - @ at its beginning, or behind what may
     part cells, are written as \\u003d and the like.
@@ -136,26 +91,6 @@ def cell(name: int | str) -> int | str:
 def inclusion_text(inclusion: Inclusion) -> str:
     """Text of a column, "" where it is not known."""
     return "" if inclusion is Inclusion.UNKNOWN else inclusion.value
-
-
-def decisions_json(decided: Decisions) -> str:
-    """JSON text of all pairs with evidence and sentences; `joint_error_bound` is that of all of
-    it together.
-    """
-    size = len(decided.subjects)
-    pairs = ((i, j) for i in range(size) for j in range(i + 1, size))
-    names = _names(decided)
-    verdicts = [
-        decided.verdict(i, j).to_dict() | {"left": names[i], "right": names[j]} for i, j in pairs
-    ]
-    safety = family_safety(decided)
-    bound = error_bound(Certainty.BOUNDED if safety else Certainty.PROVEN, safety)
-    plain = {
-        "format": Format.VERDICTS.value,
-        "joint_error_bound": bound,
-        "verdicts": verdicts,
-    }
-    return json.dumps(plain, ensure_ascii=False) + "\n"
 
 
 def csv_row(left: int, right: int, v: Verdict) -> Row:

@@ -87,7 +87,8 @@ def read_records(path: Path) -> list[Record]:
     another schema.
     """
     try:
-        records = [json.loads(line) for line in intact_text(path).splitlines()]
+        # at one go, so that all records share the names of their fields
+        records: list[Record] = json.loads(f"[{','.join(intact_text(path).splitlines())}]")
         header = records[0]
         complete = _numbers(records) == [
             *range(1, header["models"] + 1),

@@ -5,25 +5,27 @@ Over positive parameters nothing is stored but the shares of both sides, from wh
 follows.
 """
 
+import json
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE, Record
-from disting.conditions.rule import RULES, Role, Stage
+from disting.conditions.finding import NOT_REAL, Finding, positive_ways
+from disting.conditions.inclusion import Inclusion, Inclusions, inclusions_from_dict
+from disting.conditions.rule import RULES, Stage
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.questions.identifiability import Identifiability
-from disting.questions.inclusion import Inclusion, inclusions_from_dict
-from disting.questions.same.real_and_positive import NOT_REAL, positive_ways
-from disting.verdict.cascade import Step, open_note
+from disting.questions.identifiability.answer import Identifiability
 from disting.verdict.query import View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import PROVES, Relation, Step, Verdict, open_note
 
+DIFFERENT = 4096  # pieces of evidence that are kept: a catalogue has far fewer than pairs
 INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
@@ -31,8 +33,8 @@ def stored_verdict(
     record: Record, view: View, names: tuple[str, str], premises: tuple[Premise, Premise]
 ) -> Verdict:
     """The verdict of a view with all that the record says of the pair, which it names so."""
-    (where, step), relations = deciding(record, view), _both_ways(record, view)
-    if not step:
+    step, relations = deciding(record, view), _both_ways(record, view)
+    if step is None:
         return Verdict(
             *names,
             Relation.UNDECIDED,
@@ -41,14 +43,15 @@ def stored_verdict(
             premises=premises,
             **relations,
         )
+    found = step.finding
     return Verdict(
         *names,
-        relation_of(step),
-        step["decided_by"],
-        where,
-        Certainty(step["certainty"]),
-        step["safety"],
-        evidence_from(step["evidence"]),
+        step.relation,
+        found.rule.name,
+        step.representation,
+        found.certainty,
+        found.safety,
+        found.evidence,
         view.domain,
         premises=premises,
         **relations,
@@ -57,12 +60,12 @@ def stored_verdict(
 
 def _both_ways(record: Record, view: View) -> dict[str, Any]:
     """What a verdict says of inclusions and shares, where its view looks at the parameters."""
-    settled = relation_of(deciding(record, View.EXACT)[1])
+    settled = relation_of(deciding(record, View.EXACT))
     if Stage.FIBRE not in view.representations or settled is Relation.UNDECIDED:
         return {}
     here, there = _shares(record)
     if INCLUSIONS in record:
-        both = inclusions_from_dict(record[INCLUSIONS])
+        both = _inclusions(json.dumps(record[INCLUSIONS]))
         image, closure = both.image.inclusion, both.closure.inclusion
     else:
         both = None
@@ -78,54 +81,38 @@ def _both_ways(record: Record, view: View) -> dict[str, Any]:
     }
 
 
-def deciding(record: Record, view: View) -> tuple[Stage, dict[str, Any]]:
-    """The first representation of the view that decides, and its step; NONE and {} if none does."""
+def deciding(record: Record, view: View) -> Step | None:
+    """The step that decides in a view: the first of its representations that does; None if none
+    does.
+    """
     if view is View.POSITIVE:
         return _positively(record)
     if view is View.REAL:
-        return (
-            (Stage.PARAMETERS, record[view.value])
-            if view.value in record
-            else _distinguishing(record)
-        )
-    return next(((r, record[r]) for r in view.representations if r in record), (Stage.NONE, {}))
+        if view.value in record:
+            return _step(Stage.PARAMETERS, json.dumps(record[view.value]))
+        return _distinguishing(record)
+    stage = next((stage for stage in view.representations if stage in record), None)
+    return None if stage is None else _step(stage, json.dumps(record[stage]))
 
 
-def relation_of(step: dict[str, Any]) -> Relation:
+def relation_of(step: Step | None) -> Relation:
     """Relation that a step decides."""
-    if not step:
-        return Relation.UNDECIDED
-    if "relation" in step:
-        return Relation(step["relation"])
-    return (
-        Relation.DISTINGUISHABLE
-        if RULES[step["decided_by"]].role is Role.NECESSARY
-        else Relation.INDISTINGUISHABLE
-    )
+    return Relation.UNDECIDED if step is None else step.relation
 
 
-def _positively(record: Record) -> tuple[Stage, dict[str, Any]]:
+def _positively(record: Record) -> Step | None:
     """What the shares of both sides give, if they are indistinguishable over complex parameters."""
     here, there = _shares(record)
     if here is None or there is None:
         return _distinguishing(record)
-    f = positive_ways(here, there)
-    if f.evidence is None:
-        return Stage.NONE, {}
-    relation = Step(Stage.PARAMETERS, f).relation.value
-    plain = {
-        "relation": relation,
-        "decided_by": f.rule.name,
-        "certainty": f.certainty.value,
-        "safety": f.safety,
-    }
-    return Stage.PARAMETERS, plain | {"evidence": f.evidence.to_dict()}
+    step = Step(Stage.PARAMETERS, _positive_ways(here, there))
+    return None if step.finding.evidence is None else step
 
 
-def _distinguishing(record: Record) -> tuple[Stage, dict[str, Any]]:
+def _distinguishing(record: Record) -> Step | None:
     """What distinguishes over complex parameters does so over all."""
-    where, step = deciding(record, View.EXACT)
-    return (where, step) if relation_of(step) is Relation.DISTINGUISHABLE else (Stage.NONE, {})
+    step = deciding(record, View.EXACT)
+    return step if relation_of(step) is Relation.DISTINGUISHABLE else None
 
 
 def _notes(record: Record, view: View) -> tuple[str, ...]:
@@ -134,16 +121,41 @@ def _notes(record: Record, view: View) -> tuple[str, ...]:
         return ("the exact decision has no method for them",) if view is View.EXACT else ()
     here, there = _shares(record)
     if view is View.POSITIVE and here is not None and there is not None:
-        return (open_note(positive_ways(here, there).note),)
-    return (open_note(NOT_REAL),) if deciding(record, View.EXACT)[1] else ()
+        return (open_note(_positive_ways(here, there).note),)
+    return (open_note(NOT_REAL),) if deciding(record, View.EXACT) else ()
 
 
 def _shares(record: Record) -> tuple[PositiveFinding | None, PositiveFinding | None]:
     """Positive equivalents of the left and of the right model, where they are asked for."""
     here, there = (record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
-    return PositiveFinding.from_dict(here) if here else None, (
-        PositiveFinding.from_dict(there) if there else None
+    return _share(json.dumps(here)) if here else None, (
+        _share(json.dumps(there)) if there else None
     )
+
+
+@lru_cache(DIFFERENT)
+def _step(stage: Stage, text: str) -> Step:
+    """A step from its text; pairs that are decided alike share it."""
+    plain = json.loads(text)
+    rule = RULES[plain["decided_by"]]
+    proves = {relation: outcome for outcome, relation in PROVES[rule.role].items()}
+    outcome = proves[Relation(plain.get("relation", next(iter(proves))))]
+    evidence = evidence_from(plain["evidence"])
+    found = Finding(rule, outcome, Certainty(plain["certainty"]), plain["safety"], evidence)
+    return Step(stage, found)
+
+
+@lru_cache(DIFFERENT)
+def _inclusions(text: str) -> Inclusions:
+    return inclusions_from_dict(json.loads(text))
+
+
+@lru_cache(DIFFERENT)
+def _share(text: str) -> PositiveFinding:
+    return PositiveFinding.from_dict(json.loads(text))
+
+
+_positive_ways = lru_cache(DIFFERENT)(positive_ways)
 
 
 @dataclass(frozen=True, slots=True)

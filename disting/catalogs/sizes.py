@@ -10,13 +10,14 @@ from typing import Any
 
 from disting.catalogs.catalog import Catalog
 from disting.catalogs.files import INCLUSIONS, LEFT_POSITIVE, RIGHT_POSITIVE
+from disting.conditions.inclusion import inclusions_from_dict
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.question import Models, Question
 from disting.model.symmetry import canonical
-from disting.questions.inclusion import CLOSURE, IMAGE, inclusions_from_dict, turned
+from disting.questions.inclusion.decide import CLOSURE, IMAGE, turned
 from disting.questions.same.real_and_positive import POSITIVELY
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent

@@ -17,8 +17,9 @@ from disting.catalogs.files import (
 )
 from disting.catalogs.sizes import answers_in, combined
 from disting.catalogs.sizes_files import COMMAND, SCHEMA, SizesCatalog, name_of, sizes_catalog
+from disting.conditions.inclusion import inclusions_to_dict
 from disting.files import write_whole
-from disting.questions.inclusion import confirms, inclusions_to_dict
+from disting.questions.inclusion.confirmation import confirms
 from disting.questions.same.evidence_check import Witness
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions

@@ -98,7 +98,7 @@ class SizesCatalog(Shown):
         if one is other:
             return one.relation(i, j, view)
         names = self.names[low - 1], self.names[high - 1]
-        return relation_of(deciding(self._across[names], view)[1])
+        return relation_of(deciding(self._across[names], view))
 
     def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""
@@ -212,6 +212,6 @@ def _check(records: Sequence[Record]) -> None:
         raise ValueError("another schema")
     if [(r["left"], r["right"]) for r in records[1:]] != list(pairs_across()):
         raise ValueError("pairs are missing")
-    told = (relation_of(deciding(r, View.EXACT)[1]) for r in records[1:])
+    told = (relation_of(deciding(r, View.EXACT)) for r in records[1:])
     if any(relation is not Relation.DISTINGUISHABLE for relation in told):
         raise ValueError("models of two sizes are distinguishable")

@@ -17,10 +17,10 @@ from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness, finding_holds
 from disting.questions.same.low_cost import patient_finding
-from disting.verdict.buckets import Forest
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.claim_checks import false_of_inclusions
 from disting.verdict.engine import Engine, Progress, mapped, silent
+from disting.verdict.forest import Forest
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 

@@ -19,6 +19,12 @@ from disting.model.question import Domain
 from disting.network.network import Network
 from disting.network.notation import NOTATIONS, network_of, notations_of
 
+MODEL = (
+    "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
+    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
+    " file.json:name, a model of your own"
+)
+
 
 def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
     """Whole numbers from `low` to `high`."""

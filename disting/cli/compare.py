@@ -1,18 +1,17 @@
 """disting compare: one verdict, explained.
 
-What proves, writes a file or goes through experiments is imported where it is asked for: a look-up
-needs none of it.
+A pair of a shipped catalogue is looked up here. Whatever else is asked for is decided in
+`decision`, with all that decides: a look-up needs none of it.
 """
 
 import argparse
-import json
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import replace
 
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import (
+    MODEL,
     add_also,
     add_bounds,
     add_damped,
@@ -22,29 +21,12 @@ from disting.cli.arguments import (
     add_notation,
     add_quantity,
 )
-from disting.cli.compare_words import both_ways, every_way, explained, in_letters
-from disting.cli.model_names import MODEL, models_named
-from disting.cli.output import emitted
+from disting.cli.compare_words import Known, both_ways, explained
 from disting.cli.relations import query
-from disting.cli.workers import engine_for, told_if_long
-from disting.errors import InputError
-from disting.experiments import named
-from disting.general.any_model import measured
-from disting.general.matrix_model import AnyModel
-from disting.general.special_values import SpecialValues, special_values
-from disting.model.chain import Chain, Sensor
-from disting.model.names import name_of, read
-from disting.model.question import Domain, Settings
-from disting.verdict.comparison import compare
-from disting.verdict.meaning import undetermined
+from disting.model.chain import Chain, Sensor, text_drawing
+from disting.model.names import NAME, chains_named, name_of, names_of, read
 from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
-from disting.verdict.sides import determinable, names_of
-
-LONGER = "this pair takes longer than most; Ctrl-C stops it"
-LESS = "; less to do: --domain complex, which asks for complex values only"
-Known = tuple[str, int, int]
-"""The name of a model, how much of it is determined, how many parameters it has."""
+from disting.verdict.result import Verdict
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -65,146 +47,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Explain the verdict on one pair."""
-    if options.json and options.bound:
-        raise InputError(
-            "what holds within ranges is told in words only: leave --json or --bound away"
-        )
-    sides = models_named((options.left, options.right), options)
-    asked = query(options.conditions, View.EXACT, options.domain)
-    if options.also:
-        return _under_experiments(sides, asked, options)
-    found = judged(sides, asked, options)
-    if options.json:
-        _written(file_of(found, asked, options), options)
-    if options.json != "-":
-        print("\n".join(_told(found, options)))
-    return 0
-
-
-@dataclass(frozen=True, slots=True)
-class Judged:
-    """Two models in the order of their verdict, and how much of each is determined."""
-
-    models: tuple[Chain | AnyModel, Chain | AnyModel]
-    verdict: Verdict
-    known: tuple[Known, ...]
-
-
-def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
-    """The verdict on two models, proven where that is asked for."""
-    less = LESS if asked.view.domain is not Domain.COMPLEX else ""
-    with told_if_long(LONGER + less):
-        return _judged(sides, asked, options)
-
-
-def _judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
-    chains = _chains(sides)
-    if chains:
-        ordered, verdict = decided(chains, asked, options)
-        return Judged((ordered[0], ordered[1]), verdict, _known_of(ordered, options))
-    left, right = sides
-    with engine_for(options) as (engine, _, _progress):
-        verdict = compare(left, right, query=asked, engine=engine)
-        known = determinable(left, right, engine)
-    if options.prove:
-        from disting.verdict.comparison import prove
-
-        verdict = prove(verdict, left, right)
-    return Judged((left, right), verdict, known)
-
-
-def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
-    """The verdict on two models, as they are named, with all that its check needs."""
-    from disting.verdict.everywhere import everywhere_file
-
-    sides = models_named(texts, options)
-    asked = query(options.conditions, View.EXACT, options.domain)
-    if not options.also:
-        return file_of(judged(sides, asked, options), asked, options)
-    left, right = _chains(sides)
-    with engine_for(options) as (engine, _, _progress):
-        return everywhere_file(left, right, options.also, query=asked, engine=engine)
-
-
-def file_of(found: Judged, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
-    """The verdict on two models with all that its check needs."""
-    from disting.verdict.verdict_file import Stored, as_file, exact, has_more
-
-    beside = None
-    if has_more(found.verdict):
-        beside = judged(found.models, exact(asked), options).verdict
-    return as_file(Stored(found.models, (), asked, Settings(), found.verdict, beside))
-
-
-def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
-    emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
-
-
-def _told(found: Judged, options: argparse.Namespace) -> Iterator[str]:
-    """The verdict in words."""
-    verdict, chains = found.verdict, _chains(found.models)
-    unknown, special = _unknown(verdict, found.known), _at_special_values(found.models, verdict)
-    drawn, everywhere = list(map(in_letters, found.models)), special is not None and special.is_same
-    yield explained(verdict, drawn, unknown, measured(found.models), everywhere)
-    said = special.sentence(verdict.left, verdict.right) if special else ""
-    yield from [f"special    {said}"] * bool(said)
-    if chains and _tells_ways(verdict, options):
-        yield from both_ways(verdict, chains, dict(options.bound))
-
-
-def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> SpecialValues | None:
-    """The second answer, on all positive values, where the verdict leaves special ones out."""
-    models = [side for side in sides if not isinstance(side, Chain)]
-    asked = verdict.has_exceptions or verdict.relation is Relation.DISTINGUISHABLE
-    if verdict.domain is Domain.POSITIVE and len(models) == len(sides) and asked:
-        return special_values(*models)
-    return None
-
-
-def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
-    """Both, if both are chains; else none."""
-    chains = [side for side in sides if isinstance(side, Chain)]
-    return chains if len(chains) == len(sides) else []
-
-
-def _under_experiments(
-    sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace
-) -> int:
-    """Explain what further experiments tell, the chains as they are included."""
-    from disting.verdict.everywhere import compare_everywhere, everywhere_file
-
-    left, right = chains = _chains(sides)
-    with engine_for(options) as (engine, _, _progress):
-        if options.json:
-            whole = everywhere_file(left, right, options.also, query=asked, engine=engine)
-            _written(whole, options)
-        if options.json == "-":
+    texts = (options.left, options.right)
+    more = options.json or options.bound or options.also or options.prove
+    if not more and all(map(NAME.fullmatch, texts)):
+        chains = chains_named(texts, damped=options.damped, sensor=options.quantity)
+        verdict = shipped(chains, query(options.conditions, View.EXACT, options.domain))
+        if verdict is not None:
+            print("\n".join(_told(in_order(chains, verdict), verdict)))
             return 0
-        found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
-    asked_for = [named(text).experiment for text in options.also]
-    experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
-    lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
-    print("\n".join([*every_way(found, chains, asked_for), "", *lines]))
-    return 0
+    from disting.cli.decision import run as decided
+
+    return decided(options)
 
 
-def decided(
-    chains: Sequence[Chain], asked: Query, options: argparse.Namespace
-) -> tuple[list[Chain], Verdict]:
-    """The verdict, from the shipped catalogues or decided, and the chains in its order: a stored
-    one names the model of the lower number first.
-    """
-    found = shipped(chains, asked)
-    if found is None:
-        with engine_for(options) as (engine, _, _progress):
-            found = compare(*chains, query=asked, engine=engine)
-    turned = found.left != names_of(chains[0], chains[1])[0]
-    ordered = list(reversed(chains)) if turned else list(chains)
-    if options.prove:
-        from disting.verdict.comparison import prove
-
-        found = prove(found, ordered[0], ordered[1])
-    return ordered, found
+def _told(chains: Sequence[Chain], verdict: Verdict) -> list[str]:
+    """A verdict that was looked up, in words."""
+    ways = [] if verdict.proves_shares else both_ways(verdict)
+    return [explained(verdict, list(map(text_drawing, chains)), shipped_ranks(chains)), *ways]
 
 
 def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
@@ -228,19 +87,26 @@ def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
     return replace(found, left=str(left), right=str(right))
 
 
-def _known_of(chains: Sequence[Chain], options: argparse.Namespace) -> tuple[Known, ...]:
-    """How much of two chains is determined: as their catalogue has it, or computed."""
+def in_order(chains: Sequence[Chain], verdict: Verdict) -> list[Chain]:
+    """The chains in the order of their verdict: a stored one names the model of the lower number
+    first.
+    """
+    turned = verdict.left != names_of(chains[0], chains[1])[0]
+    return list(reversed(chains)) if turned else list(chains)
+
+
+def shipped_ranks(chains: Sequence[Chain]) -> tuple[Known, ...] | None:
+    """How much of two chains is determined, as their catalogues have it; None if none tells of
+    them.
+    """
     a, b = chains
-    if all(_is_shipped(chain) for chain in chains):
-        names = names_of(a, b)
-        records = (
-            catalog(c.n_masses, damped=c.damped).records[read(name_of(c)).number] for c in chains
-        )
-        return tuple(
-            (n, r["rank"], len(r["parameters"])) for n, r in zip(names, records, strict=True)
-        )
-    with engine_for(options) as (engine, _, _progress):
-        return determinable(a, b, engine)
+    if not all(_is_shipped(chain) for chain in chains):
+        return None
+    records = (
+        catalog(c.n_masses, damped=c.damped).records[read(name_of(c)).number] for c in chains
+    )
+    named = zip(names_of(a, b), records, strict=True)
+    return tuple((name, r["rank"], len(r["parameters"])) for name, r in named)
 
 
 def _is_shipped(chain: Chain) -> bool:
@@ -248,18 +114,3 @@ def _is_shipped(chain: Chain) -> bool:
     plain = replace(chain, ground_dampers=(), lag=False, dead_time=False) == chain
     acceleration = chain.sensor is Sensor.ACCELERATION
     return plain and acceleration and chain.n_masses in SHIPPED_SIZES
-
-
-def _unknown(verdict: Verdict, known: Iterable[Known]) -> list[str]:
-    """What cannot be determined of two models that are told apart: before they are called so."""
-    if verdict.relation is not Relation.DISTINGUISHABLE:
-        return []
-    return list(filter(None, (undetermined(*one) for one in known)))
-
-
-def _tells_ways(verdict: Verdict, options: argparse.Namespace) -> bool:
-    """Whether there is something to tell of positive equivalents that the verdict's evidence
-    does not say.
-    """
-    known = verdict.left_positive is not None or verdict.right_positive is not None
-    return bool(options.bound) or (known and not verdict.proves_shares)

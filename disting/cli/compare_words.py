@@ -1,42 +1,36 @@
-"""What disting compare says: a verdict explained, on a pair, on every way to place experiments, and
-within ranges.
-"""
+"""What disting compare says: a verdict explained, and what it tells of either way."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from disting.cli.relations import in_colour
-from disting.errors import InputError, listed
-from disting.experiments import Experiment, MeasuredChain, Places, moved
-from disting.general.any_model import as_chain
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.model.chain import Chain, text_drawing
+from disting.conditions.inclusion import Inclusion, InclusionFinding
+from disting.evidence.positive import PositiveFinding
 from disting.model.question import Domain
-from disting.network.element import Sort
-from disting.questions.inclusion import Inclusion, InclusionFinding
-from disting.verdict.everywhere import Answer, Everywhere
-from disting.verdict.meaning import RESPONSE, shown
+from disting.verdict.meaning import RESPONSE, shown, undetermined
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.sides import names_of
 
-MOST_TERMS = 30  # of a transfer function that is written out
+Known = tuple[str, int, int]
+"""The name of a model, how much of it is determined, how many parameters it has."""
 
 
 def explained(
     verdict: Verdict,
     drawn: list[str],
-    unknown: Sequence[str] = (),
+    known: Iterable[Known] | None = None,
     what: str = RESPONSE,
     everywhere: bool = False,
 ) -> str:
-    """Relation, drawings, what of the models is `unknown` whatever is measured, what a measurement
-    (of `what`) shows (`everywhere`: at special values too), sentence, evidence, certainty, domain,
-    inclusion.
+    """Relation, drawings, what cannot be determined of models that are told apart, what a
+    measurement (of `what`) shows (`everywhere`: at special values too), sentence, evidence,
+    certainty, domain, inclusion.
     """
     names = (verdict.left, verdict.right)
     width = max(map(len, names))
     drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
     heading = in_colour(verdict.relation.upper(), verdict.relation)
     lines = [heading, "", *drawings, ""]
+    apart = verdict.relation is Relation.DISTINGUISHABLE
+    unknown = list(filter(None, (undetermined(*one) for one in (apart and known) or ())))
     lines += [*unknown, *[""] * bool(unknown)]
     lines += [shown(verdict, what, everywhere), "", verdict.sentence]
     if verdict.evidence:
@@ -89,103 +83,18 @@ def _why(found: InclusionFinding, verdict: Verdict) -> str:
     return f"{found.inclusion}{sure}: {found.evidence.sentence(verdict.left, verdict.right)}"
 
 
-def every_way(
-    found: Everywhere, chains: Sequence[Chain], experiments: Sequence[Experiment]
-) -> Iterator[str]:
-    """One way in full, several with what is common to them; one and the same chain is drawn with
-    the experiments of each side.
-    """
-    left, right = names_of(*chains)
-    if len(found.verdicts) == 1:
-        places, verdict = found.verdicts[0]
-        drawings = list(map(text_drawing, chains))
-        if left == right:
-            sides = experiments, [moved(e, places) for e in experiments]
-            drawings = [_drawn(chains[0], side) for side in sides]
-        yield explained(verdict, drawings)
-        yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)
-        yield f"places     {_placed(places, left, right)}"
-        return
-    other = f"the other {right}" if left == right else right
-    told = {
-        Answer.SURELY: "told apart, wherever the places are in {}",
-        Answer.NEVER: "not told apart, wherever the places are in {}",
-        Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
-        Answer.UNKNOWN: "not known for all places in {}",
-    }[found.answer]
-    yield f"{found.answer.upper()}: {left} and {other} are {told.format(other)}"
-    yield ""
-    for places, verdict in found.verdicts:
-        yield f"  {_placed(places, left, other)}: {verdict.sentence}"
-        yield from (f"    {note}" for note in verdict.notes if verdict.evidence)
-
-
-def _drawn(chain: Chain, experiments: Sequence[Experiment]) -> str:
-    """A chain as it is, and where force and sensor are in each of the experiments."""
-    ports = (entry.attached for entry in MeasuredChain(chain, tuple(experiments)).entries)
-    drawings = (text_drawing(chain), *(text_drawing(chain, each) for each in ports))
-    return " | ".join(dict.fromkeys(drawings))
-
-
-def _placed(places: Places, left: str, right: str) -> str:
-    """Which mass is which."""
-    pairs = ", ".join(f"{a}/{b}" for a, b in places)
-    return f"masses {pairs} of {left}/{right}"
-
-
 def both_ways(
-    verdict: Verdict, chains: list[Chain], limits: dict[str, tuple[str, str]]
+    verdict: Verdict,
+    where: str = "positive",
+    shares: Sequence[PositiveFinding | None] = (),
 ) -> Iterator[str]:
-    """Which positive models of each side, within ranges if there are any, have an equivalent on
-    the other side.
-
-    Without ranges that is told where the verdict tells it.
+    """Which positive models of each side have an equivalent on the other side, as far as that is
+    told: by the verdict, or by the shares of both sides that are given, `where` they were counted.
     """
-    from disting.questions.positive import ranges, within_ranges
-
-    unknown = set(limits) - {name for chain in chains for name in chain.parameters}
-    if unknown:
-        there = listed(dict.fromkeys(name for chain in chains for name in chain.parameters))
-        raise InputError(
-            f"no parameter of the two models is called {listed(sorted(unknown))}; there are {there}"
-        )
-    sides = list(
-        zip(
-            (verdict.left, verdict.right),
-            chains,
-            (verdict.left_positive, verdict.right_positive),
-            strict=True,
-        )
-    )
-    for (name, given, known), (other_name, other, _) in (sides, sides[::-1]):
-        boxes = (
-            {n: limits[n] for n in chain.parameters if n in limits} for chain in (given, other)
-        )
-        found = within_ranges(given, other, ranges(*boxes)) if limits else known
-        if found is None:
-            continue
-        where = "within the ranges" if limits else "positive"
-        why = found.evidence.sentence(name, other_name) if found.evidence else found.reason
-        seen = f" ({found.empirical.sentence})" if found.empirical else ""
-        yield f"{where}: {name} in {other_name} {found.share}{seen}. {why}"
-
-
-def in_letters(
-    side: Chain | AnyModel, most_terms: int = MOST_TERMS, longer: str = ", in --json"
-) -> str:
-    """A chain's drawing, or a transfer function of so many terms; where a longer one is."""
-    if isinstance(side, Chain):
-        return text_drawing(side)
-    chain = as_chain(side)
-    if chain is not None:
-        return text_drawing(chain)
-    entries = side.entries if isinstance(side, MatrixModel) else (side,)
-    circuit = side.network is not None and side.network.sort is Sort.CIRCUIT
-    letter = "Z" if circuit else "G"  # an impedance is called so
-    if sum(e.n_terms for e in entries) <= most_terms:
-        return letter + str(side).removeprefix("G")
-    if isinstance(side, MatrixModel):
-        return "{}(s) with {} outputs and {} inputs{}".format(letter, *side.shape, longer)
-    powers = side.powers
-    root = ", in powers of sqrt(s)" * powers.halves + "".join(f", s^{n}" for n in powers.exponents)
-    return "{}(s) of degree {} over {}{}{}".format(letter, *side.degrees, root, longer)
+    names = (verdict.left, verdict.right)
+    shares = shares or (verdict.left_positive, verdict.right_positive)
+    for name, other, found in zip(names, reversed(names), shares, strict=True):
+        if found is not None:
+            why = found.evidence.sentence(name, other) if found.evidence else found.reason
+            seen = f" ({found.empirical.sentence})" if found.empirical else ""
+            yield f"{where}: {name} in {other} {found.share}{seen}. {why}"

@@ -3,8 +3,8 @@
 import argparse
 from pathlib import Path
 
-from disting.cli.arguments import add_damped, add_notation, add_quantity
-from disting.cli.model_names import MODEL, models_named
+from disting.cli.arguments import MODEL, add_damped, add_notation, add_quantity
+from disting.cli.model_names import models_named
 from disting.cli.output import emitted, written_file
 from disting.errors import InputError, shown
 from disting.files import write_whole

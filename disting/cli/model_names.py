@@ -1,26 +1,24 @@
-"""Models as commands name them: numbered chains, networks in a notation, models of a file; and the
-values of their parameters.
+"""Models as commands name and write them: numbered chains, networks in a notation, models of a
+file; and the values of their parameters.
 """
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 
 from disting.cli.arguments import FILE, parted
 from disting.cli.output import keep_apart
 from disting.errors import InputError
-from disting.general.any_model import of_network
-from disting.general.matrix_model import AnyModel
+from disting.general.any_model import as_chain, of_network
+from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model_files import read_models
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Sensor, text_drawing
 from disting.model.names import NAME, chains_named, damping_option
+from disting.network.element import Sort
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 
-MODEL = (
-    "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
-    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
-    " file.json:name, a model of your own"
-)
+MOST_TERMS = 30  # of a transfer function that is written out
 
 
 def is_network(text: str, notation: str = "") -> bool:
@@ -78,10 +76,10 @@ def _network(text: str, options: argparse.Namespace) -> AnyModel | None:
 def structures(
     texts: Sequence[str], options: argparse.Namespace, quantity: Sensor = Sensor.ACCELERATION
 ) -> list[Chain | Network]:
-    """Chains by their names or networks in a notation; raises InputError for both at once, and for
-    options of chains with networks.
+    """Chains by their names, networks in a notation or file.json:name; raises InputError for both
+    at once, and for options of chains with networks.
     """
-    said = [is_network(text, options.notation) for text in texts]
+    said = [FILE in text or is_network(text, options.notation) for text in texts]
     if not any(said):
         return [*chains_named(texts, damped=options.damped, sensor=quantity)]
     _refuse_damping(options)
@@ -90,7 +88,18 @@ def structures(
             f"{texts[said.index(False)]} is a numbered chain, {texts[said.index(True)]} a network:"
             " write the chain as a network too, such as 1=2=3; F1; S3"
         )
-    return [network_of(text, options.notation, quantity=quantity) for text in texts]
+    return [
+        _of_file(text) if FILE in text else network_of(text, options.notation, quantity=quantity)
+        for text in texts
+    ]
+
+
+def _of_file(text: str) -> Network:
+    path, name = parted(text)
+    network = read_models(path)[name].network
+    if network is None:
+        raise InputError(f"{text} is given by formulas, not by its elements: describe a network")
+    return replace(network, name=name)
 
 
 def values_of(model: Chain | Network, texts: Sequence[str]) -> dict[str, float]:
@@ -108,3 +117,24 @@ def _refuse_damping(options: argparse.Namespace) -> None:
             f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
             " dampers itself"
         )
+
+
+def in_letters(
+    side: Chain | AnyModel, most_terms: int = MOST_TERMS, longer: str = ", in --json"
+) -> str:
+    """A chain's drawing, or a transfer function of so many terms; where a longer one is."""
+    if isinstance(side, Chain):
+        return text_drawing(side)
+    chain = as_chain(side)
+    if chain is not None:
+        return text_drawing(chain)
+    entries = side.entries if isinstance(side, MatrixModel) else (side,)
+    circuit = side.network is not None and side.network.sort is Sort.CIRCUIT
+    letter = "Z" if circuit else "G"  # an impedance is called so
+    if sum(e.n_terms for e in entries) <= most_terms:
+        return letter + str(side).removeprefix("G")
+    if isinstance(side, MatrixModel):
+        return "{}(s) with {} outputs and {} inputs{}".format(letter, *side.shape, longer)
+    powers = side.powers
+    root = ", in powers of sqrt(s)" * powers.halves + "".join(f", s^{n}" for n in powers.exponents)
+    return "{}(s) of degree {} over {}{}{}".format(letter, *side.degrees, root, longer)

@@ -11,12 +11,13 @@ from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_list_or_network
-from disting.cli.compare_words import in_letters
+from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import Work, announced, engine_for
 from disting.errors import InputError, listed
-from disting.experiments import Experiment, MeasuredChain, named
+from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
+from disting.experiments.places import named
 from disting.general.any_model import of_network, unnamed
 from disting.general.identifiability import PARAMETERS
 from disting.model.chain import LEGEND, text_drawing
@@ -24,7 +25,9 @@ from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option
 from disting.network.network import Network
-from disting.questions.identifiability import Identifiability, Level, ParameterIdentifiability
+from disting.questions.identifiability.answer import Identifiability
+from disting.questions.identifiability.levels import ParameterIdentifiability
+from disting.questions.identifiability.parts import Level
 from disting.verdict.engine import Engine, Progress
 
 NOT_ASKED = "·"

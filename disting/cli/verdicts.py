@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from pathlib import Path
 
-from disting.catalogs.export import decisions_csv, decisions_json
+from disting.catalogs.decisions_text import decisions_csv, decisions_json
 from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes import combined_family
 from disting.cli.arguments import (
@@ -22,6 +22,7 @@ from disting.cli.arguments import (
 from disting.cli.output import emitted, keep_apart, written_file
 from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
 from disting.cli.workers import announced, announced_family, engine_for, pairs_by_size, pairs_work
+from disting.conditions.inclusion import ONE_SIDED, Sense
 from disting.conditions.side import AnySide
 from disting.errors import InputError, in_row
 from disting.general.any_model import of_network
@@ -30,7 +31,6 @@ from disting.model.chain import Sensor
 from disting.model.names import damping_option
 from disting.model.presentation import plural
 from disting.network.families import family_of
-from disting.questions.inclusion import ONE_SIDED, Sense
 from disting.verdict.comparison import prove_all
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine

@@ -11,7 +11,7 @@ from disting.cli.arguments import (
     add_notation,
     add_quantity,
 )
-from disting.cli.compare import file_named
+from disting.cli.decision import file_named
 from disting.errors import InputError
 from disting.verdict.verification import Standing, verify
 

@@ -5,14 +5,21 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Self
 
-from disting.algebra.certainty import Certainty, withhold
-from disting.conditions.rule import EXACT, Rule
+from disting.algebra.certainty import Certainty, weakest, withhold
+from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
+from disting.errors import ContradictionError
 from disting.evidence.kinds import Evidence, evidence_from
+from disting.evidence.positive import PositiveFinding, Share
+from disting.evidence.real import BothWays
 from disting.model.presentation import summary
 
 # what files have in the place of the rule where a decision found it, since the first of them: a
 # mark, and no place in the table of conditions, of which one called 10 is written as text
 WRITTEN = 10
+NOT_REAL = (
+    "over real parameters no rational map is known, real factors are not known to exist or to lack,"
+    " and the numbers of equivalents are not odd or not known"
+)
 
 
 class Outcome(StrEnum):
@@ -89,3 +96,38 @@ class Finding:
             evidence=evidence_from(evidence) if evidence else None,
             note=note,
         )
+
+
+# of both ways
+SAME = {Share.ALWAYS: Outcome.HOLDS, Share.SOMETIMES: Outcome.SOMETIMES, Share.NEVER: Outcome.FAILS}
+
+
+def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
+    """Over positive parameters, from the shares of both sides of a pair that is indistinguishable
+    over complex ones.
+
+    Raises ContradictionError where one side has equivalents and the other has none.
+    """
+    shares, known = {left.share, right.share}, [x for x in (left, right) if x.certainty]
+    if Share.NEVER in shares and shares & {Share.ALWAYS, Share.SOMETIMES}:
+        raise ContradictionError(
+            f"positive equivalents {left.share} one way and {right.share} the other"
+        )
+    both = BothWays(left, right)
+    if both.share is Share.UNKNOWN:
+        reasons = "; ".join(
+            dict.fromkeys(x.reason for x in (left, right) if x.share is Share.UNKNOWN)
+        )
+        return Finding(
+            ADMISSIBLE,
+            Outcome.ABANDONED,
+            note=f"whether equivalents are positive is not known: {reasons}",
+        )
+    certainty, safety = weakest(*((x.certainty, x.safety) for x in known if x.certainty))
+    return Finding(
+        rule=ADMISSIBLE,
+        outcome=SAME[both.share],
+        certainty=certainty,
+        safety=safety,
+        evidence=both,
+    )

@@ -26,12 +26,6 @@ from disting.model.structure import Structure
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""
 S = TypeVar("S")
-COUNTED = "degrees count powers of "  # begins a note on models with other powers than those of s
-HALVES = f"{COUNTED}s^(1/2)"  # of models with Warburg elements
-GENERIC = (
-    "the exponents of constant phase elements are generic, those of both networks the same in some"
-    " order"
-)
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,8 @@ from flint import acb, acb_poly, ctx, fmpq, fmpq_poly
 
 from disting.algebra.symbols import RationalFunction, symbols, variables
 from disting.behaviour.transfer import plain_receptance
-from disting.experiments import Experiment, MeasuredChain, Named, Places, moved, named, ways
-from disting.experiments.experiment import Entry
+from disting.experiments.experiment import Entry, Experiment, MeasuredChain
+from disting.experiments.places import Named, Places, moved, named, ways
 from disting.model.chain import Chain
 
 Number = Any  # fmpq or acb

@@ -12,7 +12,7 @@ from typing import Any
 
 from flint import fmpq
 
-from disting.experiments import Places
+from disting.experiments.places import Places
 from disting.fibres.synthesis.task import Fibre, Status, target
 from disting.files import Format
 from disting.model.chain import Chain, text_drawing

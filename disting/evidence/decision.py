@@ -27,6 +27,9 @@ THEOREMS = {
         "{left} and {right} are the same but for parts that can replace each other (two-terminal"
         " parts of two kinds of elements, trees that hang at a compartment, outflows)"
     ),
+    "gears": (
+        "{left} and {right} are the same but for gears: a gear is a change of the units behind it"
+    ),
     "interlacing": (
         "{left} and {right} are undamped trees of as many masses with one spring to the ground:"
         " each gives any resonances, and any antiresonances each of which is between two"
@@ -37,9 +40,11 @@ THEOREMS = {
         " one by one"
     ),
 }
-RATIONAL = ("symmetry", "duality")
+RATIONAL = ("symmetry", "duality", "gears")
 """Theorems whose maps are rational, so that they take real parameters to real ones."""
 
+GEARS = "gears"
+"""That of `disting.network.gears`."""
 INTERLACING = "interlacing"
 REPLACEMENT = "replacement"
 """The theorem on networks of `disting.network.normal_form`."""
@@ -50,6 +55,7 @@ TITLES = {
     "duality": "duality theorem",
     "Foster": "Foster's theorem",
     "replacement": "replacement of parts",
+    "gears": "gears as units",
     "interlacing": "antiresonances between resonances",
     "parts": "reversal of undamped rows",
 }
@@ -85,17 +91,18 @@ class Theorem(Kind):
         known = {
             Domain.COMPLEX: True,
             Domain.REAL: self.name in RATIONAL,
-            Domain.POSITIVE: self.name in ("Foster and Cauer", INTERLACING, REPLACEMENT),
+            Domain.POSITIVE: self.name in ("Foster and Cauer", GEARS, INTERLACING, REPLACEMENT),
         }
         return Relation.INDISTINGUISHABLE if known[domain] else Relation.UNDECIDED
 
     def without_exception(self, domain: Domain) -> bool:
-        """Symmetries of a chain carry all parameters over. So does duality where they are positive:
-        its formulas divide by sums of masses alone. Foster's and Cauer's theorems speak of generic
-        ones: of a chain with the force on its middle mass and both sides alike a pole is cancelled,
-        and a chain with the force at its end has always all of them.
+        """Symmetries of a chain carry all parameters over, and so do units. So does duality where
+        they are positive: its formulas divide by sums of masses alone. Foster's and Cauer's
+        theorems speak of generic ones: of a chain with the force on its middle mass and both sides
+        alike a pole is cancelled, and a chain with the force at its end has always all of them.
         """
-        return self.name == "symmetry" or (self.name == "duality" and domain is Domain.POSITIVE)
+        everywhere = self.name in ("symmetry", GEARS)
+        return everywhere or (self.name == "duality" and domain is Domain.POSITIVE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -66,11 +66,11 @@ from disting.experiments.maps import matched
 from disting.fibres.ideals import Limits, StackedMap, Terms, decide_matched
 from disting.fibres.ideals.fibre_ideal import drawn, jacobian
 from disting.fibres.synthesis.decide import point_bits, rational_point, safety_of_point
-from disting.fibres.synthesis.task import Answer, Solution
+from disting.fibres.synthesis.task import Solution
 from disting.model.chain import Chain
-from disting.model.question import Question, Settings
+from disting.model.question import Answer, Question, Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 from disting.questions.same.exact import SAFETY, decided
 from disting.questions.same.real_and_positive import positive_share
 

@@ -24,8 +24,7 @@ from disting.experiments.maps import stacked_map
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.task import Confirmation
 from disting.model.question import Question, Settings
-from disting.questions.identifiability import (
-    Level,
+from disting.questions.identifiability.levels import (
     Local,
     ParameterIdentifiability,
     by_parameter,
@@ -34,6 +33,7 @@ from disting.questions.identifiability import (
     joint,
     local,
 )
+from disting.questions.identifiability.parts import Level
 
 SILENT = "no sensor moves, so nothing is determined"
 

@@ -17,12 +17,12 @@ from fractions import Fraction
 
 from disting.algebra.certainty import Certainty, graded
 from disting.behaviour.profile import Profile
+from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.evidence.conditions import Counts
 from disting.evidence.limits import LargerProjection, MissingElements
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.model.kinds import Kind
 from disting.model.minors import embeddings, is_minor, minors
-from disting.questions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.questions.inclusion.profiles import (
     by_profiles,
     exceed,

@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import weakest
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding import Finding, Outcome, positive_ways
+from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import FreeChoice, Renaming
@@ -27,9 +28,7 @@ from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.measured_evidence import confirms, confirms_inclusion, exact_again
 from disting.model.chain import Premise
 from disting.model.question import Domain, Question
-from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
-from disting.questions.same.real_and_positive import positive_ways
 
 NOT_COMPARABLE = "ranks, degrees or dead times differ (conditions 2 to 4)"
 NOT_KNOWN = "whether equivalents under these experiments are {} is not known"

@@ -13,9 +13,10 @@ from disting.conditions.finding import Finding
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refuted, Solved
-from disting.evidence.kind import Kind, Seen, SeenPair, seen
+from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, MissingElements
+from disting.evidence.model_samples import Seen, SeenPair, seen
 from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
 from disting.evidence.real import BothWays
 from disting.experiments.exact import answer_of
@@ -25,11 +26,11 @@ from disting.experiments.listing import by_list, listable, listed_at, without_de
 from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.maps import matched
 from disting.fibres.ideals import seen_again
-from disting.fibres.synthesis.task import Answer, fraction
+from disting.fibres.synthesis.task import fraction
 from disting.model.chain import Chain
-from disting.model.question import Settings
+from disting.model.question import Answer, Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 from disting.questions.inclusion.profiles import exceed, ordered
 from disting.questions.positive import proves
 from disting.questions.same.exact import by_labels

@@ -18,9 +18,9 @@ D2/a2 are one and the same exactly if D1 a2 = D2 a1.
 
 Renamings. A renaming carries coefficients in lowest terms over the integers into coefficients, all
 of them or none with the sign changed. The functions c_i a_m (a_m the leading denominator
-coefficient) are then the same, whatever the sign and without any division, and colour refinement
-looks at them, modulo a prime: columns that differ there are different, so no renaming is missed,
-and one that is found is proven exactly.
+coefficient), over the square of a number of a_m, are then the same, whatever the sign, and colour
+refinement looks at them, modulo a prime: columns that differ there are different, so no renaming is
+missed, and one that is found is proven exactly.
 """
 
 from collections.abc import Mapping, Sequence
@@ -168,16 +168,32 @@ def _quotient(model: Model, point: Sequence[int], modulus: int) -> Quotient:
 
 
 def _products(model: Model, point: Sequence[int], modulus: int) -> list[tuple[int, list[int]]]:
-    """Values and gradients of the functions c_i a_m."""
     coefficients = (*model.numerator_terms, *model.denominator_terms)
-    seen = [evaluated(terms, point, modulus) for terms in coefficients]
-    lead, slopes = seen[-1]
+    lead = coefficients[-1]
+    total = sum(number for _, number in lead)
+    return times_lead(
+        [evaluated(terms, point, modulus) for terms in coefficients],
+        Fraction(total or 1, len(lead)),
+        modulus,
+    )
+
+
+def times_lead(
+    rows: Sequence[tuple[int, Sequence[int]]], mean: Fraction, modulus: int
+) -> list[tuple[int, list[int]]]:
+    """Values and gradients of the functions c_i a_m from those of the coefficients, a_m last, over
+    the square of a number that changes as they do where both sides of G are multiplied by one: the
+    mean of the numbers of the terms of a_m.
+    """
+    lead, slopes = rows[-1]
+    unit = pow(mean.numerator, -2, modulus) * mean.denominator**2 % modulus
+    lead, slopes = lead * unit % modulus, [slope * unit % modulus for slope in slopes]
     return [
         (
             value * lead % modulus,
             [(g * lead + value * h) % modulus for g, h in zip(gradient, slopes, strict=True)],
         )
-        for value, gradient in seen
+        for value, gradient in rows
     ]
 
 

@@ -30,7 +30,8 @@ from disting.evidence.general import (
     Replaced,
     Witnesses,
 )
-from disting.evidence.kind import Labels, seen
+from disting.evidence.kind import Labels
+from disting.evidence.model_samples import seen
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed, with_names
 from disting.general.matrix_model import AnyModel

@@ -18,14 +18,14 @@ from disting.general.model_side import OTHER_ORDER, ComparedModel
 from disting.general.network_model import behaviour_of
 from disting.model.presentation import summary
 from disting.model.question import Question, Settings
-from disting.questions.identifiability import (
-    Level,
+from disting.questions.identifiability.levels import (
     ParameterIdentifiability,
     by_parameter,
     decoded,
     encoded,
     local,
 )
+from disting.questions.identifiability.parts import Level
 
 SETTINGS = Settings()
 OTHER_EXPONENTS = "other exponents may do the same"

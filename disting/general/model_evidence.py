@@ -10,8 +10,9 @@ from disting.conditions.rule import EXACT
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
 from disting.evidence.ideals import Refuted, Solved
-from disting.evidence.kind import Kind, SeenPair, seen
+from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
+from disting.evidence.model_samples import SeenPair, seen
 from disting.fibres.ideals import Limits, seen_again
 from disting.general import listed, newton
 from disting.general.admissible import are_one_ports

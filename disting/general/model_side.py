@@ -14,11 +14,12 @@ from functools import cached_property
 from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.conditions.side import GENERIC, Ask, Side
+from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
-from disting.evidence.decision import INTERLACING, REPLACEMENT, Theorem
+from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
 from disting.evidence.general import AtInverse, Constants, OfPart, OverDomain, Replaced
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
@@ -50,16 +51,16 @@ from disting.general.model_inclusions import (
 )
 from disting.general.network_model import NetworkModel, behaviour_of
 from disting.general.readings import readings, told
-from disting.general.replacement import replaceable
+from disting.general.replacement import replaceable, same_in_units
 from disting.model.chain import Chain, Premise
+from disting.model.presentation import GENERIC
 from disting.model.question import Domain, Question, Relation
-from disting.questions.inclusion import Inclusions
 from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
-NETWORKS = {REPLACEMENT: replaceable, INTERLACING: interlace}
+NETWORKS = {GEARS: same_in_units, REPLACEMENT: replaceable, INTERLACING: interlace}
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
 Pair = tuple["ComparedModel", "ComparedModel"]
 
@@ -160,6 +161,8 @@ class ComparedModel(Side[AnyModel]):
             )
         if one.rank == 0:
             return constants_finding(self.subject, other.subject)
+        if _applies(GEARS, self, other):
+            return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(GEARS))
         if not (self.is_writable and other.is_writable):
             return Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
         found = self.answerer(EXACTLY, _models(self, other), self.settings)
@@ -185,7 +188,7 @@ class ComparedModel(Side[AnyModel]):
         if one_order and not any(evidence.shows(d) is Relation.INDISTINGUISHABLE for d in Domain):
             return False
         if isinstance(evidence, Theorem) and evidence.name in NETWORKS:
-            return self.is_writable and other.is_writable and _applies(evidence.name, self, other)
+            return _applies(evidence.name, self, other)
         if isinstance(evidence, Replaced | AtInverse | OfPart):
             return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = self.subject, other.subject
@@ -197,6 +200,8 @@ class ComparedModel(Side[AnyModel]):
         """What `exact` finds with evidence of this kind."""
         if isinstance(evidence, Constants):
             return self.exact(other) if self.transfer_profile.rank == 0 else None
+        if evidence == Theorem(GEARS):
+            return self.exact(other) if _applies(GEARS, self, other) else None
         if not comparable(self, other):
             return None
         found = model_evidence.exact_again(evidence, *_models(self, other), self.settings)
@@ -213,10 +218,10 @@ class ComparedModel(Side[AnyModel]):
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
+        if name := _theorem(self, other, domain):
+            return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
         if not (self.is_writable and other.is_writable):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        if domain is Domain.POSITIVE and (name := _theorem(self, other)):
-            return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
         found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
         found = self._in_every_order(other, found)
         return replace(found, note=with_names(found.note, self.name, other.name))
@@ -243,13 +248,10 @@ class ComparedModel(Side[AnyModel]):
     @classmethod
     def prepare_admissible(cls, pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
-        known = domain is Domain.POSITIVE
         left = [
             (a, b)
             for a, b in pairs
-            if not (_renamed(a, b) or (known and _theorem(a, b)))
-            and a.is_writable
-            and b.is_writable
+            if not (_renamed(a, b) or _theorem(a, b, domain)) and a.is_writable and b.is_writable
         ]
         ask(ADMISSIBLY[domain], [_unnamed(a, b, domain) for a, b in left])
 
@@ -275,24 +277,22 @@ def _unnamed(
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
-    """Whether the exact decision is asked: ranks and degrees are equal, something varies, and the
-    terms are not too many.
-    """
+    """Whether the exact decision is computed: it is not known from ranks, degrees or theorems."""
     one, other = left.transfer_profile, right.transfer_profile
     alike = one.rank == other.rank > 0 and one.degrees == other.degrees
-    return alike and left.is_writable and right.is_writable
+    written = alike and left.is_writable and right.is_writable
+    return written and not _applies(GEARS, left, right)
 
 
-def _theorem(left: ComparedModel, right: ComparedModel) -> str:
-    """The theorem by which both are networks that give the same functions, special ones aside; ""
-    of none.
-    """
-    written = left.is_writable and right.is_writable
-    return next((name for name in NETWORKS if written and _applies(name, left, right)), "")
+def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> str:
+    """The theorem by which networks give the same functions over a domain; "" of none."""
+    shown = (n for n in NETWORKS if Theorem(n).shows(domain) is Relation.INDISTINGUISHABLE)
+    return next((name for name in shown if _applies(name, left, right)), "")
 
 
 def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:
-    return NETWORKS[name](left.subject, right.subject)
+    written = name == GEARS or (left.is_writable and right.is_writable)
+    return written and NETWORKS[name](left.subject, right.subject)
 
 
 def _renamed(left: ComparedModel, right: ComparedModel) -> bool:

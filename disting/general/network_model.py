@@ -23,11 +23,17 @@ from disting.algebra.quotient import Quotient, coefficient_rows
 from disting.behaviour.chain_model import UNBOUNDED
 from disting.behaviour.sample import label, shared_poles
 from disting.general.any_model import unnamed
-from disting.general.behaviour import GeneralModel, Known, known_invariants, summary_size
+from disting.general.behaviour import (
+    GeneralModel,
+    Known,
+    known_invariants,
+    summary_size,
+    times_lead,
+)
 from disting.general.matrix_model import AnyModel
 from disting.model.protocol import ZERO, Columns, Degrees
 from disting.network.at_points import Assembly, Sides, assembly, quotient_at, sides_at
-from disting.network.forests import Counts, counts, counts_of
+from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
 
 
@@ -90,9 +96,7 @@ class NetworkModel:
         1, sum to the number of its terms.
         """
         largest = [
-            (known.degree, max(*known.num, *known.den).bit_length())
-            for known in self._counts
-            if known is not None
+            (known.degree, known.size.bit_length()) for known in self._counts if known is not None
         ]
         return summary_size(self.degrees, largest, len(self.parameters), markov)
 
@@ -117,7 +121,7 @@ class NetworkModel:
 
     @property
     def _counts(self) -> tuple[Counts | None, ...]:
-        return tuple(None if of is None else counts(of) for of in self._assemblies)
+        return tuple(None if c is None else counts_of(c, self.halves) for c in self.cells)
 
 
 def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:
@@ -152,23 +156,15 @@ def _elements(cell: Network | None) -> frozenset[str]:
 
 def _products(found: Sides, known: Counts, modulus: int) -> list[tuple[int, list[int]]]:
     """Values and gradients of the functions c_i a_m."""
-    lost = known.lost
     rows = [
         row
         for side, slopes, size in (
             (found.num, found.num_derivatives, len(known.num)),
             (found.den, found.den_derivatives, len(known.den)),
         )
-        for row in list(zip(*coefficient_rows(side, slopes, size), strict=True))[lost:]
+        for row in list(zip(*coefficient_rows(side, slopes, size), strict=True))[known.lost :]
     ]
-    lead, steps = rows[-1]
-    return [
-        (
-            value * lead % modulus,
-            [(g * lead + value * h) % modulus for g, h in zip(gradient, steps, strict=True)],
-        )
-        for value, gradient in rows
-    ]
+    return times_lead(rows, known.mean, modulus)
 
 
 def _ratios(known: Counts) -> tuple[list[Known], list[Known]]:

@@ -18,8 +18,8 @@ from flint import fmpz_mpoly, nmod_poly
 from disting.algebra.certainty import prime, residues
 from disting.algebra.notation import symbol
 from disting.algebra.symbols import RationalFunction
-from disting.conditions.side import COUNTED, HALVES
 from disting.errors import InputError
+from disting.model.presentation import COUNTED, HALVES
 from disting.network.network import Network
 
 MOST_EXPONENTS = 4

@@ -50,7 +50,7 @@ from disting.network.element import Element, Port
 from disting.network.graph import moved
 from disting.network.network import Network
 from disting.network.normal_form import Part, Power, normal_form
-from disting.network.simplest import simplest
+from disting.network.simplest import same_but_for_gears, simplest
 
 ONE_PORTS = 1024  # one-ports: each is asked about in many pairs
 TRIES = 3  # points, of which almost all would do
@@ -135,6 +135,12 @@ def replaceable(left: AnyModel, right: AnyModel) -> bool:
     """
     one = simplest_network(left)
     return one is not None and one == simplest_network(right)
+
+
+def same_in_units(left: AnyModel, right: AnyModel) -> bool:
+    """Whether both are one machine in other units, those behind gears."""
+    one, other = (m.network and placed_network(m.network, m.powers) for m in (left, right))
+    return one is not None and other is not None and same_but_for_gears(one, other)
 
 
 def simplest_network(model: AnyModel, larger: bool = False) -> Network | None:

@@ -7,6 +7,7 @@ matched that have the same sets of functions. Parts of three kinds are matched b
 Trees of compartments have their own way (`values_of_compartments`).
 """
 
+import operator
 from collections.abc import Iterator, Sequence
 from functools import partial, reduce
 from itertools import islice, product
@@ -30,6 +31,7 @@ from disting.general.synthesis import (
 )
 from disting.general.values_of_compartments import values_of_tree
 from disting.network.element import Port
+from disting.network.gears import ungeared, units, unknown_ratios
 from disting.network.graph import joined
 from disting.network.network import Network
 from disting.network.normal_form import Power
@@ -76,15 +78,40 @@ def values_over(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator
         yield from values_of_tree(field, given, other.network.grounded)
         return
     ways = _of_one_port(field, given, other)
-    yield from _of_edges(field, _placed(given), _placed(other)) if ways is None else ways
+    yield from _of_graphs(field, given, other) if ways is None else ways
 
 
-def _placed(model: AnyModel) -> Network:
-    network = model.network
-    if network is None or network.is_directed or any(e.ratio for e in network.elements):
+def _of_graphs(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values]:
+    """Of networks without their gears, in the units that these make; ratios of the other network
+    that are not known are chosen: 1.
+    """
+    (here, ratios), (there, chosen) = _placed(given), _placed(other)
+    known = {e.value: field[e.value] for e in here.elements}
+    for name, unit in _units(field, given.network, [field[n] for n in ratios]).items():
+        known[name] = field[name] * unit
+    back = _units(field, other.network, [field.one] * len(chosen))
+    for values in _of_edges(field, known, here, there):
+        found = {name: x / back.get(name, field.one) for name, x in values.items()}
+        yield found | dict.fromkeys(chosen, field.one)
+
+
+def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) -> Values:
+    """Those that gears make, with these values for ratios that are not known."""
+    found = dict[str, Any]()
+    for name, (number, powers) in (units(network) if network else {}).items():
+        found[name] = field.number(number.numerator) / field.number(number.denominator)
+        for ratio, k in zip(ratios, powers, strict=True):
+            found[name] *= reduce(operator.mul, [ratio] * abs(k), field.one) ** (1 if k > 0 else -1)
+    return found
+
+
+def _placed(model: AnyModel) -> tuple[Network, list[str]]:
+    """What is seen of a network without gears, and the ratios that are not known."""
+    plain = model.network and ungeared(model.network)
+    if model.network is None or plain is None or plain.is_directed:
         raise NoFormulas("they are not made of parts that replace each other")
     powers = next(iter(model.entries)).powers
-    return placed_network(network, powers).grounded
+    return placed_network(plain, powers).grounded, unknown_ratios(model.network)
 
 
 def _of_one_port(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values] | None:
@@ -92,7 +119,7 @@ def _of_one_port(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterato
     known = set_of(given)
     if known is None or known != set_of(other) or not isinstance(given, Model):
         return None
-    edges = _edges(_placed(other))
+    edges = _edges(_placed(other)[0])
     if len(edges) != 1:
         return None
     (tree,) = edges.values()
@@ -124,15 +151,15 @@ def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tup
     return (top if network.sign_of_one_port > 0 else tuple(-c for c in top)), bottom
 
 
-def _of_edges(field: Arithmetic, given: Network, other: Network) -> Iterator[Values]:
+def _of_edges(field: Arithmetic, known: Values, given: Network, other: Network) -> Iterator[Values]:
     """Of networks that are one graph with parts at the edges, matched in the first way that gives
-    formulas.
+    formulas; `known`: the given values.
     """
     one, two = _edges(given), _edges(other)
     none = NoFormulas("they are not made of parts that replace each other")
     for places in islice(_matches(given, one, other, two), MOST_MATCHES):
         try:
-            parts = [_of_part(field, one[ends], two[places[ends]]) for ends in one]
+            parts = [_of_part(field, known, one[ends], two[places[ends]]) for ends in one]
         except NoFormulas as why:
             none = why
             continue
@@ -176,15 +203,15 @@ def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
     return graph
 
 
-def _of_part(field: Arithmetic, given: Tree, other: Tree) -> list[Values]:
+def _of_part(field: Arithmetic, known: Values, given: Tree, other: Tree) -> list[Values]:
     """The values of one part in those of another one of the same set."""
     if given.element and other.element:
-        return [{other.element.value: field[given.element.value]}]
+        return [{other.element.value: known[given.element.value]}]
     if len(given.part.kinds) == TWO:
         low, _ = sorted(given.part.kinds)
-        return list(synthesized(field, other, *_composed(field, given, low)))
+        return list(synthesized(field, other, *_composed(field, known, given, low)))
     pairs = _paired(given, other)
-    found = [_of_part(field, a, b) for a, b in pairs]
+    found = [_of_part(field, known, a, b) for a, b in pairs]
     return [{n: x for values in chosen for n, x in values.items()} for chosen in product(*found)]
 
 
@@ -202,14 +229,14 @@ def _paired(given: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
     return pairs
 
 
-def _composed(field: Arithmetic, tree: Tree, low: Power) -> tuple[Poly, Poly]:
+def _composed(field: Arithmetic, known: Values, tree: Tree, low: Power) -> tuple[Poly, Poly]:
     """F(x) of branches of two kinds, of which one has the power `low`."""
     zero, one = field.zero, field.one
     if tree.element is not None:
-        value = field[tree.element.value]
+        value = known[tree.element.value]
         value = value if tree.element.kind.divides else one / value
         return (value,), ((one,) if tree.element.power == low else (zero, one))
-    functions = [_composed(field, t, low) for t in tree.inside]
+    functions = [_composed(field, known, t, low) for t in tree.inside]
     if tree.form == "S":
         return reduce(partial(_sum, field), functions)
     return _inverse(*reduce(partial(_sum, field), (_inverse(*f) for f in functions)))

@@ -202,3 +202,16 @@ def _word(word: str) -> str:
     near = get_close_matches(word, (*WORDS, "deadtime", "dead-time"), 1, 0.6)
     found = f"b{damper[1]}" if damper else near[0] if near else word
     return "delay" if found.startswith("dead") else found
+
+
+def names_of(left: Chain, right: Chain) -> tuple[str, str]:
+    """What two chains are called beside each other: by their names, those that have one name, of
+    which one is damped, with damping and quantity.
+
+    >>> names_of(Chain(9), Chain(9, damped=False))
+    ('9:1 (damped, acceleration)', '9:1 (undamped, acceleration)')
+    """
+    names = name_of(left), name_of(right)
+    if names[0] == names[1] and left != right:
+        return f"{names[0]} ({left.premise})", f"{names[1]} ({right.premise})"
+    return names

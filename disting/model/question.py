@@ -123,3 +123,11 @@ class Answerer(Protocol):
 def computed(question: Question[T], models: Models, settings: Settings) -> T:
     """The answer, computed now."""
     return question.answer(*models, settings)
+
+
+class Answer(StrEnum):
+    """Three-valued."""
+
+    YES = "yes"
+    NO = "no"
+    UNKNOWN = "unknown"

@@ -9,13 +9,14 @@ x = P^-1 b, y = P^-T c, the derivatives along any u' and v' are those of
     D (v'^T P^-1 u'),   N (v'^T P^-1 u') - D (y^T u') (v'^T x)
 
 u and v for the entry of the element itself; for the ratio g of a gear, u = v = e_i - g e_j, those
-with -w e_j for one of both. The degree in s is at most the sum of the highest powers of all rows;
-so many numbers s and one more give the coefficients. Node 0 has no row. A value that divides enters
-as 1/p; both sides are multiplied by it.
+with -w e_j for one of both. Where a ratio is a number, all u and v are taken times the one that
+makes them whole, and N times its square. The degree in s is at most the sum of the highest powers
+of all rows; so many numbers s and one more give the coefficients. Node 0 has no row. A value that
+divides enters as 1/p; both sides are multiplied by it.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
 
@@ -27,7 +28,7 @@ from disting.network.network import Network
 
 REMEMBERED = 1024  # assemblies
 Vector = tuple[tuple[int, int], ...]
-"""Rows with their signs."""
+"""Rows with their numbers: signs, times those of known ratios."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +68,18 @@ class Frame:
     n_values: int
 
     @property
+    def ungeared(self) -> "Frame":
+        """The same with 1 for ratios that are numbers."""
+        entries = self.entries
+        if all(abs(x) == 1 for e in entries for _, x in e.feels):
+            return self
+        found = []
+        for e in entries:
+            v = tuple((i, sign) for (i, _), sign in zip(e.feels, (1, -1), strict=False))
+            found.append(replace(e, pulls=v, feels=v))
+        return _frame(self.size, tuple(found), self.n_values)
+
+    @property
     def highest(self) -> int:
         """Bound of the degree of D in s."""
         powers = [0] * self.size
@@ -88,14 +101,15 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Assembly:
-    """P, b and c of a network: its frame, the ports' rows with their signs, `gained` the power of s
-    that multiplies the numerator.
+    """P, b and c of a network: its frame, the ports' rows with their signs; `gained` the power of s
+    and `scale` the number that multiply the numerator.
     """
 
     frame: Frame
     force: Vector
     sensor: Vector
     gained: int
+    scale: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,13 +136,11 @@ class Sides:
 
 @lru_cache(maxsize=REMEMBERED)
 def assembly(network: Network, halves: bool) -> Assembly | None:
-    """That of a network with one input and one output, without exponents and without ratios that
-    are numbers other than 1, in powers of s or of s^(1/2); None of others.
+    """That of a network with one input and one output and without exponents, in powers of s or of
+    s^(1/2); None of others.
     """
-    if network.exponents or network.shape != (1, 1):
-        return None
     plain = network.grounded
-    if any(e.ratio and e.known_ratio is not None for e in plain.elements) or not plain.elements:
+    if network.exponents or network.shape != (1, 1) or not plain.elements:
         return None
     step = 1 if halves else 2
     lift = max((0, *(-e.kind.halves for e in plain.elements))) // step
@@ -138,21 +150,22 @@ def assembly(network: Network, halves: bool) -> Assembly | None:
         for port in (plain.inputs[0], plain.outputs[0])
     )
     size = max(i for e in plain.elements for i in e.nodes)
-    entries = tuple(_entry(e, places, e.kind.halves // step + lift) for e in plain.elements)
+    scale = plain.ratio_scale
+    entries = tuple(_entry(e, places, e.kind.halves // step + lift, scale) for e in plain.elements)
     frame = _frame(size, entries, len(network.parameters))
-    return Assembly(frame, force, sensor, 2 * network.order // step + lift)
+    return Assembly(frame, force, sensor, 2 * network.order // step + lift, scale**2)
 
 
 _frame = lru_cache(maxsize=REMEMBERED)(Frame)
 """All ports of a network share it, and it is looked up by what it is, not by what it holds."""
 
 
-def _entry(e: Element, places: dict[str, int], power: int) -> Entry:
+def _entry(e: Element, places: dict[str, int], power: int, scale: int) -> Entry:
     pulls, feels = (
-        tuple((i - 1, -1 if isinstance(x, str) else int(x)) for i, x in side.items())
+        tuple((i - 1, -scale if isinstance(x, str) else int(x * scale)) for i, x in side.items())
         for side in (e.pulls, e.feels)
     )
-    place, ratio = places.get(e.value), places[e.ratio] if e.ratio else None
+    place, ratio = places.get(e.value), places.get(e.ratio)
     return Entry(place, power, e.kind.divides, pulls, feels, ratio)
 
 
@@ -224,7 +237,7 @@ def _at_number(of: Assembly, at: Solved, modulus: int) -> list[int]:
     ratio of each gear.
     """
     inverse, den = at.inverse, at.den
-    x = [sum(a * row[i] for i, a in of.force) for row in inverse]
+    x = [of.scale * sum(a * row[i] for i, a in of.force) for row in inverse]
     y = [sum(a * inverse[i][j] for i, a in of.sensor) for j in range(len(inverse))]
     num = den * sum(a * x[i] for i, a in of.sensor) % modulus
     found = [num, den]

@@ -10,7 +10,6 @@ Warburg elements have half ones; where inductors have s^-1, P is multiplied by s
 
 from collections.abc import Mapping
 from fractions import Fraction
-from math import lcm
 
 from flint import fmpz_mpoly
 
@@ -37,7 +36,7 @@ def transfer_functions(
     step = 1 if network.halves else 2
     lift = max((0, *(-e.kind.halves for e in plain.elements))) // step
     one = ring[s] ** 0
-    scale = lcm(*(e.known_ratio.denominator for e in plain.elements if e.known_ratio is not None))
+    scale = plain.ratio_scale
     rows = [[one - one] * size for _ in range(size)]
     for e in plain.elements:
         power = ring[s] ** (e.kind.halves // step + lift)

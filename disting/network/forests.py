@@ -12,10 +12,10 @@ forests of two trees, one through A, one through B,
 
 Where the ports share a node, one of both is empty: all terms have one sign, and what is not zero
 where all values are 1 is not zero. Where they do not, forests are counted (`.trees`).
-Gears: where x_i = h_i y_i with products h of ratios turns each e_i - g e_j into a multiple of
-e_i - e_j, D and N are those of a network without gears at values times products of ratios, and N is
-multiplied by one: as many terms, of the same signs. Where ratios meet in a loop that does not allow
-it, nothing is said.
+Gears: where ratios agree (`.gears`) D and N are those of a network without gears at values times
+products of ratios, and N is multiplied by one: as many terms, of the same signs but for one that
+all terms of N share. Of others nothing is said. Ratios that are numbers multiply each term by a
+number.
 
 The coefficients where all values are 1 are whole numbers, read as the digits of D and N at s = 2^B,
 with 2^B above their sum.
@@ -38,13 +38,15 @@ whatever their size.
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import lru_cache
 
 from flint import fmpz_mat
 
 from disting.algebra.certainty import about, prime, residues
-from disting.network.at_points import Assembly, Entry, Vector, assembly, quotient_at
+from disting.network.at_points import Assembly, Vector, assembly, quotient_at
+from disting.network.gears import ungeared
 from disting.network.network import Network
 
 Partition = frozenset[frozenset[int]]
@@ -102,13 +104,17 @@ def _without(states: Counter[Partition], node: int) -> Counter[Partition]:
 @dataclass(frozen=True, slots=True)
 class Counts:
     """How many terms the coefficients of s^0, s^1, .. of both sides have, where none cancel, and
-    the largest degree of a term in the values; `free`: the power of s whose coefficient in N, and
-    in D, is a number (None where none is).
+    the largest degree of a term in the values; `size`: the largest sum of the sizes of the numbers
+    of a coefficient's terms, which are 1 without known ratios, and `mean` their mean in the leading
+    one of D; `free`: the power of s whose coefficient in N, and in D, is a number (None where none
+    is).
     """
 
     num: tuple[int, ...]
     den: tuple[int, ...]
     degree: int
+    size: int
+    mean: Fraction
     free: tuple[int | None, int | None] = (None, None)
 
     @property
@@ -128,8 +134,11 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     None of others.
     """
     of = assembly(network, halves)
-    known = None if of is None else counts(of)
-    if of is None or known is None or not any(known.num) or not any(known.den):
+    geared = any(e.ratio for e in network.elements)
+    if of is None or (geared and (ungeared(network) is None or not _sign(of))):
+        return None
+    known = _counted(of)
+    if known is None or not any(known.num) or not any(known.den):
         return None
     label = about("lowest terms", network.elements, network.ports, network.order, halves)
     modulus = prime(label)
@@ -140,14 +149,13 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     return known if kept and all(a or b for a, b in slopes) else None
 
 
-@lru_cache(maxsize=REMEMBERED)
-def counts(of: Assembly) -> Counts | None:
-    """Those of an assembly; None of one whose terms are not counted, or where both sides share the
-    ratio of a gear.
+def _counted(of: Assembly) -> Counts | None:
+    """Those of an assembly whose ratios agree; None of one whose terms are not counted, or where
+    both sides share the ratio of a gear.
     """
-    if not _ratios_agree(of):
-        return None
-    sides = _digits(of, [e.power for e in of.frame.entries])
+    powers, given = [e.power for e in of.frame.entries], of
+    of = replace(of, frame=of.frame.ungeared, scale=1)
+    sides = _digits(of, powers)
     # twice the values that do not divide, once the s of compartments and the ratios
     weights = [1 if e.place is None else 2 * (not e.divides) for e in of.frame.entries]
     ratios = sorted({e.ratio for e in of.frame.entries if e.ratio is not None})
@@ -166,38 +174,11 @@ def counts(of: Assembly) -> Counts | None:
         if side
     ]
     num, den = sides
+    sizes = sides if of == given else _digits(given, powers) or sides
     directed = any(e.place is None for e in of.frame.entries)
     free = (n - 1 + of.gained, n) if directed else (None, None)
-    return Counts((0,) * of.gained + num if num else (), den, max(degrees), free)
-
-
-def _ratios_agree(of: Assembly) -> bool:
-    """Whether gears allow to count: the h_i exist, and are the same at both ends of a port."""
-    geared = sorted({e.ratio for e in of.frame.entries if e.ratio is not None})
-    if not geared:
-        return True
-    heights: dict[int, int] = {}  # h_i as a sum of the steps of its ratios
-    steps = {None: 0} | {ratio: 1 << APART * k for k, ratio in enumerate(geared)}
-    links = [
-        (i, j, steps[e.ratio]) for e in of.frame.entries if len(e.feels) > 1 for i, j in [_rows(e)]
-    ]
-    for start in range(of.frame.size):
-        todo = [] if start in heights else [start]
-        heights.setdefault(start, 0)
-        while todo:
-            i = todo.pop()
-            for a, b, step in [*links, *((b, a, -step) for a, b, step in links)]:
-                if a == i and b not in heights:
-                    todo.append(b)
-                if a == i and heights.setdefault(b, heights[i] - step) != heights[i] - step:
-                    return False
-    level = all(len({heights[i] for i, _ in port}) < 2 for port in (of.force, of.sensor))
-    return level and _sign(of) != 0
-
-
-def _rows(e: Entry) -> tuple[int, int]:
-    (i, _), (j, _) = e.feels
-    return i, j
+    size, mean = max(map(max, filter(None, sizes))), Fraction(sizes[1][-1], den[-1])
+    return Counts((0,) * of.gained + num if num else (), den, max(degrees), size, mean, free)
 
 
 def _digits(of: Assembly, powers: Sequence[int], ratios: Collection[int] = ()) -> Sides | None:
@@ -218,7 +199,7 @@ def _digits(of: Assembly, powers: Sequence[int], ratios: Collection[int] = ()) -
 
 
 def _at_ones(of: Assembly, terms: Sequence[int], point: Sequence[int]) -> tuple[int, int] | None:
-    """c^T adj P b, all signs left out, and det P, over the integers."""
+    """c^T adj P b times `scale`, all signs left out, and det P, over the integers."""
     rows, sign = of.frame.rows(terms, point), _sign(of)
     den = int(fmpz_mat(rows).det())
     if not sign:
@@ -230,7 +211,7 @@ def _at_ones(of: Assembly, terms: Sequence[int], point: Sequence[int]) -> tuple[
             edge[i] = x
     above = [[*row, x] for row, x in zip(rows, edges[0], strict=True)]
     bordered = fmpz_mat([*above, [*(-x for x in edges[1]), 0]])
-    return sign * int(bordered.det()), den
+    return of.scale * abs(int(bordered.det())), den
 
 
 def _sign(of: Assembly) -> int:

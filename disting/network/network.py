@@ -9,6 +9,7 @@ q counts the differentiations of the sensor.
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from math import lcm
 
 from disting.errors import InputError, shown
 from disting.model.presentation import Drawn, plural, summary
@@ -131,6 +132,12 @@ class Network(Drawn):
         entering = {p for e in self.seen for p in (*e.parameters, e.exponent)}
         every = sorted((*self.parameters, *self.exponents))
         return tuple(p for p in every if p not in entering)
+
+    @property
+    def ratio_scale(self) -> int:
+        """The smallest number that makes all ratios that are numbers whole."""
+        known = (e.known_ratio for e in self.elements)
+        return lcm(*(ratio.denominator for ratio in known if ratio is not None))
 
     @property
     def grounded(self) -> "Network":

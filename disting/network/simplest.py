@@ -15,6 +15,7 @@ from itertools import islice, pairwise, permutations, product
 from typing import Any
 
 from disting.network.element import KINDS, PHASE, Element, Port, Sort
+from disting.network.gears import ungeared
 from disting.network.network import Network
 from disting.network.normal_form import NormalForm, Part, Power, normal_form, turned
 
@@ -37,24 +38,25 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     >>> simplest(network_of("p(R1,C1)-p(R2,R3-C2)")).name
     'R1-p(C1,R2-p(C2,R3))'
     """
-    form = normal_form(network)
-    if form is None:
+    plain = ungeared(network)
+    form = None if plain is None else normal_form(plain)
+    if plain is None or form is None:
         return None
     if whole is not None:
-        port = network.inputs[0]
+        port = plain.inputs[0]
         form = NormalForm(((port.minus, port.plus, whole),), ())
-    ends, edges, nodes = min(numbered(network, f) for f in _ways_round(network, form))
+    ends, edges, nodes = min(numbered(plain, f) for f in _ways_round(plain, form))
     made = _Drawing(
-        network.sort, 1 + max(i for pair in (*ends, *(p for p, _ in edges)) for i in pair)
+        plain.sort, 1 + max(i for pair in (*ends, *(p for p, _ in edges)) for i in pair)
     )
     texts = [made.joint(label, *pair) for pair, label in edges]
     for i, (count, leaky) in nodes:
         made.compartments(i, count, leaky)
     ports = tuple(Port(plus, minus) for plus, minus in ends)
-    inputs, outputs = ports[: len(network.inputs)], ports[len(network.inputs) :]
-    plain = network.sort is Sort.CIRCUIT and len(texts) == 1 and inputs == outputs
-    name = texts[0] if plain else written(made.elements, inputs, outputs)
-    return Network(tuple(made.elements), inputs, outputs, network.order, name)
+    inputs, outputs = ports[: len(plain.inputs)], ports[len(plain.inputs) :]
+    is_one = plain.sort is Sort.CIRCUIT and len(texts) == 1 and inputs == outputs
+    name = texts[0] if is_one else written(made.elements, inputs, outputs)
+    return Network(tuple(made.elements), inputs, outputs, plain.order, name)
 
 
 def _ways_round(network: Network, form: NormalForm) -> Iterator[NormalForm]:
@@ -79,6 +81,21 @@ def same_drawing(one: Network, other: Network) -> bool:
     (True, False)
     """
     return len(one.elements) == len(other.elements) and _plain(one) == _plain(other)
+
+
+def same_but_for_gears(one: Network, other: Network) -> bool:
+    """Whether they are one machine without their gears, of which one at least has some (see
+    `disting.network.gears`).
+
+    >>> from disting.network.notation import network_of
+    >>> same_but_for_gears(network_of("1~2*5/2; F1; S2"), network_of("1~2; F2; S1"))
+    True
+    """
+    first, second = ungeared(one), ungeared(other)
+    if first is None or second is None or (first is one and second is other):
+        return False
+    alike = (one.sort, one.order, one.shape) == (other.sort, other.order, other.shape)
+    return alike and same_drawing(first, second)
 
 
 def _plain(network: Network) -> Drawn:

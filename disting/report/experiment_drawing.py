@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from disting.experiments import Change
+from disting.experiments.changes import Change
 from disting.experiments.menu import Item
 from disting.model.chain import Chain
 from disting.model.kinds import FORCE, SENSOR, Kind

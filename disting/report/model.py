@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from functools import cache
 
 from disting.catalogs import Catalog, ModelRow
+from disting.conditions.inclusion import Inclusion
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain
-from disting.questions.identifiability import Level
-from disting.questions.inclusion import Inclusion
+from disting.questions.identifiability.parts import Level
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import definitions

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator
 from html import unescape
 from pathlib import Path
 
-from disting.catalogs.export import cell, decisions_csv, decisions_json
+from disting.catalogs.decisions_text import decisions_csv, decisions_json
+from disting.catalogs.export import cell
 from disting.equivalence.duplicates import model_of
 from disting.errors import InputError, of_type
 from disting.files import as_path, write_whole

@@ -8,8 +8,9 @@ neighbours are counted (`packed`).
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from itertools import groupby
+from operator import attrgetter
 
 from markupsafe import Markup
 
@@ -56,6 +57,8 @@ SYMBOLS = {
     "Td": "Td: the dead time",
 }
 """Symbols and words of formulas and sentences, as patterns, and what they mean."""
+ALIKE = attrgetter(*(f.name for f in fields(Verdict) if f.name not in ("left", "right")))
+"""All of a verdict but the names: what pairs have in common that are decided alike."""
 Entry = tuple[str, str, str, str, str, str, str, str, str, str, str]
 """relation, decided_by, representation, certainty in words, domain, what a measurement shows, why,
 formula, what decided in words, what else is known, what is left out
@@ -84,14 +87,18 @@ def payload(
     """JSON text that is safe inside a script element: the views, groups by domain, and what
     else the script is to know; `what` is measured of the models, `aside` says more of a pair.
     """
-    texts, entries = Pool(), Pool()
+    texts, entries, known = Pool(), Pool(), dict[object, int]()
+
+    def entry(low: int, high: int, view: View) -> int:
+        """Number of the entry of a pair, which is made once for all that are decided alike."""
+        verdict, reached = decided.verdict(low, high, view), aside(low, high, view)
+        key = ALIKE(verdict), reached
+        if key not in known:
+            known[key] = entries.number(_entry(verdict, what, reached))
+        return known[key]
+
     numbers = {
-        view.value: packed(
-            [
-                entries.number(_entry(v, what, aside(low, high, view)))
-                for low, high, v in _triangle(decided, view)
-            ]
-        )
+        view.value: packed([entry(*pair, view) for pair in _triangle(len(decided.family))])
         for view in views
     }
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
@@ -136,10 +143,8 @@ def script_json(data: object) -> Markup:
     return Markup(text)
 
 
-def _triangle(decided: Decided, view: View) -> Iterator[tuple[int, int, Verdict]]:
-    for high in range(1, len(decided.family) + 1):
-        for low in range(1, high):
-            yield low, high, decided.verdict(low, high, view)
+def _triangle(size: int) -> Iterator[tuple[int, int]]:
+    return ((low, high) for high in range(1, size + 1) for low in range(1, high))
 
 
 def _entry(verdict: Verdict, what: str, reached: str) -> Entry:

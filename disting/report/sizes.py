@@ -13,8 +13,8 @@ from itertools import combinations
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.sizes_files import SizesCatalog
+from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.files import __version__
-from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.report.domains import VIEWS, over
 from disting.report.environment import render
 from disting.report.page_drawing import SharedDrawing, definitions, shared

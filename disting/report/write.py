@@ -4,7 +4,7 @@ data beside them.
 
 import argparse
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 
@@ -174,9 +174,11 @@ def write_report(
 
 
 def _pages(site: Site) -> Iterator[File]:
-    """The pages of what a site is written from, with the files beside them."""
+    """The pages of what a site is written from, with the files beside them. What a catalogue
+    remembers of its verdicts is let go with its pages.
+    """
     for c in site.catalogs:
-        yield from _files(c, site.pages)
+        yield from _files(replace(c), site.pages)
     for family in site.dampers:
         yield _damper_file(family, site.pages)
     for known in PAGES:

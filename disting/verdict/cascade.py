@@ -10,11 +10,12 @@ points are Zariski dense), while for indistinguishable ones the admissible value
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import Inclusion, Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Role, Stage
 from disting.conditions.side import AnySide, notes_of
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
@@ -22,24 +23,12 @@ from disting.errors import ContradictionError
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
-from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.questions.inclusion import Inclusion, Inclusions
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.query import Query
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import PROVES, Relation, Step, Verdict, open_note
 
 SUMMARIES = (Stage.TF, Stage.MARKOV)  # exhaustive ones, which profiles are made of
-_APART, _SAME = (
-    {Outcome.FAILS: Relation.DISTINGUISHABLE},
-    {Outcome.HOLDS: Relation.INDISTINGUISHABLE},
-)
-PROVES: dict[Role, dict[Outcome, Relation]] = {
-    Role.NECESSARY: _APART,
-    Role.SUFFICIENT: _SAME,
-    Role.STRUCTURAL: _SAME,
-    Role.DECISION: _APART | _SAME | {Outcome.SOMETIMES: Relation.SOMETIMES},
-}  # what an outcome proves; others prove nothing
 STAGES = {
     Role.NECESSARY: SUMMARIES,
     Role.SUFFICIENT: SUMMARIES,
@@ -48,33 +37,11 @@ STAGES = {
 }  # at which a rule over complex parameters decides
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One condition in one representation, with what it found.
-
-    >>> from disting import findings
-    >>> findings("2:1", "2:2")[0].representation.value
-    'tf'
-    """
-
-    representation: Stage
-    finding: Finding
-
-    def __repr__(self) -> str:
-        where = f", {self.representation}" if self.representation else ""
-        return summary(self, f"{self.finding.rule.in_words()}{where}: {self.finding.outcome}")
-
-    @property
-    def relation(self) -> Relation:
-        """What this finding alone decides."""
-        return PROVES[self.finding.rule.role].get(self.finding.outcome, Relation.UNDECIDED)
-
-
 def steps(left: AnySide, right: AnySide, query: Query) -> Iterator[Step]:
     """Yield every condition's finding lazily, in order: representation by representation,
     condition by condition.
     """
-    count = query.count(left, right)
+    count = query.count(left.n_states + right.n_states)
     for representation in query.view.representations:
         if representation is Stage.MARKOV and not (left.in_s and right.in_s):
             continue
@@ -113,11 +80,6 @@ def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | 
         return left.admissible(right, domain)
     grade = (equal.certainty or Certainty.NUMERICAL, equal.safety)
     return resting_on(left.admissible(right, domain, equal.evidence), grade, equal.evidence)
-
-
-def open_note(reason: str) -> str:
-    """What is said of a pair that is open over admissible parameters only."""
-    return f"over complex parameters they are indistinguishable; {reason}"
 
 
 def follows(v: Verdict, evidence: Evidence, query: Query) -> bool:

@@ -8,7 +8,8 @@ from functools import cached_property
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expanded import is_renaming
-from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding import Finding, Outcome, positive_ways
+from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import EXACT
 from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import Renaming
@@ -19,20 +20,18 @@ from disting.model.minors import embeddings
 from disting.model.question import Domain, Question
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
-from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
-from disting.questions.inclusion import (
-    CLOSURE,
-    IMAGE,
-    Inclusions,
-    confirms as confirms_inclusion,
-    inclusions,
-)
+from disting.questions.identifiability.analysis import IDENTIFIABILITY
+from disting.questions.identifiability.answer import Identifiability
+from disting.questions.inclusion.confirmation import confirms as confirms_inclusion
 from disting.questions.inclusion.decide import (
+    CLOSURE,
     IDEALS,
+    IMAGE,
     asked_closure,
     asked_image,
     by_rank,
     implied_image,
+    inclusions,
     joined,
     needs_ideals,
     quick_closure,
@@ -45,7 +44,6 @@ from disting.questions.same.real_and_positive import (
     POSITIVELY,
     Asked,
     needs_counts,
-    positive_ways,
     real_finding,
     witness_ways,
 )

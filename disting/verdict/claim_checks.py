@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding
+from disting.conditions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import AnySide, notes_of
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
-from disting.questions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.verdict.cascade import decide, follows, over_domain
 from disting.verdict.comparison import proven_again
 from disting.verdict.query import Query, View

@@ -20,7 +20,7 @@ from disting.conditions.rule import DEPENDENCES, RANK
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type
 from disting.evidence.conditions import Ranks
-from disting.experiments import Experiment, MeasuredChain
+from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.general.any_model import unnamed
 from disting.general.identifiability import PARAMETERS
@@ -31,13 +31,14 @@ from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import chains_named
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import Identifiability, ParameterIdentifiability
-from disting.verdict.cascade import Step, steps
+from disting.questions.identifiability.answer import Identifiability
+from disting.questions.identifiability.levels import ParameterIdentifiability
+from disting.verdict.cascade import steps
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query
-from disting.verdict.result import Verdict
+from disting.verdict.result import Step, Verdict
 from disting.verdict.sides import (
     NOT_CHAINS,
     Given,

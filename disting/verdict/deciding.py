@@ -13,16 +13,16 @@ from numpy.typing import NDArray
 
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
+from disting.conditions.inclusion import Inclusion, Sense
 from disting.conditions.rule import Rule, Stage
 from disting.conditions.side import AnySide, Ask
 from disting.conditions.table import NECESSARY, STRUCTURAL, SUFFICIENT
 from disting.model.question import Domain
-from disting.questions.inclusion import Inclusion, Sense
 from disting.questions.same.real_and_positive import resting_on
-from disting.verdict.cascade import Step, said_of
+from disting.verdict.cascade import said_of
 from disting.verdict.decisions import NUMBERS, STAGES, Decisions, markov_count
 from disting.verdict.query import Query
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, Step
 
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
 Prefetch = Callable[[Sequence[AnySide], Representation, int], None]

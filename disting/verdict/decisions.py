@@ -15,17 +15,17 @@ from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
+from disting.conditions.inclusion import Inclusion, Inclusions, Sense
 from disting.conditions.rule import ADMISSIBLE, RULES, Stage
 from disting.conditions.side import AnySide
 from disting.conditions.table import NECESSARY
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
 from disting.model.presentation import Shown, plural, summary
-from disting.questions.inclusion import Inclusion, Inclusions, Sense
-from disting.verdict.buckets import classes_of
-from disting.verdict.cascade import Step, decide, verdict_of
+from disting.verdict.cascade import decide, verdict_of
+from disting.verdict.forest import classes_of
 from disting.verdict.query import Query
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation, Step, Verdict
 
 NAMES = ("", *RULES)  # what the numbers in `decided_by` stand for
 NUMBERS = {name: number for number, name in enumerate(NAMES)}
@@ -246,4 +246,4 @@ def markov_count(r: Representation, query: Query, subjects: Sequence[AnySide]) -
     model, enough for every pair.
     """
     largest = max((s for s in subjects if s.in_s), key=lambda s: s.n_states, default=None)
-    return 0 if r is Representation.TF or largest is None else query.count(largest, largest)
+    return 0 if r is Representation.TF or largest is None else query.count(2 * largest.n_states)

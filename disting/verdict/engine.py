@@ -20,7 +20,7 @@ from disting.algebra.content import written
 from disting.behaviour.profile import Profile, profile, profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
-from disting.experiments import MeasuredChain
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
 from disting.general.any_model import of_network, on_one_variable
 from disting.general.matrix_model import AnyModel
@@ -33,7 +33,8 @@ from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical
 from disting.network.network import Network
-from disting.questions.identifiability import IDENTIFIABILITY, Identifiability, as_given
+from disting.questions.identifiability.analysis import IDENTIFIABILITY, as_given
+from disting.questions.identifiability.answer import Identifiability
 from disting.store.code import digest
 from disting.store.scheduling import mapped as mapped
 from disting.store.store import Store

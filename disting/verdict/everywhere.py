@@ -9,7 +9,8 @@ from enum import StrEnum
 from typing import Any
 
 from disting.errors import DistingError, InputError, of_type, shown
-from disting.experiments import Experiment, Named, Places, moved, named, ways
+from disting.experiments.experiment import Experiment
+from disting.experiments.places import Named, Places, moved, named, ways
 from disting.files import Format, __version__
 from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model

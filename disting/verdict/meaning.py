@@ -5,14 +5,13 @@ here is all that is measured, from the force to the sensor or from the inputs to
 parameters are generic, finite and not zero.
 """
 
+from disting.conditions.inclusion import Inclusion
 from disting.conditions.rule import EXACT
-from disting.conditions.side import COUNTED, HALVES
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.decision import DeadTime
+from disting.model.presentation import COUNTED, HALVES
 from disting.model.question import Domain
-from disting.questions.inclusion import Inclusion
-from disting.verdict.cascade import open_note
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation, Verdict, open_note
 
 RESPONSE = "response"  # what is measured where nothing else is said
 DECADE = 20  # decibels that a power of s falls in a decade of frequency

@@ -32,9 +32,9 @@ from disting.conditions.finding import Outcome
 from disting.conditions.rule import FREE_CHOICE, RENAMING
 from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
-from disting.experiments import MeasuredChain
 from disting.experiments.equal_machines import standard
 from disting.experiments.exact import QUICKLY
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
 from disting.experiments.menu import Gain, Item, gain, measured
 from disting.model.chain import Chain

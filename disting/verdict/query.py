@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from disting.conditions.rule import RULES, Rule, Stage
-from disting.conditions.side import AnySide
 from disting.errors import InputError
 from disting.model.question import Domain
 
@@ -99,8 +98,8 @@ class Query:
         """
         return self.inclusion and Stage.FIBRE in self.view.representations
 
-    def count(self, left: AnySide, right: AnySide) -> int:
-        """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 that are
-        exhaustive.
+    def count(self, n_states: int) -> int:
+        """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 = `n_states` of both
+        models, which are exhaustive.
         """
-        return self.markov or left.n_states + right.n_states
+        return self.markov or n_states

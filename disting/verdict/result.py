@@ -3,21 +3,21 @@
 from dataclasses import dataclass
 
 from disting.algebra.certainty import Certainty, bits_in_words
-from disting.conditions.rule import EXACT, RULES, Role, Stage
-from disting.conditions.side import COUNTED, GENERIC
-from disting.evidence.conditions import capital
-from disting.evidence.kinds import Evidence, evidence_from as evidence_from
-from disting.evidence.positive import PositiveFinding
-from disting.evidence.real import BothWays
-from disting.model.chain import Premise
-from disting.model.presentation import Shown, summary
-from disting.model.question import Domain, Relation as Relation
-from disting.questions.inclusion import (
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import (
     Inclusion,
     Inclusions,
     inclusions_from_dict,
     inclusions_to_dict,
 )
+from disting.conditions.rule import EXACT, RULES, Role, Stage
+from disting.evidence.conditions import capital
+from disting.evidence.kinds import Evidence, evidence_from as evidence_from
+from disting.evidence.positive import PositiveFinding
+from disting.evidence.real import BothWays
+from disting.model.chain import Premise
+from disting.model.presentation import COUNTED, GENERIC, Shown, summary
+from disting.model.question import Domain, Relation as Relation
 
 
 def error_bound(certainty: str, safety: int) -> str:
@@ -29,6 +29,38 @@ def error_bound(certainty: str, safety: int) -> str:
 
 TOLD = (COUNTED, GENERIC)  # how notes begin that belong to what is said
 WHERE = {Stage.TF: "transfer function", Stage.MARKOV: "Markov parameters"}
+_APART, _SAME = (
+    {Outcome.FAILS: Relation.DISTINGUISHABLE},
+    {Outcome.HOLDS: Relation.INDISTINGUISHABLE},
+)
+PROVES: dict[Role, dict[Outcome, Relation]] = {
+    Role.NECESSARY: _APART,
+    Role.SUFFICIENT: _SAME,
+    Role.STRUCTURAL: _SAME,
+    Role.DECISION: _APART | _SAME | {Outcome.SOMETIMES: Relation.SOMETIMES},
+}  # what an outcome proves; others prove nothing
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One condition in one representation, with what it found.
+
+    >>> from disting import findings
+    >>> findings("2:1", "2:2")[0].representation.value
+    'tf'
+    """
+
+    representation: Stage
+    finding: Finding
+
+    def __repr__(self) -> str:
+        where = f", {self.representation}" if self.representation else ""
+        return summary(self, f"{self.finding.rule.in_words()}{where}: {self.finding.outcome}")
+
+    @property
+    def relation(self) -> Relation:
+        """What this finding alone decides."""
+        return PROVES[self.finding.rule.role].get(self.finding.outcome, Relation.UNDECIDED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,6 +237,11 @@ class Verdict(Shown):
             right_positive=_positive_from(data["right_positive"]),
             premises=(_premise_from(data["left_premise"]), _premise_from(data["right_premise"])),
         )
+
+
+def open_note(reason: str) -> str:
+    """What is said of a pair that is open over admissible parameters only."""
+    return f"over complex parameters they are indistinguishable; {reason}"
 
 
 def _models(left: str, right: str, premises: tuple[Premise | None, Premise | None]) -> str:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, shown
-from disting.experiments import Experiment, MeasuredChain
+from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.general.any_model import as_chain, of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.names import chains_named, name_of
+from disting.model.names import chains_named, name_of, names_of
 from disting.network import Network, network_of
 from disting.network.notation import notations_of
 from disting.verdict.engine import Engine
@@ -147,19 +147,6 @@ def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, 
         if left_name == right_name
         else (left_name, right_name)
     )
-
-
-def names_of(left: Chain, right: Chain) -> tuple[str, str]:
-    """What two chains are called beside each other: by their names, those that have one name, of
-    which one is damped, with damping and quantity.
-
-    >>> names_of(Chain(9), Chain(9, damped=False))
-    ('9:1 (damped, acceleration)', '9:1 (undamped, acceleration)')
-    """
-    names = name_of(left), name_of(right)
-    if names[0] == names[1] and left != right:
-        return f"{names[0]} ({left.premise})", f"{names[1]} ({right.premise})"
-    return names
 
 
 def names_under(

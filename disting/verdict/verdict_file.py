@@ -13,9 +13,10 @@ from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from disting.conditions.inclusion import Inclusion, Inclusions
 from disting.errors import DistingError, InputError, shown
 from disting.evidence.kind import is_well_typed
-from disting.experiments import Experiment
+from disting.experiments.experiment import Experiment
 from disting.files import Format, __version__
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel
@@ -26,7 +27,6 @@ from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES
 from disting.model.names import name_of, names_another
 from disting.model.question import Domain, Settings
-from disting.questions.inclusion import Inclusion, Inclusions
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View

@@ -12,12 +12,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from disting.conditions.inclusion import Inclusion
 from disting.errors import DistingError, InputError, NotSeenError, shown
 from disting.files import as_path, read_json
 from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.question import Domain
-from disting.questions.inclusion import Inclusion
 from disting.verdict.claim_checks import CHECKS, LIMITS, SHARES, Check, Claim
 from disting.verdict.engine import Engine
 from disting.verdict.everywhere import FORMAT as EVERYWHERE, differing_everywhere, read_everywhere

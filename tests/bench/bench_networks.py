@@ -23,7 +23,7 @@ from disting.model.question import Settings
 from disting.network.at_points import assembly, solved
 from disting.network.chains import of_chain
 from disting.network.families import circuits, family_of
-from disting.network.forests import counts, counts_of
+from disting.network.forests import counts_of
 from disting.network.notation import network_of
 from disting.simulation import frequency_response
 from disting.verdict.result import Relation
@@ -113,15 +113,16 @@ LIMIT = 20.0  # s of one profile
 
 
 def networks_of_size(n):
-    """A row with a branch in its middle, and the same with a loop."""
+    """A row with a branch in its middle, the same with a loop, and with a gear of a known ratio."""
     row = "=".join(str(i) for i in range(1, n))
     branch = f"{row}, {n // 2}={n}"
-    return [network_of(f"{text}; F1; S{n - 1}") for text in (branch, f"{branch}={n // 2 + 1}")]
+    texts = branch, f"{branch}={n // 2 + 1}", f"{branch}*5/2"
+    return [network_of(f"{text}; F1; S{n - 1}") for text in texts]
 
 
 def profiled(network):
     """The model made of the network and its profile, nothing kept from before."""
-    for kept in (assembly, counts, counts_of, solved):
+    for kept in (assembly, counts_of, solved):
         kept.cache_clear()
     return one_profile(behaviour_of(of_network(network)))
 
@@ -165,7 +166,7 @@ def test_growth(benchmark) -> None:
         rows.append(tuple(row))
     table(
         "One profile, CPU, in times of the chain's recurrence in brackets",
-        ("masses", "chain", "the chain as a network", "with a branch", "with a loop"),
+        ("masses", "chain", "as a network", "with a branch", "with a loop", "with a gear 5/2"),
         rows,
     )
 

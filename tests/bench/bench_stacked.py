@@ -12,8 +12,8 @@ import pytest
 
 from disting import Engine, Experiment, Family, Query, View, compare
 from disting.algebra.certainty import prime, residues
-from disting.experiments import MeasuredChain
 from disting.experiments.exact import LIMITS, by_ideals, exact_finding
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.maps import matched
 from disting.fibres.ideals.fibre_ideal import evaluated
 from disting.model.question import Settings

@@ -9,7 +9,7 @@ import pytest
 from disting import Engine, Inclusion, InputError, Query, Relation, catalog
 from disting.catalogs.sizes import answers_in, combined, combined_family
 from disting.cli import main
-from disting.questions.inclusion import Sense
+from disting.conditions.inclusion import Sense
 
 ENGINE = Engine()
 

@@ -15,7 +15,7 @@ from disting.catalogs.files import lines, shipped_folder
 from disting.catalogs.sizes import combined
 from disting.catalogs.sizes_build import false_evidence, verify_sizes
 from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
-from disting.questions.inclusion import Sense
+from disting.conditions.inclusion import Sense
 
 DAMPINGS = pytest.mark.parametrize("damped", [False, True], ids=["undamped", "damped"])
 

@@ -12,7 +12,7 @@ import pytest
 
 from disting import Family
 from disting.cli import main
-from disting.cli.compare import LESS, LONGER
+from disting.cli.decision import LESS, LONGER
 from disting.cli.workers import LONG, Work, announced, pairs_by_size, told_if_long
 from disting.measurement import write_csv
 from disting.simulation import demo

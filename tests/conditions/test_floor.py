@@ -10,11 +10,11 @@ import pytest
 from disting import Certainty, Chain, Relation, Settings, compare
 from disting.algebra.certainty import LEAST_SAFETY, joint_safety, shortfall
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Ranks
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.model.symmetry import canonical
-from disting.questions.inclusion import Inclusion, InclusionFinding
 from disting.questions.positive import positive_finding
 from disting.questions.same.exact import by_synthesis
 from tests.conditions.handmade import handmade

@@ -35,8 +35,8 @@ def test_theorems(domain):
         told
         == {
             Domain.COMPLEX: set(THEOREMS),
-            Domain.REAL: {"symmetry", "duality"},
-            Domain.POSITIVE: {"Foster and Cauer", "interlacing", "replacement"},
+            Domain.REAL: {"symmetry", "duality", "gears"},
+            Domain.POSITIVE: {"Foster and Cauer", "gears", "interlacing", "replacement"},
         }[domain]
     )
 

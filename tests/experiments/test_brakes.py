@@ -7,8 +7,8 @@ from random import Random
 import pytest
 
 from disting import Experiment, Family, Query, View, compare, compare_everywhere
-from disting.experiments import MeasuredChain
 from disting.experiments.equal_machines import same_by_rows
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import _by_mass
 from disting.model.kinds import BRAKE, INERTIA, KINDS

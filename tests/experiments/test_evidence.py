@@ -9,9 +9,10 @@ from disting import Experiment, Family, Query, Settings, Verdict, View, compare,
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.positive import OnlyOne
-from disting.experiments import MeasuredChain, confirms
 from disting.experiments.exact import LIMITS, by_ideals, exact_finding, positive_finding
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import by_list
+from disting.experiments.measured_evidence import confirms
 
 A = Family(3, damped=True)
 U = Family(3, damped=False)

@@ -12,7 +12,8 @@ from disting import (
     compare,
     compare_everywhere,
 )
-from disting.experiments import Change, MeasuredChain
+from disting.experiments.changes import Change
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_model import MachineModel, expanded, shape
 from disting.model.kinds import BRAKE, LOCK, SENSOR
 from tests.experiments.plain_stack import S, coefficients, transfer

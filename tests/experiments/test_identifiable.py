@@ -10,7 +10,7 @@ from sympy import Rational
 from disting import Chain, Engine, Experiment, Family, InputError, Level, Store, identifiability
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.experiments import MeasuredChain
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE, identifiability_under
 from disting.experiments.machine_model import MachineModel
 from disting.model.kinds import KINDS

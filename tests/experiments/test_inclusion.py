@@ -12,10 +12,10 @@ from disting import Chain, Engine, Experiment, Family, Inclusion, Query, View, c
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.evidence.conditions import Counts
-from disting.experiments import MeasuredChain, confirms
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.machine_model import MachineModel
-from disting.experiments.measured_evidence import confirms_inclusion
+from disting.experiments.measured_evidence import confirms, confirms_inclusion
 from disting.model.question import Settings
 from tests.experiments.plain_stack import determined, transfer
 

@@ -10,7 +10,7 @@ from disting import Chain, Engine, Experiment, Family, Model, Query, View, compa
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.experiments import MeasuredChain
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_model import MachineModel
 from disting.model.question import Settings
 from tests.experiments.plain_stack import S, has_equivalent, keywords, transfer

@@ -4,7 +4,7 @@ import pytest
 
 from disting import Chain, Engine, Experiment, Family, InputError, Query, View, compare_everywhere
 from disting.cli import main
-from disting.experiments import moved, named, ways
+from disting.experiments.places import moved, named, ways
 from disting.verdict.sides import sides_of
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Standing, verify

@@ -11,9 +11,9 @@ from disting import Chain, Experiment, Family, Settings
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.next_files import SHIPPED_SIZES, next_catalog
 from disting.evidence.ideals import Refuted, Solved
-from disting.experiments import MeasuredChain
 from disting.experiments.equal_machines import same_by_rows, standard
 from disting.experiments.exact import LIMITS, by_ideals, by_parts
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import by_list
 from disting.experiments.maps import matched
 from disting.experiments.menu import Costs, Item, measured

@@ -1,5 +1,6 @@
 """Values of networks in those of others as formulas: put in, and beside the lists of all values."""
 
+import re
 from dataclasses import replace
 from fractions import Fraction
 
@@ -51,11 +52,16 @@ def formulas(given_text, other_text):
 
 
 def numbers(form, values):
-    """The values of a form, by its source in Python."""
+    """The values of a form, by its source in Python, run at numbers in place of its symbols."""
+    head, line, steps = re.fullmatch(
+        r"(.*\n\n)(.*positive=True\)\n)(.*)", form.python, re.DOTALL
+    ).groups()
     space = {}
-    exec(form.python, space)
-    put = {sympy.Symbol(n, positive=True): sympy.Rational(x) for n, x in values.items()}
-    return {n: sympy.sympify(e).subs(put) for n, e in space["equivalent"].items()}
+    exec(head + line, space)
+    assert {n for n, x in space.items() if isinstance(x, sympy.Symbol)} == set(values)
+    space |= {n: sympy.Rational(x) for n, x in values.items()}
+    exec(steps, space)
+    return {n: sympy.sympify(e) for n, e in space["equivalent"].items()}
 
 
 def response(text, values, at):

@@ -20,7 +20,7 @@ from disting.catalogs.sizes import combined_family
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chain_of, chains_named, name_of, read
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 
 EXTRAS = [(), ("+b1",), ("+b3", "+b1"), ("+lag",), ("+delay", "+b2", "+lag")]
 

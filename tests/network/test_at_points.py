@@ -4,6 +4,7 @@ values, derivatives and profiles.
 
 import pickle
 import random
+from dataclasses import replace
 
 import pytest
 from hypothesis import assume, given, strategies as st
@@ -24,6 +25,20 @@ from disting.verdict.result import Relation
 from tests.network.drawn import built, descriptions
 
 
+def has_numbers(network):
+    """Whether a ratio is a number: polynomials written out are then freed of common ones."""
+    return any(e.ratio and e.known_ratio is not None for e in network.elements)
+
+
+def profiles_agree(model) -> None:
+    at_points, written = (
+        profile(m, Representation.TF, 0, Settings())
+        for m in (behaviour_of(model), GeneralModel(unnamed(model)))
+    )
+    assert 0 <= written.safety - at_points.safety <= 4 * has_numbers(model.network)
+    assert replace(at_points, safety=0) == replace(written, safety=0)
+
+
 def agrees(model, draw):
     """Whether it is known at points; all that is said there is what the polynomials say."""
     at_points, written = behaviour_of(model), GeneralModel(unnamed(model))
@@ -37,7 +52,9 @@ def agrees(model, draw):
     assert (at_points.degrees, at_points.n_states) == (written.degrees, written.n_states)
     for markov in (None, 4):
         assert at_points.constants(markov) == written.constants(markov)
-        assert at_points.minor_size(markov) == written.minor_size(markov)
+        mine, yours = at_points.minor_size(markov), written.minor_size(markov)
+        assert mine.degree == yours.degree and mine.bits >= yours.bits
+        assert mine.bits == yours.bits or has_numbers(model.network)
     modulus, size = prime("points"), len(model.parameters)
     point = [draw.randrange(1, modulus) for _ in range(size)]
     for values in (point, [3] * size):  # colours ask at values that are equal
@@ -71,8 +88,7 @@ def test_families(family, known) -> None:
     for network in family_of(family).networks:
         model = of_network(network)
         seen += agrees(model, draw)
-        found = profile(behaviour_of(model), Representation.TF, 0, Settings())
-        assert found == profile(GeneralModel(unnamed(model)), Representation.TF, 0, Settings())
+        profiles_agree(model)
     assert seen == known
 
 
@@ -85,6 +101,9 @@ def test_families(family, known) -> None:
         "1~2~3~4~1, 1=3; F2:4; S3:1; S3; S2",
         "1=2*i; F1; S2",
         "1=2*i=3*j, 3=4*i; F1; S3:4",
+        "1=2*3; F1; S2",
+        "1=2*5/2=3*7/3, 1~3*35/6; F1; S3",  # a loop of ratios that agree
+        "1=2*5/2=3*i; F1:#; S2; S3",
         "1=2*i, 2=3; F3:2; S1:2",
         "1=2=3, 2=4; F1; S3; S4",
         "1=2=3; F1; F3; S2; S1",
@@ -97,8 +116,7 @@ def test_all_kinds(text) -> None:
     model = of_network(network_of(text))
     known = agrees(model, random.Random(4))
     assert known == (text not in ("1=2*i=3*j, 3=4*i; F1; S3:4", "1=2*i, 2=3; F3:2; S1:2"))
-    found = profile(behaviour_of(model), Representation.TF, 0, Settings())
-    assert found == profile(GeneralModel(unnamed(model)), Representation.TF, 0, Settings())
+    profiles_agree(model)
 
 
 @pytest.mark.parametrize(
@@ -106,7 +124,7 @@ def test_all_kinds(text) -> None:
     [
         ("1=2*i, 2=3, 3=1; F1; S2", "ratios that do not agree in a loop"),
         ("1=2*i; F1; S2:1", "a difference of positions that a gear keeps apart"),
-        ("1=2*3; F1; S2", "a ratio that is a number"),
+        ("1=2*3, 2=3, 3=1; F1; S2", "numbers that do not agree in a loop"),
         ("R0-p(R1,P1)", "a constant phase element"),
     ],
 )

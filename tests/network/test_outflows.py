@@ -97,24 +97,24 @@ def test_values_of_the_other_outflows_by_the_matrices_of_the_proof(way):
 
 
 def with_outflows(a, other, enter, leave):
-    """Numbers l > 0 at these outflows for which w is the same at input and output: one, two next
+    """Numbers lost > 0 at these outflows for which w is the same at input and output: one, two next
     to each other, or small ones at all others.
     """
     n = len(a)
     inverse = np.linalg.inv(-a)
     ratios = {m: inverse[m, leave] - inverse[m, enter] for m in other}
-    parts, small = np.zeros(n), 1e-3
+    lost, small = np.zeros(n), 1e-3
     above = [m for m in other if ratios[m] > 1e-12]
     below = [m for m in other if ratios[m] < -1e-12]
     while True:
-        parts[:] = 0
-        parts[other] = small
-        gap = sum(parts[m] * ratios[m] for m in other)
+        lost[:] = 0
+        lost[other] = small
+        gap = sum(lost[m] * ratios[m] for m in other)
         if abs(gap) > 1e-12:
             at = max(below if gap > 0 else above, key=lambda m: abs(ratios[m]))
-            parts[at] -= gap / ratios[at]
-        if all(parts[other] > 0):
-            found, w = scaled(a, parts)
+            lost[at] -= gap / ratios[at]
+        if all(lost[other] > 0):
+            found, w = scaled(a, lost)
             assert abs(w[leave] / w[enter] - 1) < 1e-9
             return found
         small /= 2

@@ -38,10 +38,11 @@ from disting.fibres.synthesis.branch import (
 from disting.fibres.synthesis.fibre import PRECISIONS, fibre
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
-from disting.fibres.synthesis.task import Answer, Status, Target, is_regular, target
+from disting.fibres.synthesis.task import Status, Target, is_regular, target
 from disting.fibres.synthesis.theorems import exact_rows, is_untested
 from disting.fibres.synthesis.undamped import neighbours_at
 from disting.model.chain import Chain
+from disting.model.question import Answer
 from disting.model.row import Row, grounded_and_free
 from disting.model.symmetry import canonical
 

@@ -6,7 +6,7 @@ from itertools import product
 
 from disting.catalogs import catalog
 from disting.catalogs.next_files import next_catalog
-from disting.experiments import Experiment
+from disting.experiments.experiment import Experiment
 from disting.experiments.menu import Item
 from disting.model.chain import Chain
 from disting.model.family import Family

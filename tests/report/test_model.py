@@ -5,8 +5,8 @@ import re
 import pytest
 
 from disting.catalogs import Catalog, catalog
+from disting.conditions.inclusion import Inclusion
 from disting.evidence.positive import Share
-from disting.questions.inclusion import Inclusion
 from disting.report.domains import one_sided
 from disting.report.model import limits, model_page, standing, told_apart
 from disting.verdict.query import View

@@ -35,7 +35,7 @@ from disting.fit import figure_1, plan, predicted, select
 from disting.fit.networks import fit_networks
 from disting.measurement import FrequencyResponse
 from disting.model.presentation import Shown
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 from disting.report import chain_svg
 from disting.report.notebook.network_tables import table_of
 

@@ -10,6 +10,7 @@ from jsonschema import Draft202012Validator
 
 from disting import Model, ModelList, catalog, gate, write_models
 from disting.algebra.certainty import Certainty
+from disting.conditions.inclusion import Inclusion
 from disting.conditions.rule import Stage
 from disting.equivalence.listing import Signs
 from disting.errors import InputError
@@ -28,7 +29,6 @@ from disting.measurement import write_csv
 from disting.model.question import Domain
 from disting.network.families import FAMILIES, family_of
 from disting.network.notation import network_of
-from disting.questions.inclusion import Inclusion
 from disting.schemas import Format, schema
 from disting.simulation import Bench, demo, simulate
 from disting.verdict import everywhere

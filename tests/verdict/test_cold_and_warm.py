@@ -17,7 +17,7 @@ from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import Empirical, PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays, RealWitnesses
-from disting.experiments import MeasuredChain
+from disting.experiments.experiment import MeasuredChain
 from disting.general.model_files import read_models
 from disting.verdict.cascade import decide
 from disting.verdict.result import Verdict

@@ -9,11 +9,11 @@ import pytest
 import sympy
 
 from disting import Family, Query, View, catalog, compare, transfer_function
+from disting.conditions.inclusion import Inclusion
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Counts, Ranks
-from disting.experiments import Experiment
+from disting.experiments.experiment import Experiment
 from disting.model.names import chain_of
-from disting.questions.inclusion import Inclusion
 from disting.verdict.meaning import shown
 from disting.verdict.result import Relation
 

@@ -10,8 +10,9 @@ from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Family
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Fibre, Solution, Status, target
+from disting.fibres.synthesis.task import Fibre, Solution, Status, target
 from disting.fibres.synthesis.theorems import are_dual, dual
+from disting.model.question import Answer
 from tests.witness.mechanics import response
 
 Point = dict[str, Fraction]

@@ -21,8 +21,9 @@ from flint import acb, acb_mat, acb_poly, arb, ctx
 
 from disting.behaviour.transfer import Rational, plain_receptance, receptance
 from disting.fibres.synthesis.branch import NONZERO, TOLERANCE, Ball, Dead, Imprecise
-from disting.fibres.synthesis.task import Answer, Confirmation, Exact, Solution, Target
+from disting.fibres.synthesis.task import Confirmation, Exact, Solution, Target
 from disting.model.chain import Chain
+from disting.model.question import Answer
 
 Matrix = list[list[Ball]]
 Values = dict[str, Ball]

@@ -23,10 +23,10 @@ from disting.evidence.decision import FibreAt
 from disting.evidence.kinds import Decision
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import cost
-from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Status, target
+from disting.fibres.synthesis.task import Confirmation, Fibre, Status, target
 from disting.fibres.synthesis.theorems import are_dual, is_constructed, is_untested
 from disting.model.chain import Chain
-from disting.model.question import Membership
+from disting.model.question import Answer, Membership
 from disting.model.row import rows_of
 from disting.model.symmetry import canonical
 

@@ -45,7 +45,6 @@ from disting.fibres.synthesis.confirm import Checked, checked, listed
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
 from disting.fibres.synthesis.task import (
-    Answer,
     Confirmation,
     Exclusions,
     Fibre,
@@ -58,6 +57,7 @@ from disting.fibres.synthesis.task import (
     rests_differently,
 )
 from disting.model.chain import Chain
+from disting.model.question import Answer
 from disting.model.row import Row, grounded_and_free
 from disting.model.structure import Damper, GroundDamper, Mass, Spring
 from disting.model.symmetry import canonical

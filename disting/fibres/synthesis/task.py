@@ -9,6 +9,7 @@ from flint import acb_poly, fmpq, fmpq_poly
 
 from disting.behaviour.transfer import plain_receptance
 from disting.fibres.synthesis.branch import Receptance
+from disting.model.question import Answer
 from disting.model.row import Row
 from disting.model.structure import Structure
 
@@ -29,14 +30,6 @@ class Status(StrEnum):
     INFINITE = "infinite"
     DEGENERATE = "degenerate"
     NOT_COVERED = "not covered"
-
-
-class Answer(StrEnum):
-    """Three-valued."""
-
-    YES = "yes"
-    NO = "no"
-    UNKNOWN = "unknown"
 
 
 class Confirmation(StrEnum):

@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 
 from disting.errors import InputError, listed
-from disting.experiments import MeasuredChain
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_model import is_renaming
 from disting.fit.judge.alternatives import Alternative, Limits, is_within
 from disting.fit.search.candidates import reference

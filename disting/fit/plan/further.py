@@ -29,7 +29,7 @@ from math import inf, pi
 
 import numpy as np
 
-from disting.experiments import MeasuredChain
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.menu import Costs, Gain, Item, gain
 from disting.fit.judge.exclusion import LEVEL, surplus, trials
 from disting.fit.plan.fit_file import Left, Named, Values

@@ -27,6 +27,7 @@ from functools import cached_property
 from math import inf, sqrt
 from typing import Any
 
+from disting.conditions.inclusion import Inclusion
 from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL, joined, surplus, trials
 from disting.fit.plan.rival import Rival, Trust, fitted_rival
@@ -36,7 +37,6 @@ from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.presentation import Shown, summary
 from disting.network.network import Network
-from disting.questions.inclusion import Inclusion
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Relation, Verdict

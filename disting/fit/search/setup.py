@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from disting.errors import InputError, shown
-from disting.experiments import Change, Experiment, MeasuredChain
-from disting.experiments.changes import changes_of, in_order
-from disting.experiments.experiment import Entry, Place
+from disting.experiments.changes import Change, changes_of, in_order
+from disting.experiments.experiment import Entry, Experiment, MeasuredChain, Place
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Ports, Structure
 

@@ -25,29 +25,60 @@ several statements together; `encoded` and `decoded` are for a store.
 (<Certainty.BOUNDED: 'bounded'>, 99)
 """
 
-from disting.questions.identifiability.analysis import (
-    IDENTIFIABILITY as IDENTIFIABILITY,
-    as_given as as_given,
-    identifiabilities as identifiabilities,
-    identifiability as identifiability,
-)
-from disting.questions.identifiability.answer import Identifiability as Identifiability
-from disting.questions.identifiability.by_parameter import (
-    Local as Local,
-    ParameterIdentifiability as ParameterIdentifiability,
-    by_parameter as by_parameter,
-    decoded as decoded,
-    encoded as encoded,
-    joint as joint,
-    local as local,
-)
-from disting.questions.identifiability.check import confirms as confirms
-from disting.questions.identifiability.parts import (
-    Alternative as Alternative,
-    Combination as Combination,
-    Formula as Formula,
-    Level as Level,
-    Origin as Origin,
-    Renaming as Renaming,
-    Scaling as Scaling,
-)
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from disting.questions.identifiability.analysis import (
+        IDENTIFIABILITY as IDENTIFIABILITY,
+        as_given as as_given,
+        identifiabilities as identifiabilities,
+        identifiability as identifiability,
+    )
+    from disting.questions.identifiability.answer import Identifiability as Identifiability
+    from disting.questions.identifiability.check import confirms as confirms
+    from disting.questions.identifiability.levels import (
+        Local as Local,
+        ParameterIdentifiability as ParameterIdentifiability,
+        by_parameter as by_parameter,
+        decoded as decoded,
+        encoded as encoded,
+        joint as joint,
+        local as local,
+    )
+    from disting.questions.identifiability.parts import (
+        Alternative as Alternative,
+        Combination as Combination,
+        Formula as Formula,
+        Level as Level,
+        Origin as Origin,
+        Renaming as Renaming,
+        Scaling as Scaling,
+    )
+
+# The same list, by which a name is found when it is used, as those of `disting` are: whoever reads
+# an answer that is stored needs none of what finds it.
+_NAMES = {
+    "analysis": "IDENTIFIABILITY as_given identifiabilities identifiability",
+    "answer": "Identifiability",
+    "check": "confirms",
+    "levels": "Local ParameterIdentifiability by_parameter decoded encoded joint local",
+    "parts": "Alternative Combination Formula Level Origin Renaming Scaling",
+}
+_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
+
+
+def __dir__() -> list[str]:
+    """What the Tab key offers."""
+    return sorted(_HOME)
+
+
+def _named(name: str) -> object:
+    """A name that is imported when it is used."""
+    if name not in _HOME:
+        raise AttributeError(f"{__name__} has no {name}; dir() of it lists what it has")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+if not TYPE_CHECKING:  # else any name would be right to a type checker
+    __getattr__ = _named

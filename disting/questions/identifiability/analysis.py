@@ -17,10 +17,10 @@ from flint import acb, fmpq
 from disting.algebra.certainty import Certainty, Grade, enough
 from disting.behaviour.chain_model import ChainModel
 from disting.errors import ContradictionError
-from disting.fibres.synthesis.task import Answer, Status
+from disting.fibres.synthesis.task import Status
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
-from disting.model.question import Question, Settings
+from disting.model.question import Answer, Question, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability

@@ -9,8 +9,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
-from disting.fibres.synthesis.task import Answer
 from disting.model.presentation import Shown, summary
+from disting.model.question import Answer
 from disting.questions.identifiability.parts import (
     Alternative,
     Combination,

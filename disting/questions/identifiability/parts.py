@@ -12,7 +12,7 @@ from typing import Any
 from disting.algebra.certainty import Certainty, Size
 from disting.algebra.notation import latex, text
 from disting.algebra.symbols import Term
-from disting.fibres.synthesis.task import Answer
+from disting.model.question import Answer
 
 Number = Any  # an element of a field
 Exponents = tuple[tuple[str, int], ...]

@@ -27,9 +27,10 @@ from disting.algebra.certainty import Certainty, Grade, about
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.decide import DRAWS, point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Solution, Status, target
+from disting.fibres.synthesis.task import Confirmation, Fibre, Solution, Status, target
 from disting.fibres.synthesis.theorems import are_dual, dual, is_untested
 from disting.model.chain import Chain
+from disting.model.question import Answer
 from disting.model.row import grounded_and_free
 from disting.model.symmetry import forms
 from disting.questions.identifiability.parts import Alternative, Origin, Renaming

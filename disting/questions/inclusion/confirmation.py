@@ -17,7 +17,7 @@ from disting.evidence.across_sizes import (
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refuted, Solved
-from disting.evidence.kind import POINTS, Labels
+from disting.evidence.kind import Labels
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
     FullImage,
@@ -28,6 +28,7 @@ from disting.evidence.limits import (
     RelativeDegrees,
     RowsInside,
 )
+from disting.evidence.model_samples import POINTS
 from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership

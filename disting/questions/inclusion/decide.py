@@ -1,5 +1,5 @@
-"""One-sided inclusion of chains of unequal rank, in both senses (see `finding`): the order in
-which statements are sought.
+"""One-sided inclusion of chains of unequal rank, in both senses (`disting.conditions.inclusion`):
+the order in which statements are sought.
 
 V1, V2: irreducible closures of the images, dim V1 = r1 < r2 = dim V2, so V2 inside V1 is
 impossible. What is found first is kept. Chains of different sizes are compared in `across_sizes`:

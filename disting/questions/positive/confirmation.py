@@ -15,8 +15,9 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Status, target
+from disting.fibres.synthesis.task import Status, target
 from disting.model.chain import Chain
+from disting.model.question import Answer
 from disting.questions.positive.obstacles import (
     Obstacle,
     obstacle,

@@ -52,8 +52,9 @@ from flint import fmpq
 from disting.algebra.certainty import LEAST_SAFETY, residues
 from disting.evidence.positive import Values
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Status, Target, fraction, target
+from disting.fibres.synthesis.task import Status, Target, fraction, target
 from disting.model.chain import Chain
+from disting.model.question import Answer
 from disting.model.row import Row
 from disting.questions.positive.obstacles import Point, distances, receptances, rows
 from disting.questions.positive.undamped_rows import word, words

@@ -39,10 +39,9 @@ from disting.evidence.positive import (
     Share,
 )
 from disting.fibres.synthesis.decide import member, point_bits, rational_point, safety_of_point
-from disting.fibres.synthesis.task import Answer
 from disting.fibres.synthesis.theorems import are_dual
 from disting.model.chain import Chain
-from disting.model.question import Membership, Settings
+from disting.model.question import Answer, Membership, Settings
 from disting.model.row import Row
 from disting.model.symmetry import canonical
 from disting.questions.positive.obstacles import (

@@ -10,7 +10,8 @@ from disting.behaviour.expanded import is_renaming
 from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
-from disting.evidence.kind import Kind, Seen, SeenPair, seen
+from disting.evidence.kind import Kind
+from disting.evidence.model_samples import Seen, SeenPair, seen
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
@@ -31,7 +32,7 @@ from disting.model.minors import embeddings
 from disting.model.question import Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import identifiability
+from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import confirms_real, proves
 from disting.questions.same.exact import exact_again, rational_part, theorem
 from disting.questions.same.real_and_positive import real_factors

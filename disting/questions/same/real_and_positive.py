@@ -24,26 +24,19 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty, Grade, weakest
-from disting.conditions.finding import Finding, Outcome
+from disting.conditions.finding import NOT_REAL, Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
-from disting.errors import ContradictionError, InputError
+from disting.errors import InputError
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import RATIONAL, Theorem
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share, Values
-from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
+from disting.evidence.real import OddFibres, RealFactors, RealWitnesses
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings
-from disting.questions.identifiability import Identifiability
+from disting.questions.identifiability.answer import Identifiability
 from disting.questions.positive import always_real, positive_finding, real_witness
 from disting.questions.same.exact import theorem
-
-# of both ways
-SAME = {Share.ALWAYS: Outcome.HOLDS, Share.SOMETIMES: Outcome.SOMETIMES, Share.NEVER: Outcome.FAILS}
-NOT_REAL = (
-    "over real parameters no rational map is known, real factors are not known to exist or to lack,"
-    " and the numbers of equivalents are not odd or not known"
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,37 +75,6 @@ LACKING = Question.plain("real models without equivalents", lacking_real, list, 
 POSITIVELY = Question.plain(
     "positive equivalents", positive_share, PositiveFinding.to_dict, PositiveFinding.from_dict
 )
-
-
-def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
-    """Over positive parameters, from the shares of both sides of a pair that is indistinguishable
-    over complex ones.
-
-    Raises ContradictionError where one side has equivalents and the other has none.
-    """
-    shares, known = {left.share, right.share}, [x for x in (left, right) if x.certainty]
-    if Share.NEVER in shares and shares & {Share.ALWAYS, Share.SOMETIMES}:
-        raise ContradictionError(
-            f"positive equivalents {left.share} one way and {right.share} the other"
-        )
-    both = BothWays(left, right)
-    if both.share is Share.UNKNOWN:
-        reasons = "; ".join(
-            dict.fromkeys(x.reason for x in (left, right) if x.share is Share.UNKNOWN)
-        )
-        return Finding(
-            ADMISSIBLE,
-            Outcome.ABANDONED,
-            note=f"whether equivalents are positive is not known: {reasons}",
-        )
-    certainty, safety = weakest(*((x.certainty, x.safety) for x in known if x.certainty))
-    return Finding(
-        rule=ADMISSIBLE,
-        outcome=SAME[both.share],
-        certainty=certainty,
-        safety=safety,
-        evidence=both,
-    )
 
 
 def rational_map(left: Chain, right: Chain) -> str:

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from disting.catalogs import Catalog
 from disting.catalogs.sizes_files import SizesCatalog
+from disting.conditions.inclusion import Inclusion
 from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
 from disting.fit.judge.candidate import Candidate
@@ -21,8 +22,7 @@ from disting.general.model import Model
 from disting.general.model_files import ModelList
 from disting.measurement import FrequencyResponse
 from disting.model.family import Family
-from disting.questions.identifiability import Identifiability
-from disting.questions.inclusion import Inclusion
+from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import name, readable, response_unit, typeset

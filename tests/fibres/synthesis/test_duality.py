@@ -4,10 +4,11 @@ import pytest
 
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, target
+from disting.fibres.synthesis.task import target
 from disting.fibres.synthesis.theorems import are_dual, dual
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.question import Answer
 
 
 def at_gap(n: int, g: int, damped: bool = True) -> Chain:

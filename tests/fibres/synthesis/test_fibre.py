@@ -12,9 +12,10 @@ from disting.fibres.synthesis.damped_neighbours import degree_of
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import is_covered
-from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Status, Target, target
+from disting.fibres.synthesis.task import Confirmation, Fibre, Status, Target, target
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.question import Answer
 from disting.model.row import Row, grounded_and_free, rows_of
 
 

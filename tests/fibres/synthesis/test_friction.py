@@ -14,11 +14,11 @@ from disting.fibres.ideals import coefficient_map
 from disting.fibres.synthesis.decide import decide, rational_point
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.methods import is_covered
-from disting.fibres.synthesis.task import Answer, Confirmation, Fibre, Status, Target, target
+from disting.fibres.synthesis.task import Confirmation, Fibre, Status, Target, target
 from disting.fibres.synthesis.theorems import is_untested
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.question import Membership
+from disting.model.question import Answer, Membership
 from disting.model.row import rows_of
 from disting.questions.identifiability.tangent import proof_tangents
 from disting.verdict.engine import Engine

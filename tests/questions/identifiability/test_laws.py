@@ -10,7 +10,8 @@ from sympy import Symbol, diff, sympify
 
 from disting import Chain, Family, Sensor, Settings
 from disting.model.symmetry import forms
-from disting.questions.identifiability import Formula, identifiabilities, identifiability
+from disting.questions.identifiability.analysis import identifiabilities, identifiability
+from disting.questions.identifiability.parts import Formula
 from disting.questions.identifiability.tangent import proof_tangents
 from tests.laws.strategies import chains
 

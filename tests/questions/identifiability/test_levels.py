@@ -9,20 +9,14 @@ import pytest
 
 from disting import Certainty, Chain, Family, Settings
 from disting.fibres.synthesis.decide import rational_point
-from disting.fibres.synthesis.task import Answer, Status, target
+from disting.fibres.synthesis.task import Status, target
+from disting.model.question import Answer
 from disting.model.structure import Mass, Ports, Structure
-from disting.questions.identifiability import (
-    Formula,
-    Identifiability,
-    Level,
-    Origin,
-    Scaling,
-    confirms,
-    identifiabilities,
-    identifiability,
-)
-from disting.questions.identifiability.analysis import judged
+from disting.questions.identifiability.analysis import identifiabilities, identifiability, judged
+from disting.questions.identifiability.answer import Identifiability
+from disting.questions.identifiability.check import confirms
 from disting.questions.identifiability.functions import integer_kernel, scalings
+from disting.questions.identifiability.parts import Formula, Level, Origin, Scaling
 from disting.questions.identifiability.solutions import Listing, foster_count, images
 from disting.questions.identifiability.tangent import short_vectors
 

@@ -5,7 +5,8 @@ it checks.
 import pytest
 
 from disting import Family
-from disting.questions.identifiability import Level, identifiability
+from disting.questions.identifiability.analysis import identifiability
+from disting.questions.identifiability.parts import Level
 from tests.oracles.sympy_twin import summary
 from tests.questions.identifiability.oracle import (
     PRIME,

@@ -9,6 +9,7 @@ from itertools import product
 import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
+from disting.conditions.inclusion import Sense
 from disting.evidence.across_sizes import (
     Limit,
     LimitFibre,
@@ -20,8 +21,9 @@ from disting.evidence.across_sizes import (
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Solved
 from disting.model.symmetry import canonical
-from disting.questions.inclusion import CLOSURE, Sense, confirms, inclusions
 from disting.questions.inclusion.across_sizes import by_sizes, exceeds, included, twins
+from disting.questions.inclusion.confirmation import confirms
+from disting.questions.inclusion.decide import CLOSURE, inclusions
 from disting.questions.inclusion.limit_fibre import tells
 from disting.questions.inclusion.limits import is_limit, least_rank, most_rank
 

@@ -7,6 +7,14 @@ import pytest
 
 from disting import Engine, Family, Query, Relation, View, compare
 from disting.algebra.certainty import Certainty
+from disting.conditions.inclusion import (
+    Inclusion,
+    InclusionFinding,
+    Inclusions,
+    Sense,
+    inclusions_from_dict,
+    inclusions_to_dict,
+)
 from disting.evidence.conditions import Counts
 from disting.evidence.ideals import Vanishing
 from disting.evidence.limits import (
@@ -26,17 +34,8 @@ from disting.fibres.ideals import (
 )
 from disting.model.chain import Chain, Sensor
 from disting.model.row import Row
-from disting.questions.inclusion import (
-    Inclusion,
-    InclusionFinding,
-    Inclusions,
-    Sense,
-    confirms,
-    inclusions,
-    inclusions_from_dict,
-    inclusions_to_dict,
-)
-from disting.questions.inclusion.decide import CLOSURE_LIMITS
+from disting.questions.inclusion.confirmation import confirms
+from disting.questions.inclusion.decide import CLOSURE_LIMITS, inclusions
 from disting.questions.inclusion.profiles import by_relative_degrees, row_falls
 from disting.questions.inclusion.row_closures import Wanted, holds
 

@@ -12,15 +12,16 @@ import pytest
 from disting import Chain, Engine, Experiment, Family, Query, Relation, View
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
+from disting.conditions.inclusion import Inclusion
 from disting.evidence.limits import Outside
-from disting.experiments import MeasuredChain
+from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.measured_evidence import confirms_inclusion
 from disting.model.question import Settings
-from disting.questions.inclusion import Inclusion, confirms
 from disting.questions.inclusion.across_sizes import refuted
 from disting.questions.inclusion.closures import of_closure
+from disting.questions.inclusion.confirmation import confirms
 from disting.questions.inclusion.decide import quick_closure
 from disting.questions.inclusion.pole_sharing import excluding_points
 from disting.questions.inclusion.profiles import by_profiles

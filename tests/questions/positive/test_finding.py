@@ -21,8 +21,8 @@ from disting.evidence.positive import (
 )
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Status, target
-from disting.model.question import Settings
+from disting.fibres.synthesis.task import Status, target
+from disting.model.question import Answer, Settings
 from disting.model.symmetry import canonical
 from disting.questions.positive import confirms, positive_finding
 from disting.questions.positive.obstacles import obstacle, only_rows_sum_to_zero

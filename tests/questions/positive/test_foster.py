@@ -7,7 +7,8 @@ import pytest
 
 from disting import Chain
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Status, target
+from disting.fibres.synthesis.task import Status, target
+from disting.model.question import Answer
 from disting.questions.positive.points import random_point
 
 CASES = [

@@ -6,7 +6,7 @@ import pytest
 
 from disting import Certainty, Chain, Family, InputError
 from disting.evidence.positive import BoxMap, Points, Share
-from disting.fibres.synthesis.task import Answer
+from disting.model.question import Answer
 from disting.questions.positive import confirms_within, ranges, within_ranges
 from disting.questions.positive.points import random_point, read
 from disting.questions.positive.ranges import equivalent_within

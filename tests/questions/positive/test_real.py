@@ -10,7 +10,8 @@ from disting import Chain, Family, Query, Relation, View, compare
 from disting.evidence.kinds import evidence_from
 from disting.evidence.real import RealFactors
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Answer, Status, target
+from disting.fibres.synthesis.task import Status, target
+from disting.model.question import Answer
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.solutions import foster_count
 from disting.questions.positive import always_real, confirms_real, real_witness

@@ -1,0 +1,214 @@
+"""A pair that no shipped catalogue holds, or of which more is asked than a catalogue tells:
+decided, proven, under experiments, within ranges, as a file.
+"""
+
+import argparse
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from disting.cli.compare import in_order, shipped, shipped_ranks
+from disting.cli.compare_words import Known, both_ways, explained
+from disting.cli.model_names import in_letters, models_named
+from disting.cli.output import emitted
+from disting.cli.relations import query
+from disting.cli.workers import engine_for, told_if_long
+from disting.errors import InputError, listed
+from disting.evidence.positive import PositiveFinding
+from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.experiments.places import Places, moved, named
+from disting.general.any_model import measured
+from disting.general.matrix_model import AnyModel
+from disting.general.special_values import SpecialValues, special_values
+from disting.model.chain import Chain, text_drawing
+from disting.model.names import names_of
+from disting.model.question import Domain, Settings
+from disting.questions.positive import ranges, within_ranges
+from disting.verdict.comparison import compare, prove
+from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere, everywhere_file
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
+from disting.verdict.sides import determinable
+from disting.verdict.verdict_file import Stored, as_file, exact, has_more
+
+LONGER = "this pair takes longer than most; Ctrl-C stops it"
+LESS = "; less to do: --domain complex, which asks for complex values only"
+
+
+def run(options: argparse.Namespace) -> int:
+    """Explain the verdict on one pair."""
+    if options.json and options.bound:
+        raise InputError(
+            "what holds within ranges is told in words only: leave --json or --bound away"
+        )
+    sides = models_named((options.left, options.right), options)
+    asked = query(options.conditions, View.EXACT, options.domain)
+    if options.also:
+        return _under_experiments(sides, asked, options)
+    found = judged(sides, asked, options)
+    if options.json:
+        _written(file_of(found, asked, options), options)
+    if options.json != "-":
+        print("\n".join(_told(found, dict(options.bound))))
+    return 0
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """Two models in the order of their verdict, and how much of each is determined."""
+
+    models: tuple[Chain | AnyModel, Chain | AnyModel]
+    verdict: Verdict
+    known: tuple[Known, ...]
+
+
+def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
+    """The verdict on two models, from the shipped catalogues or decided, and proven where that is
+    asked for.
+    """
+    less = LESS if asked.view.domain is not Domain.COMPLEX else ""
+    with told_if_long(LONGER + less):
+        chains = _chains(sides)
+        verdict = shipped(chains, asked) if chains else None
+        known = shipped_ranks(chains) if chains else None
+        if verdict is None or known is None:
+            with engine_for(options) as (engine, _, _progress):
+                verdict = verdict or compare(*sides, query=asked, engine=engine)
+                known = known or determinable(sides[0], sides[1], engine)
+        left, right = in_order(chains, verdict) if chains else sides
+        verdict = prove(verdict, left, right) if options.prove else verdict
+        return Judged((left, right), verdict, known)
+
+
+def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
+    """The verdict on two models, as they are named, with all that its check needs."""
+    sides = models_named(texts, options)
+    asked = query(options.conditions, View.EXACT, options.domain)
+    if not options.also:
+        return file_of(judged(sides, asked, options), asked, options)
+    left, right = _chains(sides)
+    with engine_for(options) as (engine, _, _progress):
+        return everywhere_file(left, right, options.also, query=asked, engine=engine)
+
+
+def file_of(found: Judged, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
+    """The verdict on two models with all that its check needs."""
+    beside = None
+    if has_more(found.verdict):
+        beside = judged(found.models, exact(asked), options).verdict
+    return as_file(Stored(found.models, (), asked, Settings(), found.verdict, beside))
+
+
+def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
+    emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
+
+
+def _told(found: Judged, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:
+    """The verdict in words, within ranges if there are any."""
+    verdict, chains = found.verdict, _chains(found.models)
+    special = _at_special_values(found.models, verdict)
+    drawn, everywhere = list(map(in_letters, found.models)), special is not None and special.is_same
+    yield explained(verdict, drawn, found.known, measured(found.models), everywhere)
+    said = special.sentence(verdict.left, verdict.right) if special else ""
+    yield from [f"special    {said}"] * bool(said)
+    if chains and limits:
+        yield from both_ways(verdict, "within the ranges", _within(chains, limits))
+    elif chains and not verdict.proves_shares:
+        yield from both_ways(verdict)
+
+
+def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> SpecialValues | None:
+    """The second answer, on all positive values, where the verdict leaves special ones out."""
+    models = [side for side in sides if not isinstance(side, Chain)]
+    asked = verdict.has_exceptions or verdict.relation is Relation.DISTINGUISHABLE
+    if verdict.domain is Domain.POSITIVE and len(models) == len(sides) and asked:
+        return special_values(*models)
+    return None
+
+
+def _within(
+    chains: Sequence[Chain], limits: Mapping[str, tuple[str, str]]
+) -> tuple[PositiveFinding, PositiveFinding]:
+    """Which positive models of each chain, within ranges, have an equivalent in the other."""
+    there = dict.fromkeys(name for chain in chains for name in chain.parameters)
+    unknown = sorted(limits.keys() - there.keys())
+    if unknown:
+        raise InputError(
+            f"no parameter of the two models is called {listed(unknown)}; there are {listed(there)}"
+        )
+    left, right = chains
+    of_left, of_right = ({n: limits[n] for n in c.parameters if n in limits} for c in chains)
+    return (
+        within_ranges(left, right, ranges(of_left, of_right)),
+        within_ranges(right, left, ranges(of_right, of_left)),
+    )
+
+
+def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
+    """Both, if both are chains; else none."""
+    chains = [side for side in sides if isinstance(side, Chain)]
+    return chains if len(chains) == len(sides) else []
+
+
+def _under_experiments(
+    sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace
+) -> int:
+    """Explain what further experiments tell, the chains as they are included."""
+    left, right = chains = _chains(sides)
+    with engine_for(options) as (engine, _, _progress):
+        if options.json:
+            whole = everywhere_file(left, right, options.also, query=asked, engine=engine)
+            _written(whole, options)
+        if options.json == "-":
+            return 0
+        found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
+    asked_for = [named(text).experiment for text in options.also]
+    experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
+    lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
+    print("\n".join([*_every_way(found, chains, asked_for), "", *lines]))
+    return 0
+
+
+def _every_way(
+    found: Everywhere, chains: Sequence[Chain], experiments: Sequence[Experiment]
+) -> Iterator[str]:
+    """One way in full, several with what is common to them; one and the same chain is drawn with
+    the experiments of each side.
+    """
+    left, right = names_of(*chains)
+    if len(found.verdicts) == 1:
+        places, verdict = found.verdicts[0]
+        drawings = list(map(text_drawing, chains))
+        if left == right:
+            sides = experiments, [moved(e, places) for e in experiments]
+            drawings = [_drawn(chains[0], side) for side in sides]
+        yield explained(verdict, drawings)
+        yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)
+        yield f"places     {_placed(places, left, right)}"
+        return
+    other = f"the other {right}" if left == right else right
+    told = {
+        Answer.SURELY: "told apart, wherever the places are in {}",
+        Answer.NEVER: "not told apart, wherever the places are in {}",
+        Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
+        Answer.UNKNOWN: "not known for all places in {}",
+    }[found.answer]
+    yield f"{found.answer.upper()}: {left} and {other} are {told.format(other)}"
+    yield ""
+    for places, verdict in found.verdicts:
+        yield f"  {_placed(places, left, other)}: {verdict.sentence}"
+        yield from (f"    {note}" for note in verdict.notes if verdict.evidence)
+
+
+def _drawn(chain: Chain, experiments: Sequence[Experiment]) -> str:
+    """A chain as it is, and where force and sensor are in each of the experiments."""
+    ports = (entry.attached for entry in MeasuredChain(chain, tuple(experiments)).entries)
+    drawings = (text_drawing(chain), *(text_drawing(chain, each) for each in ports))
+    return " | ".join(dict.fromkeys(drawings))
+
+
+def _placed(places: Places, left: str, right: str) -> str:
+    """Which mass is which."""
+    pairs = ", ".join(f"{a}/{b}" for a, b in places)
+    return f"masses {pairs} of {left}/{right}"
