@@ -9,6 +9,8 @@ by conditions or by an exact decision in milliseconds: they are decided anew.
 A command on a family takes the findings over, so it answers at once, and all that it says has its
 evidence. Families of thousands of such pairs are searched in brief: what is not decided within
 small bounds is undecided in the file, and `disting compare` of the two alone goes on for longer.
+Of networks that give the same one is asked about: a pair of others says `as` which pair it has all
+from, and what differs.
 """
 
 import json
@@ -48,7 +50,7 @@ SHIPPED = (
     "compartments-2",
     "compartments-3",
 )
-IN_BRIEF = ("machines-3", "trees-4", "compartments-3")  # of the shipped ones
+IN_BRIEF = ("machines-3", "trees-4", "compartments-3")  # large ones
 COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
 
 
