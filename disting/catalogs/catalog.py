@@ -4,9 +4,10 @@ CSV and JSON.
 
 import json
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,18 +16,13 @@ from disting.catalogs.files import (
     PROVENANCE,
     SHIPPED_SIZES,
     Record,
+    Records,
+    line,
     name_of,
     read_records,
     shipped_folder,
 )
-from disting.catalogs.pairs import (
-    INDEX_NAMES,
-    ModelRow as ModelRow,
-    deciding,
-    model_row,
-    relation_of,
-    stored_verdict,
-)
+from disting.catalogs.pairs import INDEX_NAMES, ModelRow as ModelRow, StoredPair, model_row
 from disting.conditions.rule import RULES
 from disting.errors import CatalogError, ContradictionError, InputError, of_type
 from disting.files import Format
@@ -50,7 +46,7 @@ class Catalog(Shown):
     '6'
     """
 
-    records: tuple[Record, ...]
+    records: Sequence[Record]
 
     def __repr__(self) -> str:
         size = len(self.family)
@@ -60,26 +56,31 @@ class Catalog(Shown):
         )
 
     @staticmethod
-    def from_records(records: list[Record]) -> "Catalog":
-        """Catalogue from the records of a file."""
-        return Catalog(tuple(records))
+    def from_records(records: Iterable[Record]) -> "Catalog":
+        """Catalogue from the records of a file, as the file has them."""
+        return Catalog(Records(tuple(map(line, records))))
+
+    def record(self, at: int) -> Record:
+        """A record of the file: 0 is the header, then models by their numbers, then pairs."""
+        found: Record = self._once(at, lambda: self.records[at])
+        return found
 
     @property
     def name(self) -> str:
         """Such as chains-3-damped."""
-        return str(self.records[0]["catalog"])
+        return str(self.record(0)["catalog"])
 
     @property
     def n_masses(self) -> int:
         """Number of masses N_B."""
-        return int(self.records[0]["n_masses"])
+        return int(self.record(0)["n_masses"])
 
     @property
     def damped(self) -> bool:
         """Whether every spring has a damper beside it."""
-        return bool(self.records[0]["damped"])
+        return bool(self.record(0)["damped"])
 
-    @property
+    @cached_property
     def premise(self) -> Premise:
         """Damping and sensor quantity of all models."""
         return Premise(self.damped, self.family.sensor)
@@ -92,7 +93,7 @@ class Catalog(Shown):
     @property
     def provenance(self) -> dict[str, str]:
         """Schema, settings and, for shipped catalogues, software versions."""
-        header = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self.records[0].items()}
+        header = {k: v if isinstance(v, str) else json.dumps(v) for k, v in self.record(0).items()}
         return header | {f"software {k}": v for k, v in _software().items()}
 
     def verdict(self, left: int, right: int, view: View = View.POSITIVE) -> Verdict:
@@ -107,20 +108,17 @@ class Catalog(Shown):
                 f"{self.name} holds pairs of two different models 1 to {len(self.family)}, not"
                 f" {left}:{right}"
             )
-        return self._verdict(self._pair(low, high), view)
+        return self._verdicts(low, high)[view]
 
     def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
         """Yield (left, right, verdict) for all pairs left < right."""
-        for record in self.records[1 + len(self.family) :]:
-            yield record["left"], record["right"], self._verdict(record, view)
+        for low, high in self._pairs:
+            yield low, high, self._verdicts(low, high)[view]
 
     def relation(self, left: int, right: int, view: View = View.POSITIVE) -> Relation:
-        """Relation of two models, without building the verdict."""
+        """Relation of two models."""
         low, high = sorted((left, right))
-        known: Verdict | None = self._known.get((low, high, view))
-        if known is None:
-            return relation_of(deciding(self._pair(low, high), view))
-        return known.relation
+        return self._verdicts(low, high)[view].relation
 
     @cached_property
     def rows(self) -> tuple[ModelRow, ...]:
@@ -128,7 +126,7 @@ class Catalog(Shown):
         group = {m: number for number, members in enumerate(self.classes(), 1) for m in members}
         return tuple(
             model_row(r, self.family, group.get(r["model"], 0))
-            for r in self.records[1 : 1 + len(self.family)]
+            for r in map(self.record, range(1, 1 + len(self.family)))
         )
 
     def classes(self, view: View = View.POSITIVE) -> tuple[tuple[int, ...], ...]:
@@ -142,11 +140,9 @@ class Catalog(Shown):
         return groups
 
     def _classes_of(self, view: View) -> tuple[tuple[int, ...], ...]:
-        pairs = self.records[1 + len(self.family) :]
-        relations = {(r["left"], r["right"]): relation_of(deciding(r, view)) for r in pairs}
         names = [str(number) for number in range(1, 1 + len(self.family))]
         try:
-            classes = classes_of(names, lambda i, j: relations[i + 1, j + 1])
+            classes = classes_of(names, lambda i, j: self.relation(i + 1, j + 1, view))
         except ContradictionError as reason:
             raise CatalogError(f"{self.name} is inconsistent: {reason}") from None
         return tuple(tuple(i + 1 for i in members) for members in classes if len(members) > 1)
@@ -158,19 +154,13 @@ class Catalog(Shown):
         >>> catalog(4, damped=False).depending()
         ((2, 6),)
         """
-        pairs = self.records[1 + len(self.family) :]
-        return tuple(
-            (r["left"], r["right"])
-            for r in pairs
-            if relation_of(deciding(r, view)) is Relation.SOMETIMES
-        )
+        return tuple(p for p in self._pairs if self.relation(*p, view) is Relation.SOMETIMES)
 
     def counts(self, view: View = View.POSITIVE) -> dict[str, int]:
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the
         undecided ones.
         """
-        steps = (deciding(r, view) for r in self.records[1 + len(self.family) :])
-        found = Counter(step.finding.rule.name if step else "" for step in steps)
+        found = Counter(verdict.decided_by for *_, verdict in self.pairs(view))
         return {name: found[name] for name in ("", *RULES) if found[name] or not name}
 
     def matrix(self, view: View = View.POSITIVE) -> "pd.DataFrame":
@@ -218,39 +208,51 @@ class Catalog(Shown):
 
     def to_json(self, view: View = View.POSITIVE) -> str:
         """All verdicts with evidence and sentences as JSON text."""
-        verdicts = [v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view)]
+        written = partial(json.dumps, ensure_ascii=False, separators=(",", ":"))
         plain = {
             "format": Format.CATALOGUE.value,
-            "header": self.records[0],
+            "header": self.record(0),
             "view": view.value,
-            "verdicts": verdicts,
+            "verdicts": [],
         }
-        return json.dumps(plain, ensure_ascii=False, separators=(",", ":")) + "\n"
+        # one after the other: together they take more memory than their text
+        verdicts = (v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view))
+        return f"{written(plain).removesuffix(']}')}{','.join(map(written, verdicts))}]}}\n"
 
     @cached_property
     def _known(self) -> dict[object, Any]:
         """What was asked for: pages ask a few times for each verdict, and for the groups."""
         return {}
 
+    def forget(self) -> None:
+        """Let go of the verdicts that were asked for: whoever asks again has them read again."""
+        self._known.clear()
+
     def _once(self, key: object, made: Callable[[], Any]) -> Any:
         if key not in self._known:
             self._known[key] = made()
         return self._known[key]
 
-    def _verdict(self, record: Record, view: View) -> Verdict:
-        key = (record["left"], record["right"], view)
-        verdict: Verdict = self._once(key, partial(self._read, record, view))
-        return verdict
+    @property
+    def _pairs(self) -> Iterator[tuple[int, int]]:
+        return combinations(range(1, 1 + len(self.family)), 2)
 
-    def _read(self, record: Record, view: View) -> Verdict:
+    def _verdicts(self, low: int, high: int) -> dict[View, Verdict]:
+        found: dict[View, Verdict] = self._once((low, high), partial(self._read, low, high))
+        return found
+
+    def _read(self, low: int, high: int) -> dict[View, Verdict]:
+        """The verdicts of all views: who asks for one asks for others, and to read the record is
+        most of the work.
+        """
         try:
-            numbers = (record["left"], record["right"])
-            names = (f"{self.n_masses}:{numbers[0]}", f"{self.n_masses}:{numbers[1]}")
-            return stored_verdict(record, view, names, (self.premise, self.premise))
+            pair = StoredPair(self._pair(low, high))
+            names = (f"{self.n_masses}:{low}", f"{self.n_masses}:{high}")
+            return {v: pair.verdict(v, names, (self.premise, self.premise)) for v in View}
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
-            where = f"{self.name}, {record['left']}:{record['right']}"
             raise CatalogError(
-                f"{where} cannot be read ({reason!r}); rebuild it with 'disting catalog build'"
+                f"{self.name}, {low}:{high} cannot be read ({reason!r}); rebuild it with 'disting"
+                " catalog build'"
             ) from None
 
     def _pair(self, low: int, high: int) -> Record:
@@ -281,7 +283,7 @@ def _shipped(n_masses: int, damped: bool) -> Catalog:
 
 
 def _read(folder: Path, n_masses: int, damped: bool) -> Catalog:
-    return Catalog.from_records(read_records(folder / f"{name_of(n_masses, damped)}.jsonl"))
+    return Catalog(read_records(folder / f"{name_of(n_masses, damped)}.jsonl"))
 
 
 def _software() -> dict[str, str]:

@@ -21,10 +21,11 @@ which compares.
 import hashlib
 import json
 import platform
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 from disting.conditions.finding import Finding
 from disting.errors import CatalogError
@@ -77,23 +78,44 @@ def name_of(n_masses: int, damped: bool) -> str:
     return f"chains-{n_masses}-{'damped' if damped else 'undamped'}"
 
 
-def lines(records: list[Record]) -> str:
+def line(record: Record) -> str:
+    """A line of a catalogue file."""
+    return json.dumps(record, separators=(",", ":"), ensure_ascii=True)
+
+
+def lines(records: Iterable[Record]) -> str:
     """The text of a catalogue file."""
-    return "".join(json.dumps(r, separators=(",", ":"), ensure_ascii=True) + "\n" for r in records)
+    return "".join(line(record) + "\n" for record in records)
 
 
-def read_records(path: Path) -> list[Record]:
+@dataclass(frozen=True, slots=True)
+class Records(Sequence[Record]):
+    """Records as the lines of their file, each read when it is asked for: as text they take a tenth
+    of the memory, and most of them nobody asks for.
+    """
+
+    lines: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    @overload
+    def __getitem__(self, at: int) -> Record: ...
+    @overload
+    def __getitem__(self, at: slice) -> list[Record]: ...
+    def __getitem__(self, at: int | slice) -> Record | list[Record]:
+        found = self.lines[at]
+        return json.loads(found) if isinstance(found, str) else list(map(json.loads, found))
+
+
+def read_records(path: Path) -> Records:
     """Records of a catalogue file; raises CatalogError where it is missing, damaged or of
     another schema.
     """
     try:
-        # at one go, so that all records share the names of their fields
-        records: list[Record] = json.loads(f"[{','.join(intact_text(path).splitlines())}]")
+        records = Records(tuple(intact_text(path).splitlines()))
         header = records[0]
-        complete = _numbers(records) == [
-            *range(1, header["models"] + 1),
-            *combinations(range(1, header["models"] + 1), 2),
-        ]
+        complete = _is_complete(records, header["models"])
     except FileNotFoundError:
         raise CatalogError(
             f"there is no catalogue {path}; make it with 'disting catalog build'"
@@ -111,13 +133,13 @@ def read_records(path: Path) -> list[Record]:
     return records
 
 
-def _numbers(records: list[Record]) -> list[Any]:
-    """Of the models, then of the pairs."""
-    n = records[0]["models"]
-    return [
-        *(r["model"] for r in records[1 : n + 1]),
-        *((r["left"], r["right"]) for r in records[n + 1 :]),
-    ]
+def _is_complete(records: Records, models: int) -> bool:
+    """Whether the lines are those of all models, then of all pairs, by how they begin."""
+    numbers = range(1, models + 1)
+    heads = [f'{{"model":{i},' for i in numbers]
+    heads += [f'{{"left":{i},"right":{j},' for i, j in combinations(numbers, 2)]
+    told = records.lines[1:]
+    return len(told) == len(heads) and all(map(str.startswith, told, heads))
 
 
 def digest(path: Path) -> str:

@@ -1,13 +1,10 @@
 """Records of a catalogue. Of a pair: which step decides in which view, and the verdict that it
 holds; of a model: its row.
-
-Over positive parameters nothing is stored but the shares of both sides, from which the verdict
-follows.
 """
 
-import json
+from ast import literal_eval
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from disting.algebra.certainty import Certainty
@@ -29,114 +26,112 @@ DIFFERENT = 4096  # pieces of evidence that are kept: a catalogue has far fewer 
 INDEX_NAMES = ("gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 
-def stored_verdict(
-    record: Record, view: View, names: tuple[str, str], premises: tuple[Premise, Premise]
-) -> Verdict:
-    """The verdict of a view with all that the record says of the pair, which it names so."""
-    step, relations = deciding(record, view), _both_ways(record, view)
-    if step is None:
+@dataclass(frozen=True)
+class StoredPair:
+    """A pair as its record has it: over positive parameters nothing is stored but the shares of
+    both sides, from which the verdict follows.
+    """
+
+    record: Record
+
+    def verdict(
+        self, view: View, names: tuple[str, str], premises: tuple[Premise, Premise]
+    ) -> Verdict:
+        """The verdict of a view with all that the record says of the pair, which it names so."""
+        step = self.step(view)
+        looks_at_parameters = Stage.FIBRE in view.representations
+        relations = self._both_ways if looks_at_parameters else {}
+        if step is None:
+            return Verdict(
+                *names,
+                Relation.UNDECIDED,
+                domain=view.domain,
+                notes=self._notes(view),
+                premises=premises,
+                **relations,
+            )
+        found = step.finding
         return Verdict(
             *names,
-            Relation.UNDECIDED,
-            domain=view.domain,
-            notes=_notes(record, view),
+            step.relation,
+            found.rule.name,
+            step.representation,
+            found.certainty,
+            found.safety,
+            found.evidence,
+            view.domain,
             premises=premises,
             **relations,
         )
-    found = step.finding
-    return Verdict(
-        *names,
-        step.relation,
-        found.rule.name,
-        step.representation,
-        found.certainty,
-        found.safety,
-        found.evidence,
-        view.domain,
-        premises=premises,
-        **relations,
-    )
 
+    def step(self, view: View) -> Step | None:
+        """The step that decides in a view: the first of its representations that does; None if
+        none does.
+        """
+        if view is View.POSITIVE and self._positively is not None:
+            return self._positively if self._positively.finding.evidence else None
+        if view is View.REAL and view.value in self.record:
+            return _step(Stage.PARAMETERS, repr(self.record[view.value]))
+        stages = (stage for stage in view.representations if stage in self.record)
+        stage = next(stages, None)
+        step = None if stage is None else _step(stage, repr(self.record[stage]))
+        if view.domain is Domain.COMPLEX or step is None:
+            return step
+        # what distinguishes over complex parameters does so over all
+        return step if step.relation is Relation.DISTINGUISHABLE else None
 
-def _both_ways(record: Record, view: View) -> dict[str, Any]:
-    """What a verdict says of inclusions and shares, where its view looks at the parameters."""
-    settled = relation_of(deciding(record, View.EXACT))
-    if Stage.FIBRE not in view.representations or settled is Relation.UNDECIDED:
-        return {}
-    here, there = _shares(record)
-    if INCLUSIONS in record:
-        both = _inclusions(json.dumps(record[INCLUSIONS]))
-        image, closure = both.image.inclusion, both.closure.inclusion
-    else:
+    @cached_property
+    def _both_ways(self) -> dict[str, Any]:
+        """What is said of inclusions and shares, where the pair is decided over complex
+        parameters.
+        """
+        settled = self.step(View.EXACT)
+        if settled is None:
+            return {}
         both = None
-        image = closure = (
-            Inclusion.EQUAL if settled is Relation.INDISTINGUISHABLE else Inclusion.NEITHER
-        )
-    return {
-        "left_positive": here,
-        "right_positive": there,
-        "image": image,
-        "closure": closure,
-        "inclusions": both,
-    }
+        same = settled.relation is Relation.INDISTINGUISHABLE
+        image = closure = Inclusion.EQUAL if same else Inclusion.NEITHER
+        if INCLUSIONS in self.record:
+            both = _inclusions(repr(self.record[INCLUSIONS]))
+            image, closure = both.image.inclusion, both.closure.inclusion
+        here, there = self._shares
+        return {
+            "left_positive": here,
+            "right_positive": there,
+            "image": image,
+            "closure": closure,
+            "inclusions": both,
+        }
 
+    @cached_property
+    def _shares(self) -> tuple[PositiveFinding | None, PositiveFinding | None]:
+        """Positive equivalents of the left and of the right model, where they are asked for."""
+        here, there = (self.record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
+        return _share(repr(here)) if here else None, _share(repr(there)) if there else None
 
-def deciding(record: Record, view: View) -> Step | None:
-    """The step that decides in a view: the first of its representations that does; None if none
-    does.
-    """
-    if view is View.POSITIVE:
-        return _positively(record)
-    if view is View.REAL:
-        if view.value in record:
-            return _step(Stage.PARAMETERS, json.dumps(record[view.value]))
-        return _distinguishing(record)
-    stage = next((stage for stage in view.representations if stage in record), None)
-    return None if stage is None else _step(stage, json.dumps(record[stage]))
+    @cached_property
+    def _positively(self) -> Step | None:
+        """What the shares of both sides give, if they are asked for: of models that are
+        indistinguishable over complex parameters.
+        """
+        here, there = self._shares
+        if here is None or there is None:
+            return None
+        return Step(Stage.PARAMETERS, _positive_ways(here, there))
 
-
-def relation_of(step: Step | None) -> Relation:
-    """Relation that a step decides."""
-    return Relation.UNDECIDED if step is None else step.relation
-
-
-def _positively(record: Record) -> Step | None:
-    """What the shares of both sides give, if they are indistinguishable over complex parameters."""
-    here, there = _shares(record)
-    if here is None or there is None:
-        return _distinguishing(record)
-    step = Step(Stage.PARAMETERS, _positive_ways(here, there))
-    return None if step.finding.evidence is None else step
-
-
-def _distinguishing(record: Record) -> Step | None:
-    """What distinguishes over complex parameters does so over all."""
-    step = deciding(record, View.EXACT)
-    return step if relation_of(step) is Relation.DISTINGUISHABLE else None
-
-
-def _notes(record: Record, view: View) -> tuple[str, ...]:
-    """Why a pair is undecided."""
-    if view.domain is Domain.COMPLEX:
-        return ("the exact decision has no method for them",) if view is View.EXACT else ()
-    here, there = _shares(record)
-    if view is View.POSITIVE and here is not None and there is not None:
-        return (open_note(_positive_ways(here, there).note),)
-    return (open_note(NOT_REAL),) if deciding(record, View.EXACT) else ()
-
-
-def _shares(record: Record) -> tuple[PositiveFinding | None, PositiveFinding | None]:
-    """Positive equivalents of the left and of the right model, where they are asked for."""
-    here, there = (record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
-    return _share(json.dumps(here)) if here else None, (
-        _share(json.dumps(there)) if there else None
-    )
+    def _notes(self, view: View) -> tuple[str, ...]:
+        """Why a pair is undecided."""
+        if view.domain is Domain.COMPLEX:
+            return ("the exact decision has no method for them",) if view is View.EXACT else ()
+        if view is View.POSITIVE and self._positively is not None:
+            return (open_note(self._positively.finding.note),)
+        return (open_note(NOT_REAL),) if self.step(View.EXACT) else ()
 
 
 @lru_cache(DIFFERENT)
 def _step(stage: Stage, text: str) -> Step:
-    """A step from its text; pairs that are decided alike share it."""
-    plain = json.loads(text)
+    """A step from its text as Python writes it: pairs that are decided alike share it."""
+    plain = literal_eval(text)
     rule = RULES[plain["decided_by"]]
     proves = {relation: outcome for outcome, relation in PROVES[rule.role].items()}
     outcome = proves[Relation(plain.get("relation", next(iter(proves))))]
@@ -147,12 +142,12 @@ def _step(stage: Stage, text: str) -> Step:
 
 @lru_cache(DIFFERENT)
 def _inclusions(text: str) -> Inclusions:
-    return inclusions_from_dict(json.loads(text))
+    return inclusions_from_dict(literal_eval(text))
 
 
 @lru_cache(DIFFERENT)
 def _share(text: str) -> PositiveFinding:
-    return PositiveFinding.from_dict(json.loads(text))
+    return PositiveFinding.from_dict(literal_eval(text))
 
 
 _positive_ways = lru_cache(DIFFERENT)(positive_ways)

@@ -81,7 +81,7 @@ def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
     """
     n = len(catalog.family)
     forms = [canonical(chain).chain for chain in catalog.family]
-    ranks = [record["rank"] for record in catalog.records[1 : 1 + n]]
+    ranks = [catalog.record(number)["rank"] for number in range(1, 1 + n)]
     for record in catalog.records[1 + n :]:
         i, j = record["left"] - 1, record["right"] - 1
         for name, given, other in ((LEFT_POSITIVE, i, j), (RIGHT_POSITIVE, j, i)):

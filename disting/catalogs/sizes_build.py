@@ -42,7 +42,7 @@ def build_sizes(
     """
     for n in SHIPPED_SIZES:
         stored = catalog(n, damped=damped, folder=folder)
-        if stored.records[0]["settings"] == engine.settings.to_dict():
+        if stored.record(0)["settings"] == engine.settings.to_dict():
             for known in answers_in(stored):
                 engine.remember(*known)
     found = combined(

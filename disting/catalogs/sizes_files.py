@@ -7,16 +7,15 @@ representation, and the `inclusions` of models of unequal rank. Only limits are 
 complex parameters; where nothing settles them the finding says why.
 """
 
-import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate, combinations
+from itertools import accumulate, combinations, islice
 from pathlib import Path
 
 from disting.catalogs.catalog import Catalog, catalog
-from disting.catalogs.files import SHIPPED_SIZES, Record, shipped_folder
-from disting.catalogs.pairs import deciding, relation_of, stored_verdict
+from disting.catalogs.files import SHIPPED_SIZES, Record, Records, shipped_folder
+from disting.catalogs.pairs import StoredPair
 from disting.catalogs.sizes import combined_family
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text
@@ -47,7 +46,7 @@ class SizesCatalog(Shown):
     """
 
     catalogs: tuple[Catalog, ...]
-    records: tuple[Record, ...]
+    records: Sequence[Record]
 
     def __repr__(self) -> str:
         return summary(self, f"{self.name}, {plural(len(self.family), 'model')}")
@@ -92,13 +91,10 @@ class SizesCatalog(Shown):
         return self._known[key]
 
     def relation(self, left: int, right: int, view: View = View.POSITIVE) -> Relation:
-        """Relation of two models, without building the verdict."""
+        """Relation of two models, without the verdict: those of two sizes are told apart."""
         low, high = self._pair(left, right, view)
         (one, i), (other, j) = self._places[low - 1], self._places[high - 1]
-        if one is other:
-            return one.relation(i, j, view)
-        names = self.names[low - 1], self.names[high - 1]
-        return relation_of(deciding(self._across[names], view))
+        return one.relation(i, j, view) if one is other else Relation.DISTINGUISHABLE
 
     def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""
@@ -131,8 +127,8 @@ class SizesCatalog(Shown):
         if view is not View.EXACT:  # what distinguishes over complex parameters does so over all
             return replace(self.verdict(low, high, View.EXACT), domain=view.domain)
         try:
-            record = self._across[left, right]
-            return stored_verdict(record, view, (left, right), (one.premise, other.premise))
+            pair = StoredPair(self.records[self._across[left, right]])
+            return pair.verdict(view, (left, right), (one.premise, other.premise))
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
             raise CatalogError(
                 f"{self.name}, {left} and {right} cannot be read ({reason!r});"
@@ -166,9 +162,10 @@ class SizesCatalog(Shown):
         return {}
 
     @cached_property
-    def _across(self) -> dict[tuple[str, str], Record]:
-        """The records by the names of their models."""
-        return {(r["left"], r["right"]): r for r in self.records[1:]}
+    def _across(self) -> dict[tuple[str, str], int]:
+        """Places of the records by the names of their models."""
+        pairs = ((r["left"], r["right"]) for r in islice(self.records, 1, None))
+        return {pair: at for at, pair in enumerate(pairs, 1)}
 
 
 def sizes_catalog(
@@ -182,7 +179,7 @@ def sizes_catalog(
     """
     path = (folder or shipped_folder()) / f"{name_of(damped)}.jsonl"
     try:
-        records = tuple(json.loads(line) for line in intact_text(path).splitlines())
+        records = Records(tuple(intact_text(path).splitlines()))
         _check(records)
     except FileNotFoundError:
         raise CatalogError(f"there is no {path}; make it with '{COMMAND}'") from None
@@ -210,8 +207,12 @@ def _check(records: Sequence[Record]) -> None:
     """Raises ValueError or LookupError for records that are not those of a file, complete."""
     if records[0]["schema"] != SCHEMA:
         raise ValueError("another schema")
-    if [(r["left"], r["right"]) for r in records[1:]] != list(pairs_across()):
+    wanted = pairs_across()
+    for record in islice(records, 1, None):
+        if (record["left"], record["right"]) != next(wanted, None):
+            raise ValueError("pairs are missing")
+        step = StoredPair(record).step(View.EXACT)
+        if step is None or step.relation is not Relation.DISTINGUISHABLE:
+            raise ValueError("models of two sizes are distinguishable")
+    if next(wanted, None):
         raise ValueError("pairs are missing")
-    told = (relation_of(deciding(r, View.EXACT)) for r in records[1:])
-    if any(relation is not Relation.DISTINGUISHABLE for relation in told):
-        raise ValueError("models of two sizes are distinguishable")

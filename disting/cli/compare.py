@@ -102,9 +102,7 @@ def shipped_ranks(chains: Sequence[Chain]) -> tuple[Known, ...] | None:
     a, b = chains
     if not all(_is_shipped(chain) for chain in chains):
         return None
-    records = (
-        catalog(c.n_masses, damped=c.damped).records[read(name_of(c)).number] for c in chains
-    )
+    records = (catalog(c.n_masses, damped=c.damped).record(read(name_of(c)).number) for c in chains)
     named = zip(names_of(a, b), records, strict=True)
     return tuple((name, r["rank"], len(r["parameters"])) for name, r in named)
 

@@ -157,7 +157,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         parts=held(parts),
         drawings=drawings,
         transfer=written(model.row.chain),
-        free=catalog.records[number]["free"],
+        free=catalog.record(number)["free"],
         basis=combinations(model.row.identifiability.basis),
         told_apart=told_apart(
             {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}

@@ -4,7 +4,7 @@ data beside them.
 
 import argparse
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
@@ -178,7 +178,8 @@ def _pages(site: Site) -> Iterator[File]:
     remembers of its verdicts is let go with its pages.
     """
     for c in site.catalogs:
-        yield from _files(replace(c), site.pages)
+        yield from _files(c, site.pages)
+        c.forget()
     for family in site.dampers:
         yield _damper_file(family, site.pages)
     for known in PAGES:
@@ -235,13 +236,17 @@ def _damper_file(found: DamperFamily, pages: Families) -> File:
     return f"{name}.html", damper_page(found, beside=pages).encode()
 
 
-def _files(c: Catalog, pages: Families) -> Iterator[File]:
-    yield f"{c.name}.html", page(c, beside=pages).encode()
+def _figures(c: Catalog) -> Iterator[File]:
     scene = figure(c)
     yield f"{c.name}-matrix.svg", svg(scene).encode()
     yield f"{c.name}-matrix.png", figure_png(scene)
     for view in VIEW_TITLES if has_slides(c) else ():
         yield slide_name(c, view), slide_png(c, view)
+
+
+def _files(c: Catalog, pages: Families) -> Iterator[File]:
+    yield f"{c.name}.html", page(c, beside=pages).encode()
+    yield from _figures(c)
     yield f"{c.name}.csv", c.to_csv().encode()
     yield f"{c.name}.json", c.to_json().encode()
     found = found_for(c)

@@ -16,7 +16,6 @@ from disting.catalogs.network_files import (
     verify_networks,
 )
 from disting.cli.run import main
-from disting.conditions.finding import Outcome
 from disting.errors import CatalogError
 from disting.evidence.general import OfPart
 from disting.evidence.kinds import evidence_from
@@ -90,15 +89,14 @@ def test_a_large_family_is_searched_in_brief(searched):
 
 
 def test_pairs_of_a_large_family_are_found_again(searched):
-    """Some that were asked about; parts of the networks may have told those that were left open."""
+    """Some that were asked about: parts of the networks do not tell them."""
     name, sides, pairs = searched
     asked = [r for r in pairs if "finding" in r and "as" not in r]
+    asked = [r for r in asked if not isinstance(r["finding"].evidence, OfPart)]
     engine = Engine()
-    for r in random.Random(name).sample(asked, 3):
+    for r in random.Random(name).sample(asked, 2):
         _, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
-        found = engine.answer(BRIEFLY, models, engine.settings)
-        is_told = isinstance(r["finding"].evidence, OfPart)
-        assert found.outcome is Outcome.ABANDONED if is_told else found == r["finding"]
+        assert engine.answer(BRIEFLY, models, engine.settings) == r["finding"]
 
 
 def test_what_pairs_have_from_others_is_true_of_them(searched):

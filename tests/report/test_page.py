@@ -128,7 +128,7 @@ def test_counts_are_printed_as_in_the_paper() -> None:
 
 
 def test_hostile_text_stays_text() -> None:
-    records = json.loads(json.dumps(catalog(3, damped=False).records))
+    records = json.loads(json.dumps(list(catalog(3, damped=False).records)))
     records[0]["note"] = HOSTILE
     pair = next(
         r for r in records[12:] if "markov" in r and r["markov"]["evidence"]["kind"] == "forms"

@@ -105,9 +105,9 @@ def test_verdicts_on_chains(words, tmp_path):
     for domain in DOMAINS:
         text = three_ways(("compare", *words, "--domain", domain, "--json"), tmp_path)
         assert verify(json.loads(text)).standing is Standing.HOLDS
-        file = tmp_path / "verdict.json"
-        file.write_text(text)
-        three_ways(("verify", file), tmp_path)
+    file = tmp_path / "verdict.json"
+    file.write_text(text)
+    three_ways(("verify", file), tmp_path)
 
 
 @pytest.mark.parametrize("words", OTHERS, ids=" ".join)

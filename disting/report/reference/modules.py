@@ -8,12 +8,13 @@ differently with every version of NumPy and Python.
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import pairwise
 
 Definition = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.Assign | ast.AnnAssign
 PACKAGE = "disting"
+AT_ONCE = 16  # modules whose trees are kept: all of them take 40 MB
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +41,7 @@ class Module:
     handed_on: tuple[str, ...]
 
 
-@cache
+@lru_cache(AT_ONCE)
 def parsed(name: str) -> Module:
     """A module or package of disting, parsed; raises ModuleNotFoundError if there is none."""
     tree = ast.parse(_source(name))
@@ -52,8 +53,13 @@ def parsed(name: str) -> Module:
     ]
     imports = {alias.asname or alias.name: Place(origin, alias.name) for origin, alias in aliases}
     handed_on = tuple(alias.name for _, alias in aliases if alias.asname == alias.name)
+    # functions of its own are most of a module's tree, and nobody asks for them
     definitions = {
-        key: node for node in tree.body if isinstance(node, Definition) for key in _names(node)
+        key: node
+        for node in tree.body
+        if isinstance(node, Definition)
+        for key in _names(node)
+        if not (isinstance(node, ast.FunctionDef) and key.startswith("_"))
     }
     return Module(
         name, ast.get_docstring(tree) or "", definitions, imports, _texts(tree.body), handed_on
