@@ -68,7 +68,7 @@ def test_circuits_are_all_decided(name, count):
     assert Relation.UNDECIDED.value not in pairs
 
 
-SEARCHED = {"machines-3": (2817, 121), "compartments-3": (8355, 980)}
+SEARCHED = {"machines-3": (2817, 84), "compartments-3": (8355, 980)}
 """Pairs that are the same over complex values, and those that stay open over positive ones."""
 
 
