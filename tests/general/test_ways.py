@@ -457,3 +457,5 @@ def test_what_a_brief_search_finds_is_confirmed(left, right):
     pair = [of_network(network_of(text)) for text in (left, right)]
     found = over_positive(*pair, Settings(), BRIEF)
     assert found.evidence is not None and confirms_models(found.evidence, *pair)
+    assert confirms_models(found.turned.evidence, *pair[::-1])
+    assert found.turned.turned == found
