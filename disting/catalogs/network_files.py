@@ -9,6 +9,8 @@ by conditions or by an exact decision in milliseconds: they are decided anew.
 A command on a family takes the findings over, so it answers at once, and all that it says has its
 evidence. Families of thousands of such pairs are searched in brief: what is not decided within
 small bounds is undecided in the file, and `disting compare` of the two alone goes on for longer.
+Of networks that give the same one is asked about: a pair of others says `as` which pair it has all
+from, and what differs.
 """
 
 import json
@@ -27,6 +29,7 @@ from disting.files import intact_text, shipped_folder
 from disting.general.any_model import of_network, unnamed
 from disting.general.forms import carried
 from disting.general.identifiability import PARAMETERS
+from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel, positive_question
 from disting.general.replacement import replaceable
 from disting.network.families import NetworkFamily, family_of
@@ -47,7 +50,7 @@ SHIPPED = (
     "compartments-2",
     "compartments-3",
 )
-IN_BRIEF = ("machines-3", "trees-4", "compartments-3")  # of the shipped ones
+IN_BRIEF = ("machines-3", "trees-4", "compartments-3")  # large ones
 COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
 
 
@@ -96,16 +99,15 @@ def build_networks(
         for number, (s, model) in enumerate(zip(sides, asked, strict=True), 1)
     ]
     pairs = _pairs(engine, sides, over_complex, over_positive)
+    if family.name in IN_BRIEF:
+        pairs = _shared(list(pairs), sides)
     return lines([header, *models, *pairs])
 
 
 def _pairs(
     engine: Engine, sides: list[ComparedModel], over_complex: Decisions, over_positive: Decisions
 ) -> Iterator[Record]:
-    """Yield the lines of the pairs that are the same over complex parameters; what is carried over
-    from another pair says from which, and where it differs from that.
-    """
-    found = dict[tuple[int, int], Record]()
+    """Yield the lines of the pairs that are the same over complex parameters."""
     for i, j in same_pairs(over_complex, len(sides)):
         question, models = positive_question(sides[i], sides[j])
         finding = engine.answers.get(question_key(question, models, engine.settings))
@@ -114,11 +116,18 @@ def _pairs(
         if isinstance(finding, Finding):
             del record["positive"]["evidence"]
             record["finding"] = json.loads(finding.to_json())
-        found[i + 1, j + 1] = record
+        yield record
+
+
+def _shared(records: Sequence[Record], sides: Sequence[ComparedModel]) -> Iterator[Record]:
+    """Yield them shorter: what is carried over from another pair says from which, and where it
+    differs from that.
+    """
+    at = {(r["left"], r["right"]): r for r in records}
     standing, names = [i + 1 for i in standing_for(sides)], [s.name for s in sides]
-    for (i, j), record in found.items():
+    for (i, j), record in at.items():
         origin = standing[i - 1], standing[j - 1]
-        base = found.get(in_order(*origin), {})
+        base = at.get(in_order(*origin), {})
         if origin == (i, j) or not {"finding"} <= record.keys() & base.keys():
             yield record
             continue
@@ -159,17 +168,43 @@ def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
 
     >>> recall("circuits-4", Engine())
     """
-    path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
-    if not path.is_file():
-        return
-    records = read(path)
-    if records[0]["settings"] != engine.settings.to_dict():
-        return  # other random points: what is known by these is not what is asked
-    sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
-    for r in records[1 + len(sides) :]:
+    sides, records = _known(family, engine, folder)
+    for r in records:
         if "finding" in r:
             question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
             engine.remember(question, models, r["finding"])
+
+
+def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None = None) -> None:
+    """The same of one model that gives the same as a network of the family, such as that network
+    with other numbers, and all others of the family.
+    """
+    sides, records = _known(family, engine, folder)
+    like = (i for i, s in enumerate(sides, 1) if replaceable(model, s.subject))
+    own = next(like, 0) if records else 0
+    for r in records:
+        if "finding" not in r or own not in (r["left"], r["right"]):
+            continue
+        other = sides[r["right" if own == r["left"] else "left"] - 1]
+        found = r["finding"] if own == r["left"] else r["finding"].turned
+        pair = engine.general_subjects([model, other.subject])
+        question, models = positive_question(pair[0], pair[1])
+        if models[0] != sides[own - 1].asked_about[0]:
+            found = carried(found, sides[own - 1].name, other.name)
+        engine.remember(question, models, found)
+
+
+def _known(
+    family: str, engine: Engine, folder: Path | None
+) -> tuple[list[ComparedModel], list[Record]]:
+    """The networks of a family and the pairs of its file, none where there is none, or where it
+    has other random points: what is known by these is not what is asked.
+    """
+    sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
+    path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
+    records = read(path) if path.is_file() else []
+    is_asked = records and records[0]["settings"] == engine.settings.to_dict()
+    return sides, records[1 + len(sides) :] if is_asked else []
 
 
 def _whole(records: Sequence[Record], names: Sequence[str]) -> Iterator[Record]:

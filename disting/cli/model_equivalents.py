@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
+from disting.catalogs.network_files import recall_of
 from disting.cli.arguments import parted
 from disting.cli.output import emitted, keep_apart
 from disting.cli.workers import engine_for
@@ -55,6 +56,8 @@ def run(options: argparse.Namespace) -> int:
     if formulas and values is not None:
         raise InputError("formulas are for any values: leave --set away, or ask for values alone")
     with engine_for(options) as (engine, _, progress):
+        if options.family:
+            recall_of(given, options.family, engine)
         found = model_equivalents(given, others, values, engine=engine)
         written = list(_formulas(given, found, options, progress)) if formulas else []
     if options.json:

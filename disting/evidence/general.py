@@ -2,8 +2,8 @@
 and without one; constants.
 """
 
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 from disting.errors import listed
 from disting.evidence.decision import Theorem
@@ -52,6 +52,11 @@ class Explicit(OverDomain):
         """Names of those that are to be small: over real parameters 0 is a value as any other."""
         zero = tuple(name for name, value in formula[2] if value == ZERO)
         return zero if self.domain == Domain.POSITIVE else ()
+
+    @property
+    def turned(self) -> Self:
+        """The same of the pair in the other order: the left one is given where the right one was."""
+        return replace(self, formulas=tuple((not f[0], *f[1:]) for f in self.formulas))
 
     def without_exception(self, domain: Domain) -> bool:
         """Whether it holds for special values too."""

@@ -12,7 +12,7 @@ from hypothesis import Phase, given, settings, strategies as st
 from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
 from disting.evidence.decision import THEOREMS, Excluded, Theorem
-from disting.evidence.general import AtInverse, Replaced
+from disting.evidence.general import AtInverse, OfPart, Replaced
 from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import Empirical, PositiveEvidence, PositiveFinding, Share
@@ -190,6 +190,7 @@ known = {
     Excluded: {"name": st.just("decay")},
     Replaced: {"inner": st.builds(Theorem, name=theorems)},
     AtInverse: {"inner": st.builds(Theorem, name=theorems)},
+    OfPart: {"inner": st.builds(Theorem, name=theorems)},
 }
 
 
