@@ -4,14 +4,17 @@ HYPOTHESIS_PROFILE=fresh draws new ones."""
 
 import gc
 import os
+import sys
 
 import pytest
 from hypothesis import settings
 
 os.environ["DISTING_CACHE"] = "off"
 os.environ["DISTING_PROGRESS"] = "off"
-# the processes that tests start share compiled modules; else each compiles the whole package
+# workers, the processes that tests start, and the next run share compiled modules; else each
+# compiles the whole package
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 # a deadline is a time that a busy machine breaks
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.register_profile("fresh", deadline=None)
@@ -28,6 +31,7 @@ def pytest_collection():
         return (yield)
     finally:
         gc.freeze()
+        gc.set_threshold(100_000, 20, 100)  # a test makes much, and little of it in circles
         gc.enable()
 
 

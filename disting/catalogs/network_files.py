@@ -9,15 +9,17 @@ by conditions or by an exact decision in milliseconds: they are decided anew.
 A command on a family takes the findings over, so it answers at once, and all that it says has its
 evidence. Families of thousands of such pairs are searched in brief: what is not decided within
 small bounds is undecided in the file, and `disting compare` of the two alone goes on for longer.
+Of networks that give the same one is asked about: a pair of others says `as` which pair it has all
+from, and what differs.
 """
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from itertools import combinations
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
+from disting.catalogs.network_search import in_order, same_pairs, search_in_brief, standing_for
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.side import AnySide
@@ -25,17 +27,17 @@ from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import of_network, unnamed
-from disting.general.forms import BRIEFLY
+from disting.general.forms import carried
 from disting.general.identifiability import PARAMETERS
+from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel, positive_question
+from disting.general.replacement import replaceable
 from disting.network.families import NetworkFamily, family_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, question_key, silent
 from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
 
 SCHEMA = 1
-EVIDENCE = 4  # its place in the list that a finding is written as
 COMMAND = "disting catalog families"
 SHIPPED = (
     "machines-2",
@@ -46,8 +48,9 @@ SHIPPED = (
     "cells-4",
     "cells-5",
     "compartments-2",
+    "compartments-3",
 )
-IN_BRIEF = ("machines-3",)  # of the shipped ones
+IN_BRIEF = ("machines-3", "trees-4", "compartments-3")  # large ones
 COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
 
 
@@ -73,7 +76,7 @@ def build_networks(
     sides = engine.general_subjects([of_network(n) for n in family.networks])
     over_complex = engine.decisions(sides, COMPLEX, executor=executor, progress=progress)
     if family.name in IN_BRIEF:
-        _search_in_brief(engine, sides, over_complex, executor, progress)
+        search_in_brief(engine, sides, over_complex, executor, progress)
     over_positive = engine.decisions(sides, POSITIVE, executor=executor, progress=progress)
     group = {i: g for g, members in enumerate(over_complex.classes(), 1) for i in members}
     header: Record = {
@@ -96,36 +99,16 @@ def build_networks(
         for number, (s, model) in enumerate(zip(sides, asked, strict=True), 1)
     ]
     pairs = _pairs(engine, sides, over_complex, over_positive)
+    if family.name in IN_BRIEF:
+        pairs = _shared(list(pairs), sides)
     return lines([header, *models, *pairs])
-
-
-def _search_in_brief(
-    engine: Engine,
-    sides: list[ComparedModel],
-    over_complex: Decisions,
-    executor: Executor | None,
-    progress: Progress,
-) -> None:
-    """Let the engine know what a brief search tells of each pair, in place of a long one."""
-    asked = [positive_question(sides[i], sides[j]) for i, j in _same(over_complex, len(sides))]
-    every = [models for _, models in asked]
-    engine.answer_all(BRIEFLY, every, executor=executor, progress=progress)
-    for question, models in asked:
-        engine.remember(question, models, engine.answer(BRIEFLY, models, engine.settings))
-
-
-def _same(over_complex: Decisions, count: int) -> Iterator[tuple[int, int]]:
-    """Yield the pairs that are not told apart over complex parameters."""
-    for i, j in combinations(range(count), 2):
-        if over_complex.relation(i, j) is not Relation.DISTINGUISHABLE:
-            yield i, j
 
 
 def _pairs(
     engine: Engine, sides: list[ComparedModel], over_complex: Decisions, over_positive: Decisions
 ) -> Iterator[Record]:
     """Yield the lines of the pairs that are the same over complex parameters."""
-    for i, j in _same(over_complex, len(sides)):
+    for i, j in same_pairs(over_complex, len(sides)):
         question, models = positive_question(sides[i], sides[j])
         finding = engine.answers.get(question_key(question, models, engine.settings))
         record: Record = {"left": i + 1, "right": j + 1, "complex": _told(over_complex, i, j)}
@@ -134,6 +117,36 @@ def _pairs(
             del record["positive"]["evidence"]
             record["finding"] = json.loads(finding.to_json())
         yield record
+
+
+def _shared(records: Sequence[Record], sides: Sequence[ComparedModel]) -> Iterator[Record]:
+    """Yield them shorter: what is carried over from another pair says from which, and where it
+    differs from that.
+    """
+    at = {(r["left"], r["right"]): r for r in records}
+    standing, names = [i + 1 for i in standing_for(sides)], [s.name for s in sides]
+    for (i, j), record in at.items():
+        origin = standing[i - 1], standing[j - 1]
+        base = at.get(in_order(*origin), {})
+        if origin == (i, j) or not {"finding"} <= record.keys() & base.keys():
+            yield record
+            continue
+        from_it = _carried(_finding(base), origin, names)
+        if json.loads(from_it.to_json()) != record["finding"]:
+            yield record
+            continue
+        differs = {x: record[x] for x in ("complex", "positive") if record[x] != base[x]}
+        yield {"left": i, "right": j, "as": [*origin], **differs}
+
+
+def _carried(found: Finding, origin: tuple[int, int], names: Sequence[str]) -> Finding:
+    """The finding of a pair that has it from these two networks; `found`: that of both in order."""
+    a, b = origin
+    return carried(found if a < b else found.turned, names[a - 1], names[b - 1])
+
+
+def _finding(record: Record) -> Finding:
+    return Finding.from_json(json.dumps(record["finding"]), rule=ADMISSIBLE)
 
 
 def _told(decided: Decisions, i: int, j: int) -> Record:
@@ -155,23 +168,61 @@ def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
 
     >>> recall("circuits-4", Engine())
     """
-    path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
-    if not path.is_file():
-        return
-    records = read(path)
-    if records[0]["settings"] != engine.settings.to_dict():
-        return  # other random points: what is known by these is not what is asked
-    sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
-    for r in records[1 + len(sides) :]:
-        question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
+    sides, records = _known(family, engine, folder)
+    for r in records:
         if "finding" in r:
-            found = Finding.from_json(json.dumps(r["finding"]), rule=ADMISSIBLE)
-            engine.remember(question, models, found)
+            question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
+            engine.remember(question, models, r["finding"])
+
+
+def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None = None) -> None:
+    """The same of one model that gives the same as a network of the family, such as that network
+    with other numbers, and all others of the family.
+    """
+    sides, records = _known(family, engine, folder)
+    like = (i for i, s in enumerate(sides, 1) if replaceable(model, s.subject))
+    own = next(like, 0) if records else 0
+    for r in records:
+        if "finding" not in r or own not in (r["left"], r["right"]):
+            continue
+        other = sides[r["right" if own == r["left"] else "left"] - 1]
+        found = r["finding"] if own == r["left"] else r["finding"].turned
+        pair = engine.general_subjects([model, other.subject])
+        question, models = positive_question(pair[0], pair[1])
+        if models[0] != sides[own - 1].asked_about[0]:
+            found = carried(found, sides[own - 1].name, other.name)
+        engine.remember(question, models, found)
+
+
+def _known(
+    family: str, engine: Engine, folder: Path | None
+) -> tuple[list[ComparedModel], list[Record]]:
+    """The networks of a family and the pairs of its file, none where there is none, or where it
+    has other random points: what is known by these is not what is asked.
+    """
+    sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
+    path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
+    records = read(path) if path.is_file() else []
+    is_asked = records and records[0]["settings"] == engine.settings.to_dict()
+    return sides, records[1 + len(sides) :] if is_asked else []
+
+
+def _whole(records: Sequence[Record], names: Sequence[str]) -> Iterator[Record]:
+    """Yield the records of pairs, what they have from others written out, findings as such."""
+    at = {(r["left"], r["right"]): r for r in records}
+    known = {pair: _finding(r) for pair, r in at.items() if "finding" in r}
+    for pair, r in at.items():
+        if "as" not in r:
+            yield r | ({"finding": known[pair]} if pair in known else {})
+            continue
+        a, b = r["as"]
+        found = _carried(known[in_order(a, b)], (a, b), names)
+        yield at[in_order(a, b)] | r | {"finding": found}
 
 
 def read(path: Path) -> list[Record]:
-    """The records of a file; raises CatalogError where it is damaged, of another schema, or of
-    other networks than the family has.
+    """The records of a file, findings as such; raises CatalogError where it is damaged, of another
+    schema, or of other networks than the family has.
     """
     try:
         records = [json.loads(line) for line in intact_text(path).splitlines()]
@@ -183,9 +234,10 @@ def read(path: Path) -> list[Record]:
         for r in records[1 + len(names) :]:
             if not 0 < r["left"] < r["right"] <= len(names):
                 raise ValueError(f"no pair: {r['left']}, {r['right']}")
+        pairs = _whole(records[1 + len(names) :], names)
+        return [*records[: 1 + len(names)], *pairs]
     except (OSError, ValueError, LookupError, TypeError) as reason:
         raise CatalogError(f"{path} cannot be read ({reason}); make it with '{COMMAND}'") from None
-    return records
 
 
 def verify_networks(
@@ -221,10 +273,17 @@ def _false_evidence(family: NetworkFamily, records: list[Record], engine: Engine
         pair: tuple[AnySide, AnySide] = (left, right)
         if a is not None and b is not None:
             pair = engine.subject(left.name, a), engine.subject(right.name, b)
-        for told in (r["complex"], r["positive"]):
-            evidence = told["evidence"] if "evidence" in told else r["finding"][EVIDENCE]
-            if evidence and not pair[0].confirms(
-                pair[1], evidence_from(evidence), told["representation"]
-            ):
+        origin = r.get("as")
+        if origin and not all(
+            replaceable(s.subject, sides[at - 1].subject)
+            for s, at in zip((left, right), origin, strict=True)
+        ):
+            wrong.append(f"{left.name} and {right.name}: not the same as {origin}")
+        for told in (r["complex"],) if origin else (r["complex"], r["positive"]):
+            data = told.get("evidence")
+            evidence = evidence_from(data) if data else None
+            if "evidence" not in told:
+                evidence = r["finding"].evidence
+            if evidence and not pair[0].confirms(pair[1], evidence, told["representation"]):
                 wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
     return wrong

@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
+from disting.catalogs.network_files import recall_of
 from disting.cli.arguments import parted
 from disting.cli.output import emitted, keep_apart
 from disting.cli.workers import engine_for
@@ -29,6 +30,7 @@ from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.families import family_of
 from disting.network.notation import network_of, notations_of
+from disting.verdict.engine import Progress
 from disting.verdict.model_equivalents import ModelEquivalent, model_equivalents
 from disting.verdict.result import Relation
 
@@ -53,8 +55,11 @@ def run(options: argparse.Namespace) -> int:
     formulas = options.formulas or options.latex or options.sympy
     if formulas and values is not None:
         raise InputError("formulas are for any values: leave --set away, or ask for values alone")
-    with engine_for(options) as (engine, _, _progress):
+    with engine_for(options) as (engine, _, progress):
+        if options.family:
+            recall_of(given, options.family, engine)
         found = model_equivalents(given, others, values, engine=engine)
+        written = list(_formulas(given, found, options, progress)) if formulas else []
     if options.json:
         whole = {
             "format": Format.NETWORK_EQUIVALENTS.value,
@@ -66,8 +71,7 @@ def run(options: argparse.Namespace) -> int:
     other = "network" if given.network else "model"
     other = other if others == [given] else f"other {other}"
     head = _counted(given.name, plural(len(others), other), found)
-    lines = _formulas(given, found, options) if formulas else _lines(found)
-    print("\n".join([_mark(options) + head, *lines]))
+    print("\n".join([_mark(options) + head, *(written if formulas else _lines(found))]))
     return 0
 
 
@@ -140,13 +144,17 @@ def _synthesis(found: Synthesis) -> Iterator[str]:
 
 
 def _formulas(
-    given: AnyModel, found: list[ModelEquivalent], options: argparse.Namespace
+    given: AnyModel,
+    found: list[ModelEquivalent],
+    options: argparse.Namespace,
+    progress: Progress,
 ) -> Iterator[str]:
     """For each model that does the same for all positive values its values as formulas, or why
     none are known.
     """
     mark = _mark(options)
-    for x in found:
+    for done, x in enumerate(found):
+        progress("formulas", done, len(found))
         yield ""
         if x.verdict.relation is not Relation.INDISTINGUISHABLE:
             yield f"{mark}{x.model.name}: {x.verdict.told} (no formulas; --set gives values)"

@@ -4,6 +4,7 @@ file; and the values of their parameters.
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 
 from disting.cli.arguments import FILE, parted
 from disting.cli.output import keep_apart
@@ -75,10 +76,10 @@ def _network(text: str, options: argparse.Namespace) -> AnyModel | None:
 def structures(
     texts: Sequence[str], options: argparse.Namespace, quantity: Sensor = Sensor.ACCELERATION
 ) -> list[Chain | Network]:
-    """Chains by their names or networks in a notation; raises InputError for both at once, and for
-    options of chains with networks.
+    """Chains by their names, networks in a notation or file.json:name; raises InputError for both
+    at once, and for options of chains with networks.
     """
-    said = [is_network(text, options.notation) for text in texts]
+    said = [FILE in text or is_network(text, options.notation) for text in texts]
     if not any(said):
         return [*chains_named(texts, damped=options.damped, sensor=quantity)]
     _refuse_damping(options)
@@ -87,7 +88,18 @@ def structures(
             f"{texts[said.index(False)]} is a numbered chain, {texts[said.index(True)]} a network:"
             " write the chain as a network too, such as 1=2=3; F1; S3"
         )
-    return [network_of(text, options.notation, quantity=quantity) for text in texts]
+    return [
+        _of_file(text) if FILE in text else network_of(text, options.notation, quantity=quantity)
+        for text in texts
+    ]
+
+
+def _of_file(text: str) -> Network:
+    path, name = parted(text)
+    network = read_models(path)[name].network
+    if network is None:
+        raise InputError(f"{text} is given by formulas, not by its elements: describe a network")
+    return replace(network, name=name)
 
 
 def values_of(model: Chain | Network, texts: Sequence[str]) -> dict[str, float]:

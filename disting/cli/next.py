@@ -12,11 +12,13 @@ from disting.catalogs.damper_family import SHIPPED_SIZES as DAMPER_SIZES, damper
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, next_catalog
 from disting.cli.arguments import (
+    FILE,
     add_damped,
     add_notation,
     add_work,
     is_damped,
 )
+from disting.cli.model_names import is_network, structures
 from disting.cli.output import emitted, written_file
 from disting.cli.workers import engine_for
 from disting.conditions.side import AnySide
@@ -28,7 +30,6 @@ from disting.model.kinds import COSTS, PRICES
 from disting.model.names import chains_named, name_of, read
 from disting.network.element import Sort
 from disting.network.network import Network
-from disting.network.notation import network_of, notations_of
 from disting.verdict.engine import Engine
 from disting.verdict.further import Further, further, places_of
 from disting.verdict.further_words import (
@@ -59,8 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = (
         "structures (masses:number, as 'disting models' lists them; +b2, +lag, +delay as for"
         " 'compare') that one measurement cannot tell apart; of one, all those that cannot be told"
-        " from it; or networks, such as \"R0-p(R1,C1)\"; or a file of 'disting fit --json': the"
-        " structures that the fit left"
+        ' from it; or networks, such as "R0-p(R1,C1)" or FILE.json:NAME; or a file of \'disting'
+        " fit --json': the structures that the fit left"
     )
     parser.add_argument("models", nargs="+", metavar="N:I|NETWORK|FIT.json", help=text)
     add_notation(parser)
@@ -89,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     costs = Costs.read(options.cost)
     if any(name.lower().endswith(".json") for name in options.models):
         return _from_fit(options, costs)
-    if options.notation or any(map(notations_of, options.models)):
+    if options.notation or any(FILE in m or is_network(m) for m in options.models):
         return _networks(options, costs)
     with engine_for(options) as (engine, pool, progress):
         group = _group(options, engine)
@@ -104,7 +105,8 @@ def run(options: argparse.Namespace) -> int:
 
 def _networks(options: argparse.Namespace, costs: Costs) -> int:
     """Of networks in a notation."""
-    networks = [network_of(text, options.notation) for text in dict.fromkeys(options.models)]
+    named = structures([*dict.fromkeys(options.models)], options)
+    networks = [network for network in named if isinstance(network, Network)]
     if len(networks) < 2:
         raise InputError(
             f"{listed(options.models)} is one network: name all that are to be told apart;"

@@ -55,7 +55,8 @@ def _drive(p: argparse.ArgumentParser) -> None:
     """The model, its parameters, and what of it is seen."""
     text = (
         "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the"
-        " ground; +lag; +delay; or a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'"
+        " ground; +lag; +delay; or a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4',"
+        " or one of a file, as FILE.json:NAME"
     )
     p.add_argument(
         "model", nargs="?", metavar="N:I|NETWORK", help=f"{text} (default: a small two-mass drive)"

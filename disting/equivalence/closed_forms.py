@@ -35,8 +35,8 @@ def closed_forms(given: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
     checked as an identity. Raises NoFormulas with the reason.
     """
     one, two = on_one_variable([given, other])
-    found = _renamed(given, other, verdict) or _of_chains(given, other)
-    if found is None:
+    found = by_name(given, other, verdict)
+    if not found:
         try:
             found = by_parts(one, two)
         except NeedsRoots:
@@ -51,22 +51,27 @@ def closed_forms(given: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
     return tuple(confirmed(form, one, two) for form in found)
 
 
-def _renamed(given: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm] | None:
+def by_name(given: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm]:
+    """The renaming that a verdict rests on, or the theorems on chains; none of others."""
+    return _renamed(given, other, verdict) or _of_chains(given, other)
+
+
+def _renamed(given: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm]:
     """The renaming that a verdict rests on: of its left model's parameters to the right one's."""
     if not isinstance(verdict.evidence, Renaming):
-        return None
+        return []
     is_left, ring = verdict.left == given.name, symbols(given.parameters)
     pairs = ((a, b) if is_left else (b, a) for a, b in verdict.evidence.pairs)
     values = {b: RationalFunction(ring[a], ring[a] ** 0) for a, b in pairs}
     return [ClosedForm(given.parameters, (), tuple((n, values[n]) for n in other.parameters))]
 
 
-def _of_chains(given: AnyModel, other: AnyModel) -> list[ClosedForm] | None:
+def _of_chains(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
     """The theorems on chains."""
     one, two = (m.chain if isinstance(m, Model) else None for m in (given, other))
     found = explicit_map(one, two) if one and two else None
     if found is None:
-        return None
+        return []
     return [ClosedForm(given.parameters, (), tuple(sorted(found.formulas.items())))]
 
 

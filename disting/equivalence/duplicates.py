@@ -4,24 +4,27 @@ formulas in those of the other, which parameters no data determine, what to meas
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from disting.algebra.notation import text
-from disting.equivalence.maps import explicit_map
+from disting.equivalence.closed_forms import MOST_SOLVED, by_name
 from disting.errors import ContradictionError, InputError, listed, of_type
-from disting.evidence.conditions import Renaming
-from disting.evidence.general import Explicit, Formula
+from disting.evidence.general import Explicit
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.general.any_model import of_network, unnamed
+from disting.general.any_model import of_network, on_one_variable, unnamed
+from disting.general.closed_form import ClosedForm, confirmed
 from disting.general.formulas import fit, of_way
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
+from disting.general.synthesis import NoFormulas
+from disting.general.values_of_parts import by_parts
 from disting.general.which_models import way
 from disting.model.chain import Chain
 from disting.model.names import chains_named, name_of
 from disting.model.presentation import Shown, plural, summary
+from disting.model.question import Domain
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 from disting.questions.identifiability.levels import ParameterIdentifiability
@@ -33,6 +36,19 @@ from disting.verdict.network_placement import further_networks
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import Given, refuse_ports
+
+
+class Assignment(NamedTuple):
+    """`values` of a duplicate in those of the kept model, the given one, and in `steps`, values
+    that have a name, in order; where all polynomials of `where` are positive. `root`: a symbol
+    that stands for the root of a polynomial, the polynomial, from where to where.
+    """
+
+    given: bool
+    where: tuple[str, ...]
+    values: tuple[tuple[str, str], ...]
+    root: tuple[str, ...]
+    steps: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +63,7 @@ class Duplicate(Shown):
     kept: str
     name: str
     verdict: Verdict
-    formulas: tuple[Formula, ...]
+    formulas: tuple[Assignment, ...]
 
     def __repr__(self) -> str:
         return summary(self, f"{self.name} is {self.kept}, {plural(len(self.formulas), 'formula')}")
@@ -60,11 +76,12 @@ class Duplicate(Shown):
             "certainty": self.verdict.certainty,
             "formulas": [
                 {
-                    "where": list(where),
-                    "values": dict(values),
-                    "root": dict(zip(ROOT, root, strict=True)) if root else None,
+                    "steps": list(map(list, f.steps)),
+                    "where": list(f.where),
+                    "values": dict(f.values),
+                    "root": dict(zip(ROOT, f.root, strict=True)) if f.root else None,
                 }
-                for _, where, values, root in self.formulas
+                for f in self.formulas
             ],
         }
 
@@ -160,7 +177,7 @@ def gate(
     >>> found = gate(["R0-p(R1,C1)", "p(R0,R1-C1)", "R0-p(R1,C1)-p(R2,C2)"])
     >>> found.kept
     ('R0-p(R1,C1)', 'R0-p(R1,C1)-p(R2,C2)')
-    >>> dict(found.duplicates[0].formulas[0][2])["R1"]
+    >>> dict(found.duplicates[0].formulas[0].values)["R1"]
     '(R0**2 + R0*R1)/R1'
     """
     engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
@@ -214,31 +231,37 @@ def duplicate(decided: Decisions, made: Sequence[AnyModel], kept: int, other: in
     verdict = decided.verdict(kept, other)
     domain = decided.query.view.domain
     left, right = made[kept], made[other]
-    formulas = _renamed(verdict, kept < other) or _chains(left, right)
-    if not formulas:
-        found = way(left, right, domain)
-        formulas = tuple(of_way(True, found)) if found else ()
-        if not fit(Explicit(domain.value, formulas), left, right):
-            raise ContradictionError(f"the formulas from {left.name} to {right.name} are wrong")
+    formulas = _formulas(left, right, verdict, domain)
     return Duplicate(left.name, right.name, verdict, formulas)
 
 
-def _renamed(verdict: Verdict, forwards: bool) -> tuple[Formula, ...]:
-    """The renaming that a verdict rests on."""
-    if not isinstance(verdict.evidence, Renaming):
-        return ()
-    pairs = [(b, a) if forwards else (a, b) for a, b in verdict.evidence.pairs]
-    return ((True, (), tuple(sorted(pairs)), ()),)
+def _formulas(
+    left: AnyModel, right: AnyModel, verdict: Verdict, domain: Domain
+) -> tuple[Assignment, ...]:
+    """By names; of small models by their equations; of others by the parts they are made of."""
+    named = _assignments(by_name(left, right, verdict))
+    if named or len(right.parameters) > MOST_SOLVED:
+        return named or _by_parts(left, right)
+    found = way(left, right, domain)
+    formulas = tuple(of_way(True, found)) if found else ()
+    if not fit(Explicit(domain.value, formulas), left, right):
+        raise ContradictionError(f"the formulas from {left.name} to {right.name} are wrong")
+    return tuple(Assignment(*f) for f in formulas) or _by_parts(left, right)
 
 
-def _chains(left: AnyModel, right: AnyModel) -> tuple[Formula, ...]:
-    """The theorems on chains."""
-    a, b = (m.chain if isinstance(m, Model) else None for m in (left, right))
-    found = explicit_map(a, b) if a and b else None
-    if found is None:
+def _by_parts(left: AnyModel, right: AnyModel) -> tuple[Assignment, ...]:
+    one, two = on_one_variable([left, right])
+    try:
+        first = by_parts(one, two)[0]
+    except NoFormulas:
         return ()
-    values = tuple(sorted((name, text(value)) for name, value in found.formulas.items()))
-    return ((True, (), values, ()),)
+    return _assignments([confirmed(first, one, two)])
+
+
+def _assignments(forms: Iterable[ClosedForm]) -> tuple[Assignment, ...]:
+    return tuple(
+        Assignment(True, (), tuple((n, text(x)) for n, x in f.values), (), f.named) for f in forms
+    )
 
 
 def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs | None) -> AnyFurther | None:

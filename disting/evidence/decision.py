@@ -25,7 +25,7 @@ THEOREMS = {
     ),
     "replacement": (
         "{left} and {right} are the same but for parts that can replace each other (two-terminal"
-        " parts of two kinds of elements, or trees that hang at a compartment)"
+        " parts of two kinds of elements, trees that hang at a compartment, outflows)"
     ),
     "gears": (
         "{left} and {right} are the same but for gears: a gear is a change of the units behind it"

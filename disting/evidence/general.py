@@ -2,8 +2,8 @@
 and without one; constants.
 """
 
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 from disting.errors import listed
 from disting.evidence.decision import Theorem
@@ -52,6 +52,11 @@ class Explicit(OverDomain):
         """Names of those that are to be small: over real parameters 0 is a value as any other."""
         zero = tuple(name for name, value in formula[2] if value == ZERO)
         return zero if self.domain == Domain.POSITIVE else ()
+
+    @property
+    def turned(self) -> Self:
+        """The same of the pair in the other order: left given where right was."""
+        return replace(self, formulas=tuple((not f[0], *f[1:]) for f in self.formulas))
 
     def without_exception(self, domain: Domain) -> bool:
         """Whether it holds for special values too."""
@@ -163,8 +168,9 @@ class Witnesses(OverDomain):
 @dataclass(frozen=True, slots=True)
 class Replaced(Kind):
     """What is true of two networks that give the same transfer functions as these for all positive
-    values, special ones aside: `left` and `right` are those networks, `inner` is the evidence on
-    them. One that is `larger` may give more: that shows only that there are no equivalents.
+    values, special ones aside: `left` and `right` are those networks, the simplest ones or others
+    as texts have them, `inner` is the evidence on them. One that is `larger` may give more: that
+    shows only that there are no equivalents.
     """
 
     kind: ClassVar[str] = "replaced"
@@ -173,7 +179,7 @@ class Replaced(Kind):
     right: str
     left_larger: bool
     right_larger: bool
-    inner: Explicit | NoEquivalent | Witnesses | Theorem
+    inner: "OfNetworks"
 
     def shows(self, domain: Domain) -> Relation:
         """What the inner one shows, of positive values: those theorems speak of no others."""
@@ -211,7 +217,7 @@ class AtInverse(Kind):
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE)
     left: str
     right: str
-    inner: Explicit | NoEquivalent | Witnesses | Theorem | Replaced
+    inner: "OfNetworks"
 
     def shows(self, domain: Domain) -> Relation:
         """What the inner one shows, of positive values."""
@@ -235,7 +241,57 @@ class AtInverse(Kind):
         return self.inner.formula
 
 
-OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced | AtInverse
+@dataclass(frozen=True, slots=True)
+class OfPart(Kind):
+    """What is true for some values of a network without the `missing` elements, the left one or
+    the right one, and of the other network, is so of the whole one: where it is nearly that part.
+    Both give as many independent coefficients as there are.
+    """
+
+    kind: ClassVar[str] = "of-part"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE)
+    left_is_part: bool
+    missing: Labels
+    inner: "OfNetworks"
+
+    def shows(self, domain: Domain) -> Relation:
+        """SOMETIMES where the inner one shows that, by a point of the part without an equivalent:
+        the whole may give what the part does not.
+        """
+        known = domain is Domain.POSITIVE and self.inner.shows(domain) is Relation.SOMETIMES
+        found = witnesses_in(self.inner)
+        given = found is not None and found.without_left_given is self.left_is_part
+        return Relation.SOMETIMES if known and given else Relation.UNDECIDED
+
+    @property
+    def title(self) -> str:
+        """What the inner one is called."""
+        return self.inner.title
+
+    def sentence(self, left: str, right: str) -> str:
+        """What is left out, and what is known of the rest."""
+        whole, names = (left, ("E", right)) if self.left_is_part else (right, (left, "E"))
+        return (
+            f"E is {whole} without {listed(self.missing)}, which gives an open set of functions:"
+            f" {whole} gives those around them, with small values of these elements."
+            f" {self.inner.sentence(*names)}"
+        )
+
+    @property
+    def formula(self) -> str:
+        """That of the inner one."""
+        return self.inner.formula
+
+
+def witnesses_in(evidence: "OfNetworks") -> Witnesses | None:
+    """The points that evidence rests on, of whatever networks, if it does."""
+    while isinstance(evidence, Replaced | AtInverse | OfPart):
+        evidence = evidence.inner
+    return evidence if isinstance(evidence, Witnesses) else None
+
+
+OfNetworks = Explicit | NoEquivalent | Witnesses | Theorem | Replaced | AtInverse | OfPart
+OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced | AtInverse | OfPart
 
 
 def _spelled(point: Point) -> str:

@@ -53,7 +53,7 @@ def admissible_finding(
     if domain is Domain.POSITIVE:
         found = _by_lists(left, right, seed, FIRST)
         if found is None and max(len(m.parameters) for m in (left, right)) > SMALL:
-            found = _by_numbers(left, right, seed, FIRST)
+            found = _by_numbers(left, right, seed, FIRST, effort.degree)
         if found:
             return _sometimes(found)
     first = way(left, right, domain, effort)
@@ -95,7 +95,7 @@ def of_ways(
         return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
         found = _by_lists(left, right, seed, effort.listed) or _by_numbers(
-            left, right, seed, effort.listed, having
+            left, right, seed, effort.listed, effort.degree, having
         )
         if found:
             return _sometimes(found)
@@ -218,7 +218,12 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
 
 
 def _by_numbers(
-    left: AnyModel, right: AnyModel, seed: str, count: int, having: Found | None = None
+    left: AnyModel,
+    right: AnyModel,
+    seed: str,
+    count: int,
+    degree: int,
+    having: Found | None = None,
 ) -> Witnesses | None:
     """A point that has a positive equivalent, found by a search in rounded numbers and shown by
     intervals, and one, among so many of either model, that has none by a combination of the
@@ -235,7 +240,9 @@ def _by_numbers(
     ]
     for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
         given, other = (left, right) if left_given else (right, left)
-        if not newton.having(given, values, other) and excludes(given, values, other):
+        if newton.having(given, values, other):
+            continue
+        if excludes(given, values, other, degree):
             lacking = left_given, _written(values), ()
             return _witnesses(left, right, having, lacking, Domain.POSITIVE)
     return None

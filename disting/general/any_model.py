@@ -2,6 +2,7 @@
 maps, and the exact decision where conditions 1 to 7 stay silent: one fibre as a polynomial ideal.
 """
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar, overload
@@ -28,6 +29,7 @@ from disting.questions.same.exact import SAFETY, decided
 
 LIMITS = Limits(safety=SAFETY, long=True)
 M = TypeVar("M", Model, AnyModel)
+LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
 def measured(models: Iterable[Chain | AnyModel]) -> str:
@@ -132,6 +134,20 @@ def _padded(cell: Cell, size: int) -> Cell:
 def unnamed(model: AnyModel, name: str = "model") -> AnyModel:
     """The transfer functions alone, whatever they are called and however they were made."""
     return replace(model, name=name)
+
+
+def as_network(model: AnyModel, name: str) -> AnyModel:
+    """The same as the network that it is, whatever that is called."""
+    found = unnamed(model, name)
+    if model.network is not None:
+        object.__setattr__(found, "network", replace(model.network, name="network"))
+    return found
+
+
+def with_names(note: str, left: str, right: str) -> str:
+    """A note of an answer that was kept, with the names of both in it."""
+    names = {LEFT: left, RIGHT: right}
+    return re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], note)
 
 
 def same(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:

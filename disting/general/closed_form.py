@@ -81,10 +81,15 @@ class ClosedForm:
         """One line a value, in Python's notation, those with a name first; a prime marks the
         parameters of the other model.
         """
-        lines = list(self._named(text, _python_root))
+        lines = list(self.named)
         lines += [(f"{name}'", text(value)) for name, value in self.values]
         width = max(len(name) for name, _ in lines)
         return "\n".join(f"{name:{width}} = {of}" for name, of in lines)
+
+    @property
+    def named(self) -> tuple[tuple[str, str], ...]:
+        """The steps, names and values in Python's notation."""
+        return tuple(self._named(text, _python_root))
 
     @property
     def latex(self) -> str:
@@ -99,8 +104,7 @@ class ClosedForm:
         """Python source: symbols for SymPy, positive ones, the steps and a dictionary of values."""
         names = ", ".join(self.given)
         comma = "," * (len(self.given) == 1)
-        named = self._named(text, _python_root)
-        steps = "".join(f"{name} = {of}\n" for name, of in named)
+        steps = "".join(f"{name} = {of}\n" for name, of in self.named)
         values = "".join(f'    "{name}": {text(value)},\n' for name, value in self.values)
         return (
             f'from sympy import sqrt, symbols\n\n{names}{comma} = symbols("{names}{comma}",'

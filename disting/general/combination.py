@@ -18,13 +18,13 @@ The numbers are found by a linear program, rounded to fractions, and put in exac
 is proven, whoever finds it. As m the monomials of the c_i serve: if the c_i are positive, their map
 extends to the compact space of limits of all monomials of the c_i, where they do not vanish
 together. If no limit is a multiple of g, the sum of the f_ij^2 is positive there, and such numbers
-exist for products of enough of these monomials (a theorem of Polya); one is tried.
+exist for products of enough of these monomials (a theorem of Polya); one and two are tried.
 """
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, product
 
 from disting.errors import InputError
 from disting.general.listed import is_in_one_variable
@@ -32,14 +32,15 @@ from disting.general.model import Model, Terms
 from disting.general.target import rational_values, target, value_at
 
 MOST = 3000  # numbers that are looked for
+DEGREE = 2  # of the products m of monomials
 ROUNDED = 10**9  # largest denominator of one
 Exponents = tuple[int, ...]
 Polynomial = dict[Exponents, Fraction]
 
 
-def excludes(given: Model, values: dict[str, Fraction], other: Model) -> bool:
+def excludes(given: Model, values: dict[str, Fraction], other: Model, degree: int = DEGREE) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as a
-    combination shows it.
+    combination with products of up to so many monomials shows it.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
@@ -53,16 +54,26 @@ def excludes(given: Model, values: dict[str, Fraction], other: Model) -> bool:
     if rows is None:
         return False
     monomials = sorted({e for row in rows for e in row})
-    if len(monomials) * len(rows) * (len(rows) - 1) // 2 > MOST:
-        return False
-    products = list(_products(rows, monomials))
+    factors, found = monomials, False
+    for _ in range(degree):
+        if found or len(factors) * len(rows) * (len(rows) - 1) // 2 > MOST:
+            return found
+        found = _is_positive(list(_products(rows, factors)))
+        factors = sorted(
+            {tuple(map(sum, zip(*two, strict=True))) for two in product(factors, monomials)}
+        )
+    return found
+
+
+def _is_positive(products: list[Polynomial]) -> bool:
+    """Whether a combination is found all of whose coefficients are positive."""
     places = {e: at for at, e in enumerate(sorted({e for p in products for e in p}))}
     numbers = _numbers(products, places)
     if numbers is None:
         return False
     total: Polynomial = defaultdict(Fraction)
-    for number, product in zip(numbers, products, strict=True):
-        for e, c in product.items():
+    for number, terms in zip(numbers, products, strict=True):
+        for e, c in terms.items():
             total[e] += number * c
     return all(total[e] > 0 for e in places)
 

@@ -13,24 +13,37 @@ those of the given network.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
+from itertools import islice
 
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import AtInverse, Explicit, NoEquivalent, Replaced, Witnesses
+from disting.evidence.general import (
+    BOTH,
+    AtInverse,
+    Explicit,
+    NoEquivalent,
+    OfNetworks,
+    OfPart,
+    Replaced,
+    Witnesses,
+)
+from disting.evidence.kind import Labels
 from disting.evidence.model_samples import seen
 from disting.general.admissible import admissible_finding
-from disting.general.any_model import of_network, on_one_variable, unnamed
+from disting.general.any_model import of_network, on_one_variable, unnamed, with_names
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import confirms_models
 from disting.general.network_model import behaviour_of
 from disting.general.orthant import BRIEF, THOROUGH, Effort
-from disting.general.replacement import simplest_network
-from disting.model.question import Domain, Question, Settings
+from disting.general.parts import parts_of, without
+from disting.general.replacement import replaceable, simplest_network
+from disting.model.question import Domain, Question, Relation, Settings
 from disting.network.inverse import at_inverse
 from disting.network.network import Network
+from disting.network.notation import network_of
 from disting.network.simplest import same_drawing
 
 WAS_BRIEF = "the search was brief, disting compare of the two alone goes on for longer"
@@ -44,7 +57,12 @@ class Forms:
     models: tuple[AnyModel, AnyModel]
     larger: tuple[bool, bool]
 
-    def evidence(self, inner: Explicit | NoEquivalent | Witnesses | Theorem) -> Replaced:
+    def are_drawn(self, *given: AnyModel) -> bool:
+        """Whether both are the given ones in other numbers: nothing is replaced."""
+        pairs = [(m.network, form.network) for m, form in zip(given, self.models, strict=True)]
+        return all(a and b and same_drawing(a, b) for a, b in pairs)
+
+    def evidence(self, inner: OfNetworks) -> Replaced:
         """What evidence on them says of the others."""
         left, right = (model.name for model in self.models)
         return Replaced(left, right, *self.larger, inner)
@@ -59,7 +77,7 @@ def by_forms(
     told = None
     for larger in (False, True):
         forms = forms_of(left, right, larger)
-        if forms is None:
+        if forms is None or forms.are_drawn(left, right):
             continue
         found = _answered(*forms.models, seed, effort)
         if larger and found.outcome is not Outcome.FAILS:
@@ -106,21 +124,19 @@ def _answered(left: AnyModel, right: AnyModel, seed: str, effort: Effort) -> Fin
 
 
 def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
-    """None where nothing is replaced, or nothing by what is larger; exponents are not matched
-    here.
-    """
+    """None where none is known, or none that is larger; exponents are not matched here."""
     if any(m.powers.weights for m in (left, right)):
         return None
     found = [(m.network, simplest_network(m), simplest_network(m, larger)) for m in (left, right)]
     more = [whole != same for _, same, whole in found]
-    known = [(own, whole) for own, _, whole in found if own is not None and whole is not None]
-    if len(known) < len(found) or any(more) != larger or all(same_drawing(*x) for x in known):
+    known = [whole for own, _, whole in found if own is not None and whole is not None]
+    if len(known) < len(found) or any(more) != larger:
         return None
     spread = zip((left, right), known, more, strict=True)
-    if any(larger_ and _rank(m) < len(whole.parameters) for m, (_, whole), larger_ in spread):
+    if any(larger_ and _rank(m) < len(whole.parameters) for m, whole, larger_ in spread):
         return None
     try:
-        models = [_with_network(of_network(whole), whole) for _, whole in known]
+        models = [_with_network(of_network(whole), whole) for whole in known]
     except InputError:
         return None
     one, other = on_one_variable(models)
@@ -140,23 +156,78 @@ def _with_network(model: AnyModel, network: Network) -> AnyModel:
 
 
 def confirms_forms(
-    evidence: Replaced | AtInverse, left: AnyModel, right: AnyModel, representation: str
+    evidence: Replaced | AtInverse | OfPart, left: AnyModel, right: AnyModel, representation: str
 ) -> bool:
     """Whether these networks stand for both, and what is said of them is true."""
     inner = evidence.inner
     if isinstance(evidence, Replaced):
-        forms = forms_of(left, right, evidence.left_larger or evidence.right_larger)
-        if forms is None or evidence != forms.evidence(evidence.inner):
-            return False
-        models = forms.models
+        found = _stand_for(evidence, left, right)
+    elif isinstance(evidence, OfPart):
+        part = without(left if evidence.left_is_part else right, evidence.missing)
+        pair = (part or left, right) if evidence.left_is_part else (left, part or right)
+        found = pair if part else None
     else:
         found = inverse_of(left, right)
-        if found is None or (evidence.left, evidence.right) != tuple(m.name for m in found):
+        if found and (evidence.left, evidence.right) != tuple(m.name for m in found):
             return False
-        models = found
-    if isinstance(inner, Replaced):
-        return confirms_forms(inner, *models, representation)
-    return confirms_models(inner, *models, representation)
+    if found is None:
+        return False
+    if isinstance(inner, Replaced | AtInverse | OfPart):
+        return confirms_forms(inner, *found, representation)
+    return confirms_models(inner, *found, representation)
+
+
+def _stand_for(
+    evidence: Replaced, left: AnyModel, right: AnyModel
+) -> tuple[AnyModel, AnyModel] | None:
+    """The networks that it names, if they stand for both: the simplest ones, or such as texts have
+    them.
+    """
+    forms = forms_of(left, right, evidence.left_larger or evidence.right_larger)
+    if forms and evidence == forms.evidence(evidence.inner):
+        return forms.models
+    exponents = any(m.powers.weights for m in (left, right))
+    if exponents or evidence.left_larger or evidence.right_larger:
+        return None
+    try:
+        named = [network_of(text) for text in (evidence.left, evidence.right)]
+        one, other = on_one_variable([_with_network(of_network(n), n) for n in named])
+    except InputError:
+        return None
+    return (one, other) if replaceable(one, left) and replaceable(other, right) else None
+
+
+def carried(found: Finding, left: str, right: str) -> Finding:
+    """What is found of two networks with these texts, of two others that give the same."""
+    evidence = found.evidence
+    if not isinstance(evidence, OfNetworks):
+        note = with_names(found.note, left, right)
+        return replace(found, note=f"of {left} and {right}, which give the same, {note}")
+    if isinstance(evidence, Replaced) and not (evidence.left_larger or evidence.right_larger):
+        return found  # their simplest networks are those of the others
+    return replace(found, evidence=Replaced(left, right, False, False, evidence))
+
+
+def by_parts(
+    left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
+) -> Finding | None:
+    """What a brief search of parts of either network tells over positive values, if anything."""
+    for left_is_part in BOTH:
+        for missing, part in islice(parts_of(left if left_is_part else right), effort.parts):
+            pair = (part, right) if left_is_part else (left, part)
+            found = of_part(over_positive(*pair, settings, BRIEF), left_is_part, missing)
+            if found is not None:
+                return found
+    return None
+
+
+def of_part(found: Finding, left_is_part: bool, missing: Labels) -> Finding | None:
+    """What is found of a network without these elements and another one, of the whole network."""
+    if not isinstance(found.evidence, OfNetworks):
+        return None
+    evidence = OfPart(left_is_part, missing, found.evidence)
+    tells = evidence.shows(Domain.POSITIVE) is not Relation.UNDECIDED
+    return replace(found, evidence=evidence) if tells else None
 
 
 def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
@@ -173,6 +244,8 @@ def over_positive(
     if found.outcome is not Outcome.ABANDONED:
         return found
     turned = by_inverse(left, right, settings.seed, effort)
+    if turned is None:
+        turned = by_parts(left, right, settings, effort)
     return found if turned is None else turned
 
 

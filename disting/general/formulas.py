@@ -14,7 +14,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.orthant import THOROUGH, Effort
 from disting.general.sections import Section
-from disting.general.which_models import Way, way
+from disting.general.which_models import Way, ways_again
 from disting.model.question import Domain
 
 
@@ -82,8 +82,8 @@ def _covers(
         return False
     (zero,) = small
     if not zero:
-        one = way(given, other, Domain(evidence.domain))
-        return bool(one and (one.covering or one.path()))
+        found = ways_again(given, other, Domain(evidence.domain))
+        return any(one.covering or one.path() for one in found)
     if not (isinstance(given, Model) and isinstance(other, Model)):
         return False
     return bool(equivalents_without(given, other, zero))
@@ -98,8 +98,7 @@ def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
 def is_without(evidence: NoEquivalent, left: AnyModel, right: AnyModel) -> bool:
     """Whether the cases found anew are all closed."""
     given, other = (left, right) if evidence.left_given else (right, left)
-    one = way(given, other, Domain(evidence.domain))
-    return bool(one and one.never)
+    return any(one.never for one in ways_again(given, other, Domain(evidence.domain)))
 
 
 def _of_section(left_given: bool, one: Way, section: Section) -> Formula:

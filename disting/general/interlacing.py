@@ -35,8 +35,10 @@ from flint import fmpz_mpoly
 
 from disting.algebra.determinants import minors
 from disting.algebra.symbols import symbols
+from disting.evidence.decision import INTERLACING, REPLACEMENT
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
+from disting.general.replacement import simplest_network
 from disting.network.element import Element
 from disting.network.graph import parts
 from disting.network.network import Network
@@ -55,21 +57,23 @@ class Interlaced:
     sign: int
 
 
-def interlace(left: AnyModel, right: AnyModel) -> bool:
-    """Whether the theorem says that both give the same functions; False says nothing.
+def sets_of(model: AnyModel) -> dict[str, object]:
+    """What theorems on networks say that it gives, by their names: another model that gives the
+    same is the same, None says nothing.
+    """
+    return {REPLACEMENT: simplest_network(model), INTERLACING: interlaced(model)}
+
+
+def interlaced(model: AnyModel) -> Interlaced | None:
+    """The functions of a machine of the theorem, None of any other.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
     >>> star, chain = "#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2"
-    >>> interlace(*(of_network(network_of(text)) for text in (star, chain)))
+    >>> one, other = (interlaced(of_network(network_of(text))) for text in (star, chain))
+    >>> one == other
     True
     """
-    one = interlaced(left)
-    return one is not None and one == interlaced(right)
-
-
-def interlaced(model: AnyModel) -> Interlaced | None:
-    """The functions of a machine of the theorem, None of any other."""
     if not isinstance(model, Model) or model.network is None or model.powers.weights:
         return None
     network, there = model.network, tuple(map(bool, model.numerator_terms))

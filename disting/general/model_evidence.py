@@ -23,7 +23,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
-from disting.general.which_models import way
+from disting.general.which_models import ways_again
 from disting.model.question import Domain, Settings
 from disting.questions.same.exact import by_labels
 
@@ -124,8 +124,7 @@ def _has(
         return True
     if domain is Domain.POSITIVE and listed.having(given, values, other):
         return True
-    one = way(given, other, domain)
-    return bool(one and one.having(values))
+    return any(one.having(values) for one in ways_again(given, other, domain))
 
 
 def _has_none(
@@ -136,8 +135,7 @@ def _has_none(
             return True
         if listed.lacking(given, values, other):
             return True
-    one = way(given, other, domain)
-    return bool(one and one.lacking(values))
+    return any(one.lacking(values) for one in ways_again(given, other, domain))
 
 
 def constants_finding(left: AnyModel, right: AnyModel) -> Finding:

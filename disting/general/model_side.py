@@ -7,7 +7,6 @@ renaming makes identical stays identical, and points with and without an admissi
 looked for otherwise (see `admissible`).
 """
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -21,20 +20,27 @@ from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import AtInverse, Constants, OverDomain, Replaced
+from disting.evidence.general import AtInverse, Constants, OfPart, OverDomain, Replaced
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.general import model_evidence
-from disting.general.any_model import as_chain, cells_of, is_renamed, same, unnamed
+from disting.general.any_model import (
+    LEFT,
+    RIGHT,
+    as_chain,
+    as_network,
+    cells_of,
+    is_renamed,
+    same,
+    unnamed,
+    with_names,
+)
 from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
 from disting.general.exponents import determined
-from disting.general.forms import (
-    ADMISSIBLY,
-    confirms_forms,
-)
-from disting.general.interlacing import interlace
+from disting.general.forms import ADMISSIBLY, confirms_forms
+from disting.general.interlacing import sets_of
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import constants_finding
 from disting.general.model_inclusions import (
@@ -45,7 +51,7 @@ from disting.general.model_inclusions import (
 )
 from disting.general.network_model import NetworkModel, behaviour_of
 from disting.general.readings import readings, told
-from disting.general.replacement import replaceable, same_in_units
+from disting.general.replacement import same_in_units
 from disting.model.chain import Chain, Premise
 from disting.model.presentation import GENERIC
 from disting.model.question import Domain, Question, Relation
@@ -54,10 +60,7 @@ from disting.questions.same.exact import resting_on_ranks
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
-NETWORKS = {GEARS: same_in_units, REPLACEMENT: replaceable, INTERLACING: interlace}
-LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
-
-
+ON_NETWORKS = (GEARS, REPLACEMENT, INTERLACING)  # theorems
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
 Pair = tuple["ComparedModel", "ComparedModel"]
 
@@ -91,6 +94,11 @@ class ComparedModel(Side[AnyModel]):
     def in_s(self) -> bool:
         """Whether powers of v are those of s, or of its root."""
         return not self.subject.powers.weights
+
+    @cached_property
+    def asked_about(self) -> tuple[AnyModel, AnyModel]:
+        """The network that it is, on the left and on the right of a question."""
+        return as_network(self.subject, LEFT), as_network(self.subject, RIGHT)
 
     @cached_property
     def other_orders(self) -> tuple[tuple[tuple[str, ...], Renaming | None], ...]:
@@ -133,6 +141,11 @@ class ComparedModel(Side[AnyModel]):
         """
         written = self.is_writable and other.is_writable
         return written and is_renamed(self.subject, other.subject, renaming)
+
+    @cached_property
+    def gives(self) -> dict[str, object]:
+        """What theorems on networks say that it gives: others that give the same are the same."""
+        return sets_of(self.subject) if self.is_writable else {}
 
     @cached_property
     def is_writable(self) -> bool:
@@ -179,13 +192,13 @@ class ComparedModel(Side[AnyModel]):
         one_order = Carrier.CONDITION not in evidence.claim.carriers and self.has_other_readings
         if one_order and not any(evidence.shows(d) is Relation.INDISTINGUISHABLE for d in Domain):
             return False
-        if isinstance(evidence, Theorem) and evidence.name in NETWORKS:
+        if isinstance(evidence, Theorem) and evidence.name in ON_NETWORKS:
             return _applies(evidence.name, self, other)
-        if isinstance(evidence, Replaced | AtInverse):
+        if isinstance(evidence, Replaced | AtInverse | OfPart):
             return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = self.subject, other.subject
         if isinstance(evidence, OverDomain):
-            pair = _unnamed(self, other, Domain(evidence.domain))
+            pair = _unnamed(self, other)
         return model_evidence.confirms_models(evidence, *pair, representation)
 
     def exact_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
@@ -214,11 +227,9 @@ class ComparedModel(Side[AnyModel]):
             return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
         if not (self.is_writable and other.is_writable):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other, domain), self.settings)
+        found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
         found = self._in_every_order(other, found)
-        names = {LEFT: self.name, RIGHT: other.name}
-        note = re.sub(f"{LEFT}|{RIGHT}", lambda seen: names[seen[0]], found.note)
-        return replace(found, note=note)
+        return replace(found, note=with_names(found.note, self.name, other.name))
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
         """Both statements on two models of unequal rank."""
@@ -242,41 +253,28 @@ class ComparedModel(Side[AnyModel]):
     @classmethod
     def prepare_admissible(cls, pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
-        left = [
-            (a, b)
-            for a, b in pairs
-            if not (_renamed(a, b) or _theorem(a, b, domain)) and a.is_writable and b.is_writable
-        ]
-        ask(ADMISSIBLY[domain], [_unnamed(a, b, domain) for a, b in left])
+        left = [pair for pair in pairs if _is_asked(*pair, domain)]
+        ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in left])
 
 
 def positive_question(
     left: ComparedModel, right: ComparedModel
 ) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
     """What is asked where positive equivalents are looked for, as an engine keeps the answer."""
-    return ADMISSIBLY[Domain.POSITIVE], _unnamed(left, right, Domain.POSITIVE)
+    return ADMISSIBLY[Domain.POSITIVE], _unnamed(left, right)
 
 
 def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
     return unnamed(left.subject), unnamed(right.subject)
 
 
-def _unnamed(
-    left: ComparedModel, right: ComparedModel, domain: Domain
-) -> tuple[AnyModel, AnyModel]:
-    """Both as they are asked about: over positive parameters as the networks that they are."""
-    found = unnamed(left.subject, LEFT), unnamed(right.subject, RIGHT)
-    for model, side in zip(found, (left, right), strict=True):
-        network = side.subject.network
-        if domain is Domain.POSITIVE and network is not None:
-            object.__setattr__(model, "network", replace(network, name="network"))
-    return found
+def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
+    """Both as they are asked about over real and positive parameters."""
+    return left.asked_about[0], right.asked_about[1]
 
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
-    """Whether the exact decision is computed: ranks and degrees are equal, something varies, the
-    terms are not too many, no theorem tells it.
-    """
+    """Whether the exact decision is computed: it is not known from ranks, degrees or theorems."""
     one, other = left.transfer_profile, right.transfer_profile
     alike = one.rank == other.rank > 0 and one.degrees == other.degrees
     written = alike and left.is_writable and right.is_writable
@@ -284,17 +282,19 @@ def comparable(left: ComparedModel, right: ComparedModel) -> bool:
 
 
 def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> str:
-    """The theorem by which both are networks that give the same functions over a domain, special
-    ones aside; "" of none.
-    """
-    shown = (n for n in NETWORKS if Theorem(n).shows(domain) is Relation.INDISTINGUISHABLE)
+    """The theorem by which networks give the same functions over a domain; "" of none."""
+    shown = (n for n in ON_NETWORKS if Theorem(n).shows(domain) is Relation.INDISTINGUISHABLE)
     return next((name for name in shown if _applies(name, left, right)), "")
 
 
+def _is_asked(left: ComparedModel, right: ComparedModel, domain: Domain) -> bool:
+    renamed = left.colouring.fingerprint == right.colouring.fingerprint
+    written = left.is_writable and right.is_writable
+    return written and not renamed and not _theorem(left, right, domain)
+
+
 def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:
-    written = name == GEARS or (left.is_writable and right.is_writable)
-    return written and NETWORKS[name](left.subject, right.subject)
-
-
-def _renamed(left: ComparedModel, right: ComparedModel) -> bool:
-    return left.colouring.fingerprint == right.colouring.fingerprint
+    if name == GEARS:
+        return same_in_units(left.subject, right.subject)
+    one = left.gives.get(name)
+    return one is not None and one == right.gives.get(name)

@@ -40,18 +40,21 @@ class TooMuch(Exception):
 @dataclass(frozen=True, slots=True)
 class Effort:
     """How far equivalents are looked for: `points` of either model, of `listed` of which all
-    equivalents are listed, so many `orders` of the unknowns, and in each step so many `terms` of
+    equivalents are listed, so many `orders` of the unknowns, combinations of equations by products
+    of this `degree`, so many `parts` of either network, and in each step so many `terms` of
     polynomials that are factored or put into each other (None: without end).
     """
 
     points: int = 40
     listed: int = 24
     orders: int = 24
+    degree: int = 2
+    parts: int = 12
     terms: int | None = None
 
 
 THOROUGH = Effort()
-BRIEF = Effort(points=10, listed=3, orders=6, terms=5_000)
+BRIEF = Effort(points=10, listed=3, orders=6, degree=1, parts=0, terms=5_000)
 """So far searches a shipped family that has thousands of pairs."""
 
 

@@ -16,7 +16,7 @@ from disting.general.cases import orders, searched
 from disting.general.counts import at_roots, number_of_roots
 from disting.general.elimination import Case
 from disting.general.matrix_model import AnyModel
-from disting.general.orthant import THOROUGH, Effort, Orthant, TooMuch
+from disting.general.orthant import BRIEF, THOROUGH, Effort, Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases
 from disting.general.sections import Section, cover, held, sections
 from disting.model.question import Domain
@@ -116,6 +116,16 @@ def way(given: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THORO
     ring.begin()
     left = _with_roots(best[0])
     return Way(given, other, left, _covering(left))
+
+
+def ways_again(given: AnyModel, other: AnyModel, domain: Domain) -> Iterator[Way]:
+    """Yield what is known one way by each effort: what one of them found the other one may not, as
+    it solves in another order.
+    """
+    for effort in (BRIEF, THOROUGH):
+        found = way(given, other, domain, effort)
+        if found:
+            yield found
 
 
 def _with_roots(parted: Parted) -> Parted:

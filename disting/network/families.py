@@ -31,6 +31,7 @@ from disting.model.chain import Sensor
 from disting.network.expansion import transfer_functions
 from disting.network.network import Network
 from disting.network.notation import network_of
+from disting.network.outflows import reached
 
 Edge = tuple[int, int]
 DAMPED = "-damped"
@@ -245,18 +246,11 @@ def compartments(count: int) -> list[str]:
                 )
                 key = (tuple(form[0]), *form[1:])
                 back = [(j, i) for i, j in flows]
-                ahead, behind = _reached(enter, flows), _reached(leave, back)
+                ahead, behind = (reached({i}, f, {0}) for i, f in ((enter, flows), (leave, back)))
                 if key not in found and len(ahead) == len(behind) == count:
                     told = ", ".join(f"{i}>{j}" for i, j in key[0])
                     found[key] = f"{told}; in {key[1]}; out {key[2]}"
     return list(found.values())
-
-
-def _reached(start: int, flows: Sequence[Edge]) -> set[int]:
-    found = {start}
-    while more := {j for i, j in flows if i in found} - found - {0}:
-        found |= more
-    return found
 
 
 def _families() -> Iterator[NetworkFamily]:

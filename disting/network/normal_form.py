@@ -50,6 +50,7 @@ from functools import lru_cache
 
 from disting.network.graph import joined
 from disting.network.network import Network
+from disting.network.outflows import simplest_outflows
 
 REMEMBERED = 4096  # networks
 Power = tuple[int, str]
@@ -173,7 +174,8 @@ def _of_compartments(network: Network) -> NormalForm:
     # what flows to compartments that are not seen is lost
     lost = {i for i, j in flows if j not in nodes}
     flows = {(i, j) for i, j in flows if j in nodes}
-    for i in lost:
+    enter, leave = ({p.plus for p in ports} for ports in (network.inputs, network.outputs))
+    for i in simplest_outflows(flows, lost, enter, leave):
         leaky[i] = True
     while True:
         at = next((i for i in sorted(nodes - kept) if _hangs(i, flows)), None)

@@ -9,7 +9,7 @@ exchanged.
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import islice, pairwise, permutations, product
 from typing import Any
@@ -45,7 +45,7 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     if whole is not None:
         port = plain.inputs[0]
         form = NormalForm(((port.minus, port.plus, whole),), ())
-    ends, edges, nodes = numbered(plain, form)
+    ends, edges, nodes = min(numbered(plain, f) for f in _ways_round(plain, form))
     made = _Drawing(
         plain.sort, 1 + max(i for pair in (*ends, *(p for p, _ in edges)) for i in pair)
     )
@@ -57,6 +57,13 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     is_one = plain.sort is Sort.CIRCUIT and len(texts) == 1 and inputs == outputs
     name = texts[0] if is_one else written(made.elements, inputs, outputs)
     return Network(tuple(made.elements), inputs, outputs, plain.order, name)
+
+
+def _ways_round(network: Network, form: NormalForm) -> Iterator[NormalForm]:
+    """Yield it, and with all flows turned round where that gives the same (see `outflows`)."""
+    yield form
+    if network.is_directed and network.inputs == network.outputs and network.shape == (1, 1):
+        yield replace(form, edges=tuple(sorted((b, a, label) for a, b, label in form.edges)))
 
 
 def written(elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]) -> str:

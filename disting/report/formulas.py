@@ -7,6 +7,7 @@ out in k, d and s, coefficients of 4 masses have a hundred terms and more; in κ
 and nothing is lost.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -27,9 +28,9 @@ from disting.algebra.symbols import (
 )
 from disting.behaviour.expanded import expanded
 from disting.equivalence import explicit_map
+from disting.equivalence.duplicates import Assignment
 from disting.equivalence.reached import Piece
 from disting.equivalence.theorems import images
-from disting.evidence.general import Formula
 from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of, tree
 from disting.general.model import Model
@@ -149,6 +150,10 @@ def _images(given: Chain) -> frozenset[Chain]:
     return frozenset(image.chain for image in images(given, dict.fromkeys(given.parameters, 1.0)))
 
 
+ROOT = re.compile(r"\((.+) \+ sqrt\((.+)\)\)/\((.+)\)")
+"""The root of a quadratic equation, as it is written."""
+
+
 @dataclass(frozen=True, slots=True)
 class Values:
     """Values of another model in those of this one: where these `where` are positive an equation
@@ -160,13 +165,14 @@ class Values:
     root: tuple[Markup, ...]
 
 
-def written_values(found: Formula) -> Values:
-    """A formula for equivalents, typeset."""
-    _, where, values, root = found
-    equations = (equation(primed(name), _typed(text)) for name, text in values)
+def written_values(found: Assignment) -> Values:
+    """Formulas for the values of another model, typeset."""
+    root = found.root
+    steps = (equation(symbol(name), _typed(text)) for name, text in found.steps)
+    equations = (equation(primed(name), _typed(text)) for name, text in found.values)
     return Values(
-        tuple(math(_typed(text)) for text in where),
-        tuple(equations),
+        tuple(math(_typed(text)) for text in found.where),
+        (*steps, *equations),
         (math(symbol(root[0])), *(math(_typed(text)) for text in root[1:])) if root else (),
     )
 
@@ -175,6 +181,9 @@ def _typed(text: str) -> str:
     """A rational function, factorised; a text that is none, such as infinity, as it is."""
     if text.endswith("infinity"):
         return f"<mi>{text.replace('infinity', '∞')}</mi>"
+    if root := ROOT.fullmatch(text):
+        first, inside, below = map(_typed, root.groups())
+        return f"<mfrac><mrow>{first}<mo>+</mo><msqrt>{inside}</msqrt></mrow>{below}</mfrac>"
     found = tree(text)
     ring = symbols(sorted({*symbols_of(found)}) or ["s"])
     return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(found))

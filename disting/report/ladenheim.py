@@ -137,7 +137,9 @@ def _same(shown: Listing, one: Member, other: Member) -> bool:
     formulas = [duplicate(found, models, a - 1, b - 1).formulas for a, b in ways]
     if not all(formulas):
         return False
-    both = tuple((side, *f[1:]) for side, of in zip(BOTH, formulas, strict=True) for f in of)
+    if any(f.steps for of in formulas for f in of):
+        return False
+    both = tuple((side, *f[1:4]) for side, of in zip(BOTH, formulas, strict=True) for f in of)
     return Explicit(Domain.POSITIVE, both).without_exception(Domain.POSITIVE)
 
 

@@ -30,7 +30,6 @@ from disting.verdict.meaning import shown as shows
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
-MOST_VALUES = 6  # parameters of a model whose values are written as formulas of another's
 MOST_TWINS = 12  # of which formulas are written
 FUNCTIONS, LETTERS = {Sort.CIRCUIT: "impedance"}, {Sort.CIRCUIT: "Z"}
 SEEN = {
@@ -168,12 +167,12 @@ def _parts(shown: Listing, number: int, other: int) -> Iterator[Part]:
 
 
 def _values(shown: Listing, number: int, other: int) -> tuple[Values, ...]:
-    """Formulas for the values of another model, where both are small and it has finitely many."""
+    """Formulas for the values of another model, where it has finitely many."""
     found, card = shown.found, shown.cards[other - 1]
     size = len(card.model.parameters)
     group = shown.cards[number - 1].groups[0]
     members = shown.domains[0].groups[group - 1] if group else ()
-    if size > MOST_VALUES or card.known.local.rank < size or len(members) > MOST_TWINS:
+    if card.known.local.rank < size or len(members) > MOST_TWINS:
         return ()
     known = duplicate(found.decisions[View.POSITIVE], found.family, number - 1, other - 1)
     return tuple(map(written_values, known.formulas))

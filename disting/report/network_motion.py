@@ -14,7 +14,8 @@ from math import pi
 from disting.evidence.positive import Share
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Sensor
-from disting.network.element import Sort
+from disting.network.element import Element, Sort
+from disting.network.gears import ungeared, unknown_ratios
 from disting.network.graph import edges
 from disting.network.network import Network
 from disting.report.domains import one_sided
@@ -35,6 +36,8 @@ GROUNDS = ((-0.4, 0.65), (0.4, 0.65), (0.0, 0.75), (0.65, 0.35), (-0.65, 0.35), 
 Place = tuple[float, float]
 """Column and row."""
 Line = tuple[Place, Place]
+Joint = tuple[int, int] | tuple[int, int, float | str]
+"""Both nodes, 0 for the ground, and the ratio of a gear: a number, or a name."""
 
 
 def page_of_motion(shown: Listing) -> str:
@@ -48,16 +51,20 @@ def page_of_motion(shown: Listing) -> str:
 
 
 def machine_of(model: AnyModel) -> Network | None:
-    """The machine that a model is, one force, one sensor, a mass at every node, a spring, no gears;
-    None of any other model.
+    """The machine that a model is, one force, one sensor, a mass at every node, a spring, no gears
+    but those that are units; None of any other model.
     """
     network = model.network
     if network is None or network.sort is not Sort.MACHINE or network.shape != (1, 1):
         return None
     letters = {e.letter for e in network.elements}
     masses = [e for e in network.elements if e.letter == "m"]
-    plain = {"m", "k"} <= letters <= set("mkd") and not any(e.ratio for e in network.elements)
-    return network if plain and len(masses) == len(network.nodes) else None
+    if not {"m", "k"} <= letters <= set("mkd") or len(masses) != len(network.nodes):
+        return None
+    # of a gear that is written from both of its sides each side would have a joint
+    ways = {(_ends(e), e.nodes if e.ratio else (), e.ratio) for e in network.elements}
+    known = ungeared(network) is not None and len(ways) == len({ends for ends, *_ in ways})
+    return network if known else None
 
 
 def motion_page_of(shown: Listing, *, site: bool = False) -> str:
@@ -104,39 +111,45 @@ def _able(found: JudgedList) -> list[tuple[int, int, Share]]:
 
 
 def start_values_of(machine: Network) -> tuple[float, ...]:
-    """Positive values as they are shown first, in the order of the page [kg, N/m, N s/m]."""
-    joints = _joints(machine)
+    """Positive values as they are shown first, in the order of the page [kg, N/m, N s/m, 1]."""
     sizes = {kind: list(islice(cycle(of), len(machine.elements))) for kind, of in START.items()}
-    return tuple(sizes[letter][_at(machine, joints, ends)] for _, letter, ends in _listed(machine))
+    return tuple(sizes[kind][place] for _, kind, place in _listed(machine))
 
 
-def _listed(machine: Network) -> list[tuple[str, str, tuple[int, ...]]]:
-    """Name, letter and nodes of the elements: masses, springs, dampers."""
-    rank = "mkd".index
+def _listed(machine: Network) -> list[tuple[str, str, int]]:
+    """Name, kind and place of the values: masses, springs, dampers, and "i", ratios."""
+    rank, joints = "mkd".index, list(_joints(machine))
     ordered = sorted(machine.elements, key=lambda e: rank(e.letter))
-    return [(e.value, e.letter, e.nodes) for e in ordered]
+    places = [
+        machine.nodes.index(e.nodes[0]) if e.kind.ends == 1 else joints.index(_ends(e))
+        for e in ordered
+    ]
+    listed = [(e.value, e.letter, at) for e, at in zip(ordered, places, strict=True)]
+    return listed + [(name, "i", at) for at, name in enumerate(unknown_ratios(machine))]
 
 
-def _joints(machine: Network) -> list[tuple[int, ...]]:
-    """Pairs of nodes that are joined, each once, by place of a mass, 0 for the ground."""
-    ends = [tuple(sorted(e.nodes)) for e in machine.elements if e.kind.ends == 2]
-    return list(dict.fromkeys(ends))
+def _joints(machine: Network) -> dict[frozenset[int], Joint]:
+    """The joints, each once, by their nodes."""
+    found = dict[frozenset[int], Joint]()
+    for e in machine.elements:
+        if e.kind.ends > 1:
+            (i, j), known = e.nodes if e.ratio else sorted(e.nodes), e.known_ratio
+            gear: Joint = (i, j, e.ratio if known is None else float(known))
+            found.setdefault(_ends(e), gear if e.ratio else (i, j))
+    return found
 
 
-def _at(machine: Network, joints: Sequence[tuple[int, ...]], ends: tuple[int, ...]) -> int:
-    """Number of a mass or a joint, from 0."""
-    if len(ends) == 1:
-        return machine.nodes.index(ends[0])
-    return joints.index(tuple(sorted(ends)))
+def _ends(e: Element) -> frozenset[int]:
+    return frozenset(e.nodes)
 
 
 def drawing_of(machine: Network) -> dict[str, object]:
     """What the page needs of a machine; nodes are numbered from 1 without gaps."""
     number = dict(zip((0, *machine.nodes), count(), strict=False))
-    joints, elements = _joints(machine), _listed(machine)
+    joints, values = _joints(machine), _listed(machine)
     placed = places(machine)
     left, above, right, below = MARGINS
-    joined, held = _joined(machine), [max(j) for j in joints if 0 in j]
+    joined, held = _joined(machine), [max(ends) for ends in joints if 0 in ends]
     grounds = [_ground(i, placed, joined) for i in held]
     x0, x1, y1 = (
         min(x for x, _ in (*placed.values(), *grounds)),
@@ -153,10 +166,10 @@ def drawing_of(machine: Network) -> dict[str, object]:
         "masses": len(machine.nodes),
         "damped": any(e.letter == "d" for e in machine.elements),
         "order": Sensor.ACCELERATION.order,  # what the page shows; verdicts are those of any
-        "joints": [[number[i] for i in joint] for joint in joints],
-        "kinds": [letter for _, letter, _ in elements],
-        "places": [_at(machine, joints, ends) for *_, ends in elements],
-        "names": [name for name, *_ in elements],
+        "joints": [[number[i], number[j], *gear] for (i, j, *gear) in joints.values()],
+        "kinds": [kind for _, kind, _ in values],
+        "places": [place for *_, place in values],
+        "names": [name for name, *_ in values],
         "act": [number[force.minus], number[force.plus]],
         "meas": [number[sensor.minus], number[sensor.plus]],
         "at": [drawn(placed[i]) for i in machine.nodes],

@@ -64,6 +64,28 @@ def test_all_sensors_are_simulated_and_fitted(tmp_path):
     assert f"{two} is the simplest that explains the data." in done.stdout
 
 
+def test_networks_of_a_file_are_named_by_file_and_name(tmp_path):
+    """In next, plan and simulate as in compare; what has no elements is refused."""
+    path = tmp_path / "own.json"
+    models = [{"name": "cell", "circuit": CELL[0]}, {"name": "twin", "circuit": "p(R1,R2-C1)"}]
+    models += [{"name": "ratio", "num": ["a"], "den": [1, "b"]}]
+    path.write_text(json.dumps({"models": models}), encoding="utf-8")
+    cell, twin, ratio = (f"{path}:{name}" for name in ("cell", "twin", "ratio"))
+    done = called("next", cell, twin)
+    assert done.returncode == 0 and "if it is cell:" in done.stdout
+    done = called("simulate", cell, *CELL[1:], "--csv", "-")
+    plain = called("simulate", *CELL, "--csv", "-")
+    assert done.returncode == 0 and responses(done.stdout)[1] == pytest.approx(
+        responses(plain.stdout)[1]
+    )
+    done = called("plan", cell, twin, "--set", CELL[2], "--noise", "0.01", "--band", "1..99")
+    assert "disting next" in done.stdout + done.stderr
+    done = called("next", ratio, cell)
+    assert done.returncode == 2 and "is given by formulas, not by its elements" in done.stderr
+    done = called("next", cell, "3:1")
+    assert done.returncode == 2 and "3:1 is a numbered chain" in done.stderr
+
+
 def test_a_tree_is_simulated_with_friction():
     done = called("simulate", TREE, "--set", VALUES, "--samples", "500", "--friction", "3=0.01")
     assert done.returncode == 0 and "# sensor: acceleration" in done.stdout

@@ -111,16 +111,18 @@ def fit_file(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def rows(fit_file):
-    return json.loads(called("plan", fit_file[0], "--json", "-").stdout)["rivals"]
+def rivals(fit_file):
+    """What is said of a fit, and the rivals in its file."""
+    path = fit_file[0].with_name("plan.json")
+    done = called("plan", fit_file[0], "--json", path)
+    return done, json.loads(path.read_text(encoding="utf-8"))["rivals"]
 
 
 def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answered(
-    fit_file, rows
+    fit_file, rivals
 ):
-    path, found = fit_file
+    (path, found), (done, rows) = fit_file, rivals
     assert [m.name for m in found.members] == ["2:1", "2:1+b1", "2:1+b2"]
-    done = called("plan", path)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("assumed: the machine is 2:1 with")
     first, second = done.stdout.split("the reverse: can data exclude")
@@ -140,8 +142,8 @@ def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answ
     }  # fmt: skip
 
 
-def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file, rows):
-    back, found = rows[0]["reverse"], fit_file[1]
+def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file, rivals):
+    back, found = rivals[1][0]["reverse"], fit_file[1]
     values = found.members[1].candidate.estimate.parameters
     assert back["parameters"] == values
     hertz = found.task.cost.measured.frequency

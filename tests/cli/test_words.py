@@ -167,7 +167,7 @@ def test_a_terminal_is_shown_progress_where_output_is_piped() -> None:
     ("line", "offered"),
     [
         ("disting comp", {"compare"}),
-        ("disting compare --do", {"--domain"}),
+        pytest.param("disting compare --do", {"--domain"}, marks=pytest.mark.slow),
         ("disting compare --domain ", {"complex", "real", "positive"}),
         ("disting verify 2:1 2:", {"2:1", "2:2", "2:3"}),
     ],

@@ -153,7 +153,7 @@ def with_friction():
 def test_a_lead_that_does_not_explain_the_data_is_none(data):
     """A mass more fits each of them better, at most by a factor of four in J."""
     measured = data()
-    found = select(measured, [Chain(1, damped=False), ONE, DRIVE])
+    found = select(measured, [Chain(1, damped=False), DRIVE])
     told(measured, found)
     said = " ".join(suspicions(found))
     assert found.readings == () and "is the loop closed" not in said
@@ -172,7 +172,7 @@ def test_gains_in_db_are_named_where_a_gain_has_no_unit():
     data = noisy(level * np.exp(1j * np.angle(EXACT)))
     words = "with gains in dB (--unit magnitude=dB)"
     for note in ((), (f"column 2 {ASSUMED_LINEAR}",)):
-        found = select(data.noted(*note), [ONE, DRIVE])
+        found = select(data.noted(*note), [DRIVE])
         assert (words in [r.words for r in found.readings]) == bool(note)
 
 

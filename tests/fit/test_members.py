@@ -12,6 +12,7 @@ from hypothesis import given, settings, strategies as st
 
 from disting.fit.judge.admissible import Rule, undetermined
 from disting.fit.judge.alternatives import limits_of
+from disting.fit.judge.candidate import witnessed
 from disting.fit.judge.members import members, twins
 from disting.fit.judge.practical import Thresholds
 from disting.fit.results.export import predicted
@@ -96,9 +97,10 @@ def selection():
 def test_each_member_has_its_own_twins_in_whatever_order_workers_finish(selection):
     """The first one takes longest, so its twins come last."""
     chosen = sorted(selection.candidates, key=lambda c: -c.chain.n_masses)
+    known = witnessed([c.estimate for c in chosen], selection.task, None)
     with ThreadPoolExecutor(len(chosen)) as pool:
         among, alone = (
-            members(chosen, selection.task, None, {}, executor) for executor in (pool, None)
+            members(chosen, selection.task, None, known, {}, executor) for executor in (pool, None)
         )
     assert among == alone and {t.chain.n_masses for t in among[0].twins} == {3}
 

@@ -53,7 +53,7 @@ def test_best_fit_of_the_rival_is_that_of_another_optimiser(planned):
 def test_planned_power_is_had(planned):
     assert planned.power == pytest.approx(0.95, abs=1e-6)
     draw, exact = np.random.default_rng(1), frequency_response(MODEL, VALUES, OMEGA)
-    limit, count, excluded = chi2.isf(LEVEL, planned.surplus), 150, 0
+    limit, count, excluded = chi2.isf(LEVEL, planned.surplus), 80, 0
     for _ in range(count):
         error = draw.normal(size=len(OMEGA)) + 1j * draw.normal(size=len(OMEGA))
         measured = FrequencyResponse(
@@ -129,13 +129,13 @@ def test_planned_power_of_two_sensors_is_had():
     assert found.power == pytest.approx(0.95, abs=1e-6)
     draw, limit, excluded = np.random.default_rng(5), chi2.isf(LEVEL, found.surplus), 0
     parts = [part.measured for part in found.rival.cost.parts]
-    for _ in range(100):
+    for _ in range(60):
         noise = draw.normal(size=(2, len(OMEGA), 2)) @ [1, 1j]
         seen = [
             replace(m, G=m.G * (1 + found.rival.rho * e)) for m, e in zip(parts, noise, strict=True)
         ]
         excluded += gain(found.rival, *seen) > limit
-    assert excluded >= 87  # of 95 expected, 3.7 standard deviations
+    assert excluded >= 51  # of 57 expected, 3.6 standard deviations
     with pytest.raises(InputError, match="at the planned lines"):
         gain(found.rival, parts[0])
 

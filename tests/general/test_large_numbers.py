@@ -41,7 +41,7 @@ numbers = st.integers(1, 5)
 decimals = st.decimals("0.001", "999.999", places=3)
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(st.sampled_from(PAIRS), numbers, numbers, decimals, st.integers(3, 12))
 def test_units_change_no_verdict(pair, a, b, scale, power):
     unit = Fraction(scale) * 10**power

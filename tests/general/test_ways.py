@@ -18,17 +18,20 @@ from disting.errors import InputError
 from disting.evidence.general import Explicit
 from disting.general.admissible import points
 from disting.general.alternatives import alternatives
+from disting.general.any_model import of_network
 from disting.general.between import path
 from disting.general.cases import Search
 from disting.general.elimination import Case
+from disting.general.forms import over_positive
 from disting.general.formulas import fit, is_explicit
 from disting.general.model import Model
-from disting.general.model_evidence import confirms
-from disting.general.orthant import Effort, Orthant, value_at
+from disting.general.model_evidence import confirms, confirms_models
+from disting.general.orthant import BRIEF, Effort, Orthant, value_at
 from disting.general.robust import Parted
 from disting.general.sections import held, sections
 from disting.general.which_models import Way, way
-from disting.model.question import Domain
+from disting.model.question import Domain, Settings
+from disting.network.notation import network_of
 
 EDGES = [*((i, j) for i in (1, 2, 3) for j in (1, 2, 3) if i != j), (1, 0), (2, 0), (3, 0)]
 
@@ -440,3 +443,19 @@ def test_a_small_effort_ends_a_search_and_says_nothing():
     assert way(left, right, Domain.POSITIVE, Effort(orders=0)) is None
     enough = way(left, right, Domain.POSITIVE, Effort(terms=100_000))
     assert (enough.covering, enough.parted.sections) == (every.covering, every.parted.sections)
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [
+        ("1>0, 1>2, 2>3, 3>1; in 1; out 3", "1>0, 1>2, 2>1, 2>3, 3>1; in 1; out 3"),
+        ("1>0, 1>2, 2>1, 2>3, 3>1; in 3; out 1", "1>0, 1>2, 2>1, 3>1, 3>2; in 3; out 2"),
+    ],
+)
+def test_what_a_brief_search_finds_is_confirmed(left, right):
+    """A thorough one solves in another order, and finds less of these."""
+    pair = [of_network(network_of(text)) for text in (left, right)]
+    found = over_positive(*pair, Settings(), BRIEF)
+    assert found.evidence is not None and confirms_models(found.evidence, *pair)
+    assert confirms_models(found.turned.evidence, *pair[::-1])
+    assert found.turned.turned == found

@@ -90,9 +90,9 @@ def test_a_page_is_a_module_a_template_and_a_row(tmp_path):
             "report/templates/largest.html": "<title>Largest</title><p>{{ name }}</p>",
         },
     )
-    said(folder, "-m", "disting", "report", "2", "--undamped", "--out", "site")
+    said(folder, "-m", "disting", "report", "1", "--undamped", "--out", "site")
     page = (folder / "site" / "largest.html").read_text(encoding="utf-8")
-    assert page == "<title>Largest</title><p>chains-2-undamped</p>"
+    assert page == "<title>Largest</title><p>chains-1-undamped</p>"
     start = (folder / "site" / "index.html").read_text(encoding="utf-8")
     assert '<a href="largest.html">The largest catalogue</a>' in start
     assert "The largest catalogue" in (folder / "site" / "search.js").read_text(encoding="utf-8")

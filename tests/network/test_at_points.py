@@ -7,7 +7,7 @@ import random
 from dataclasses import replace
 
 import pytest
-from hypothesis import assume, given, strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from disting import Query, View, compare
 from disting.algebra.certainty import prime
@@ -69,6 +69,7 @@ def agrees(model, draw):
     return True
 
 
+@settings(max_examples=40)
 @given(descriptions(), st.integers(0, 1000))
 def test_random_networks(description, seed) -> None:
     network = built(description)

@@ -150,7 +150,10 @@ def writes_as_an_entry(network):
     )
 
 
-@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.slow] * n.endswith("s-4")) for n in FAMILIES],  # trees-4
+)
 def test_networks_of_families_are_read_back(name):
     for network in family_of(name).networks[::7]:
         again = network_of(network.name)

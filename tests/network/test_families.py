@@ -195,7 +195,7 @@ def same_classes(listed, expected):
     [
         ("circuits-4", "RLC", "LC", 4),
         ("cells-4", "RCW", "", 4),
-        ("circuits-5", "RLC", "LC", 5),
+        pytest.param("circuits-5", "RLC", "LC", 5, marks=pytest.mark.slow),
     ],
 )
 def test_circuits_are_all_matroids_without_like_elements_side_by_side(name, kinds, reactive, most):

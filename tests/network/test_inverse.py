@@ -53,14 +53,15 @@ def test_without_a_counterpart_there_is_none(text):
     assert at_inverse(network_of(text)) is None
 
 
+@pytest.fixture(scope="module")
 def asked():
     """Both models, and what the pair with 1/s for s says of them."""
     left, right = (of_network(network_of(text)) for text in (LEFT, RIGHT))
     return left, right, by_inverse(left, right, "disting")
 
 
-def test_the_other_pair_says_the_same():
-    _, _, found = asked()
+def test_the_other_pair_says_the_same(asked):
+    _, _, found = asked
     assert found.outcome is Outcome.SOMETIMES and isinstance(found.evidence, AtInverse)
     assert "With 1/s for s" in found.evidence.sentence("A", "B")
     assert Finding.from_json(found.to_json(), rule=ADMISSIBLE) == found
@@ -74,8 +75,8 @@ def test_circuits_with_inductors_are_told_as_those_with_capacitors():
     assert compare(*pair).relation.value == "sometimes"
 
 
-def test_its_evidence_is_checked():
-    left, right, found = asked()
+def test_its_evidence_is_checked(asked):
+    left, right, found = asked
     evidence = found.evidence
     assert confirms_forms(evidence, left, right, "tf")
     for forged in (replace(evidence, left=evidence.right), replace(evidence, right="R1")):

@@ -164,7 +164,7 @@ def test_verdicts_on_five_elements_are_those_of_singular():
     agree_with_singular(pairs_of(phases, 200), 150)
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=15)
 @given(st.sampled_from([t for t in TEXTS if t.count("P") > 1]), st.randoms(use_true_random=False))
 def test_no_verdict_depends_on_names_and_order(text, draw):
     network = network_of(text)

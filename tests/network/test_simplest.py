@@ -55,8 +55,10 @@ def isomorphic(left, right):
         ways = [list(order) for order in permutations(plain[1])]
         ways += [[pair[::-1] for pair in way] for way in ways]
     same = {"node_match": lambda a, b: a == b, "edge_match": lambda a, b: a == b}
-    mine = graph(left, plain[0])
-    return any(nx.is_isomorphic(mine, graph(right, way), **same) for way in ways)
+    graphs = [graph(right, way) for way in ways]
+    if right.is_directed and right.inputs == right.outputs:
+        graphs += [g.reverse() for g in graphs]  # of one compartment all flows can be turned round
+    return any(nx.is_isomorphic(graph(left, plain[0]), g, **same) for g in graphs)
 
 
 def has_one_form(left, right):

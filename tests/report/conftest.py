@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-CHROMIUM = next(
-    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
-)
+# without windows, where it is there: the same engine at four fifths of the work
+PROGRAMS = "chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"
+CHROMIUM = next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
 @pytest.fixture(scope="session")
@@ -41,10 +41,11 @@ def window(browser) -> Iterator[object]:  # type: ignore[no-untyped-def]
 
 @pytest.fixture
 def tab(window) -> object:  # type: ignore[no-untyped-def]
-    """The tab as it was when it was opened: empty, light, on a desk."""
-    window.goto("about:blank")
+    """The tab as it was when it was opened: empty, light, on a desk; nothing moves by itself."""
+    if window.url != "about:blank":
+        window.goto("about:blank")
     window.set_viewport_size({"width": 1280, "height": 800})
-    window.emulate_media(media="null", color_scheme="null", reduced_motion="null")
+    window.emulate_media(media="null", color_scheme="null", reduced_motion="reduce")
     window.mouse.move(0, 0)
     return window
 

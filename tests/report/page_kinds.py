@@ -8,7 +8,7 @@ from disting import Engine
 from disting.catalogs import catalog
 from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.network_files import recall
-from disting.catalogs.sizes_files import sizes_catalog
+from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
 from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
 from disting.fit.results.selection import Selection
@@ -16,6 +16,7 @@ from disting.fit.search.candidates import figure_1
 from disting.fit.search.joint import Further
 from disting.fit.search.setup import Setup
 from disting.fit.select import select
+from disting.general.model_files import ModelList
 from disting.measurement import FrequencyResponse
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
@@ -53,7 +54,7 @@ def kinds(masses: int) -> dict[str, str]:
         "list of models": "list-vessels.html#1-2",
         "list of models, a model": "models/list-vessels/1.html",
         "family of networks": "list-circuits-4.html#10-26",
-        "family of networks, a model": "models/list-circuits-4/45.html",
+        "family of networks, a model": "models/list-circuits-4/27.html",
         "list of models alone, hostile": "alone/list-hostile.html",
         "model": f"models/{masses}-damped/1.html",
         "sizes": "sizes-damped.html",
@@ -74,22 +75,26 @@ def kinds(masses: int) -> dict[str, str]:
 
 
 def write_all(folder: Path, masses: int, *, whole: bool) -> None:
-    """Write a site of chains of so many masses, and pages without one in `alone`; `whole`: fits with
-    all their figures and all their candidates.
+    """Write a site of chains of so many masses, and pages without one in `alone`; `whole`: all
+    models of larger lists, fits with all their figures and all their candidates.
     """
     for part in SHIPPED:
         shutil.copytree(REPORTS / part, folder / part)
+    sizes = sizes_catalog(damped=True)
     write_report(
         [catalog(masses, damped=True)],
         folder,
         [damper_catalog(masses, damped=True)],
         parser(),
-        across=[sizes_catalog(damped=True)],
+        across=[sizes if whole else SizesCatalog(sizes.catalogs[:3], sizes.records)],
     )
     engine = Engine()
     write_model_list(Listing(judged(of(MODELS), engine), "Two vessels", "list-vessels"), folder)
     recall("circuits-4", engine)  # as `disting report circuits-4` does
-    family = judged(list_of("circuits-4"), engine)
+    circuits = list_of("circuits-4")
+    models = circuits.models
+    shown = circuits if whole else ModelList((*models[:26], models[44]))  # the last has an equal
+    family = judged(shown, engine)
     write_model_list(Listing(family, "Circuits", "list-circuits-4"), folder)
     write_model_list(
         Listing(judged(hostile(), engine), "Hostile", "list-hostile"), folder / "alone"

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.linalg import null_space
 from scipy.signal import lsim
 
 from disting.general.any_model import of_network
@@ -37,6 +38,7 @@ TEXTS = {
     "loop": "1=2=3=1; F1; S1",
     "held": "1=2=3=1, 2=#, 3-#; F1:2; S3",
 }
+GEARED = ["1=2*5/2=3; F1; S3", "1~2*i, 1=3*j, 3~4*i; F2; S4", "1=2*i=3=#; F1; S1"]
 FAMILIES = ("machines-2", "machines-2-damped", "machines-3", "trees-4")
 PAGE = "list-loops-motion.html"
 
@@ -64,9 +66,10 @@ def data_of(page: str):
 
 
 def drawn(machine, values):
-    """Values under their names, as the page lists them: masses, springs, dampers."""
+    """Values under their names, as the page lists them: masses, springs, dampers, ratios."""
     rank = "mkd".index
     names = [e.value for e in sorted(machine.elements, key=lambda e: rank(e.letter))]
+    names += sorted({e.ratio for e in machine.elements if e.known_ratio is None})
     return dict(zip(names, values, strict=True))
 
 
@@ -74,6 +77,7 @@ def test_frequency_responses_are_those_of_python(visit, found) -> None:
     rng, omega = np.random.default_rng(1), np.geomspace(0.5, 80, 9)
     every = [m for name in FAMILIES for m in family_of(name).networks[::7]]
     every += [machine_of(model) for model in found.found.family]
+    every += [machine_of(of_network(network_of(text))) for text in GEARED]
 
     asked = []
     for machine in every:
@@ -93,18 +97,36 @@ def test_frequency_responses_are_those_of_python(visit, found) -> None:
         np.testing.assert_allclose([complex(*pair) for pair in pairs], expected, rtol=1e-8)
 
 
+def test_derivatives_behind_gears_are_those_of_differences(visit) -> None:
+    machine = machine_of(of_network(network_of(GEARED[1])))
+    given, values = drawing_of(machine), start_values_of(machine)
+    seen = visit(PAGE).evaluate(
+        """([given, values]) => {
+          const machine = machineOf(given), solver = createSolver(machine), into = new Float64Array(2 * values.length), h = 1e-6;
+          const log = (at) => { const [re, im] = solver.response(partsOf(machine, at), 0.1, 3); return [Math.log(Math.hypot(re, im)), Math.atan2(im, re)]; };
+          solver.gradient(partsOf(machine, values), values.map(() => 1), 0.1, 3, into);
+          return values.map((_, p) => {
+            const [up, down] = [h, -h].map((step) => log(values.map((x, q) => x + (p === q) * step)));
+            return [into[2 * p], into[2 * p + 1], (up[0] - down[0]) / (2 * h), (up[1] - down[1]) / (2 * h)];
+          });
+        }""",
+        [given, values],
+    )
+    seen = np.array(seen)
+    assert "i" in given["kinds"] and np.abs(seen).max() > 0.1
+    np.testing.assert_allclose(seen[:, :2], seen[:, 2:], atol=1e-7)
+
+
 MOVED = """([given, values, force, dt]) => {
   const machine = machineOf(given), found = moved(machine, partsOf(machine, values), Float64Array.from(force), dt);
   return { acceleration: [...found.acceleration], places: [...found.places], free: machine.free };
 }"""
 
 
-@pytest.mark.parametrize("name", ["loop", "held"])
-def test_the_motion_is_that_of_the_state_space(visit, found, name) -> None:
-    data = data_of(motion_page_of(found))
-    at = list(TEXTS).index(name)
-    machine = machine_of(found.found.family[at])
-    values = data["values"][at]
+@pytest.mark.parametrize("name", ["loop", "held", *GEARED])
+def test_the_motion_is_that_of_the_state_space(visit, name) -> None:
+    machine = machine_of(of_network(network_of(TEXTS.get(name, name))))
+    values = start_values_of(machine)
     m, (act, meas) = matrices(machine, drawn(machine, values)), port_vectors(machine)
     n, dt = len(m.M), 0.02
     inverse = np.linalg.inv(m.M)
@@ -113,13 +135,14 @@ def test_the_motion_is_that_of_the_state_space(visit, found, name) -> None:
     push = inverse @ act
     system = a, np.concatenate([np.zeros(n), push])[:, None], (meas @ below)[None], [[meas @ push]]
     force = np.sin(np.arange(400) ** 2 / 2000) + (np.arange(400) < 90)
-    seen = visit(PAGE).evaluate(MOVED, [data["machines"][at], values, force.tolist(), dt])
+    seen = visit(PAGE).evaluate(MOVED, [drawing_of(machine), values, force.tolist(), dt])
     _, expected, _ = lsim(system, force, dt * np.arange(400))
     np.testing.assert_allclose(seen["acceleration"], expected, atol=1e-9 * np.abs(expected).max())
-    assert seen["free"] == ([0, 1, 2] if name == "loop" else [])
     where = np.array(seen["places"]).reshape(400, -1)
-    if name == "loop":  # its centre stays where it was
-        assert np.abs(where @ np.diag(m.M)).max() < 1e-9 * np.abs(where).max()
+    travel = null_space(m.K + m.D)  # how far each mass goes where nothing is stretched
+    assert seen["free"] == list(range(n)) * travel.shape[1]
+    # the centre of what travels stays where it was
+    assert np.abs(where @ np.diag(np.diag(m.M)) @ travel).sum() < 1e-8 * np.abs(where).max()
 
 
 def test_the_page_knows_every_verdict(found) -> None:
@@ -190,6 +213,18 @@ def test_what_a_damper_alone_holds_has_a_band(visit) -> None:
     assert (free, loose) == ([], 1) and own / 16 < low < own / 4 and 2 * own < high < 8 * own
 
 
+def test_gears_move(tmp_path) -> None:
+    """The ratio has a slider, and the machine without its gear does the same."""
+    texts = {"gear": "1=2*i; F1; S2", "plain": "1=2; F1; S2"}
+    assert machine_of(of_network(network_of("1=2*i=3*j=1; F1; S1"))) is None
+    data = data_of(motion_page_of(listed(texts)))
+    assert data["groups"] == [[1, 2]]
+    assert data["machines"][0]["names"] == ["m1", "m2", "k12", "d12", "i"]
+    assert data["machines"][0]["joints"] == [[1, 2, "i"]]
+    assert data["machines"][1]["joints"] == [[1, 2]]
+    assert data["values"][0][-1] == 2.0
+
+
 def test_wrong_addresses_say_what_there_is(visit) -> None:
     tab = visit(PAGE + "#A1-A9")
     assert "names no pair here: there are the models A1 to A4" in tab.inner_text("#trouble")
@@ -200,7 +235,7 @@ def test_wrong_addresses_say_what_there_is(visit) -> None:
     [
         {"a": "R1-C1", "b": "p(R1,C1)"},
         {"a": "1=2; F1; S1", "b": "1=2=3; F1; S1"},
-        {"a": "1=2*i; F1; S1", "b": "1=2; F1; S1"},
+        {"a": "1=2*i=3*j=1; F1; S1", "b": "1=2=3; F1; S1"},  # no motion without stretch
         {"a": "1=2; F1; S1; position", "b": "1=2; F1; S2"},
         {"a": "1-2; F1; S1", "b": "1=2; F1; S1"},
     ],

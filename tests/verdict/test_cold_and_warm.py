@@ -12,7 +12,7 @@ from hypothesis import Phase, given, settings, strategies as st
 from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
 from disting.evidence.decision import THEOREMS, Excluded, Theorem
-from disting.evidence.general import AtInverse, Replaced
+from disting.evidence.general import AtInverse, OfPart, Replaced
 from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import Empirical, PositiveEvidence, PositiveFinding, Share
@@ -105,9 +105,9 @@ def test_verdicts_on_chains(words, tmp_path):
     for domain in DOMAINS:
         text = three_ways(("compare", *words, "--domain", domain, "--json"), tmp_path)
         assert verify(json.loads(text)).standing is Standing.HOLDS
-        file = tmp_path / "verdict.json"
-        file.write_text(text)
-        three_ways(("verify", file), tmp_path)
+    file = tmp_path / "verdict.json"
+    file.write_text(text)
+    three_ways(("verify", file), tmp_path)
 
 
 @pytest.mark.parametrize("words", OTHERS, ids=" ".join)
@@ -190,6 +190,7 @@ known = {
     Excluded: {"name": st.just("decay")},
     Replaced: {"inner": st.builds(Theorem, name=theorems)},
     AtInverse: {"inner": st.builds(Theorem, name=theorems)},
+    OfPart: {"inner": st.builds(Theorem, name=theorems)},
 }
 
 

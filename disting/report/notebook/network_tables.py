@@ -25,9 +25,9 @@ def _gate(shown: Gate) -> str:
 @table_of.register
 def _duplicate(shown: Duplicate) -> str:
     parts = [line(shown.verdict.sentence, bold=True)]
-    for _, where, values, _ in shown.formulas:
-        parts += [line(f"where {', '.join(map(str, where))}")] if where else []
-        parts.append(facts(values))
+    for f in shown.formulas:
+        parts += [line(f"where {', '.join(f.where)}")] if f.where else []
+        parts.append(facts((*f.steps, *f.values)))
     return block(*parts)
 
 

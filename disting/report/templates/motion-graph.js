@@ -6,10 +6,11 @@ const drawGraph = (svg, { masses, joints, kinds, places, names, act, meas, at, g
   const write = (x, y, text, attributes) => shape("text", { x, y, "text-anchor": "middle", "font-family": "sans-serif", fill: "currentColor", ...attributes }, text);
   svg.classList.add("graph");
   svg.setAttribute("viewBox", `0 0 ${size.join(" ")}`);
-  const both = (place) => kinds.filter((kind, i) => kind !== "m" && places[i] === place).length > 1;
+  const both = (place) => kinds.filter((kind, i) => "kd".includes(kind) && places[i] === place).length > 1;
   const drawn = kinds.flatMap((kind, i) => {
-    if (kind === "m") return [];
-    const aside = both(places[i]) ? (kind === "k" ? -ASIDE : ASIDE) : 0, path = line({}), name = write(0, 0, names[i], { "font-size": 11, fill: "var(--label)", stroke: "var(--paper)", "stroke-width": 3, "paint-order": "stroke" });
+    if (!"kd".includes(kind)) return [];
+    const ratio = joints[places[i]][2], said = ratio === undefined ? names[i] : `${names[i]} *${typeof ratio === "number" ? short(ratio) : ratio}`;
+    const aside = both(places[i]) ? (kind === "k" ? -ASIDE : ASIDE) : 0, path = line({}), name = write(0, 0, said, { "font-size": 11, fill: "var(--label)", stroke: "var(--paper)", "stroke-width": 3, "paint-order": "stroke" });
     return [{ kind, aside, path, name, ends: joints[places[i]] }];
   });
   const walls = Object.values(grounds).map(([x, y]) => line({ d: `M${x - 15} ${y}h30${[-12, -4, 4, 12].map((dx) => `M${x + dx} ${y}l-5 6`).join("")}` }));
@@ -36,10 +37,12 @@ const drawGraph = (svg, { masses, joints, kinds, places, names, act, meas, at, g
   return (displaced) => { // of the masses, in the drawing's units
     const where = (node, other) => (node ? [at[node - 1][0] + displaced[node - 1], at[node - 1][1]] : grounds[other]);
     boxes.forEach((group, i) => group.setAttribute("transform", `translate(${displaced[i].toFixed(2)} 0)`));
-    drawn.forEach(({ kind, aside, path, name, ends: [from, to] }) => {
+    drawn.forEach(({ kind, aside, path, name, ends: [from, to, ratio] }) => {
       const [p, q] = [where(from, to), where(to, from)], length = Math.hypot(q[0] - p[0], q[1] - p[1]), u = [(q[0] - p[0]) / length, (q[1] - p[1]) / length];
       const half = length / 2, point = (a, b) => [0, 1].map((i) => (p[i] + q[i]) / 2 + a * half * u[i] + (b + aside) * (i ? u[0] : -u[1]));
-      path.setAttribute("d", signs[kind].map(([a, b, drawnTo]) => `${drawnTo ? "L" : "M"}${point(a, b).map((v) => v.toFixed(2)).join(" ")}`).join(""));
+      const wheel = ([x, y], r) => `M${(x - r).toFixed(2)} ${y.toFixed(2)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0`; // two of a gear, near its second node
+      const gear = ratio === undefined ? "" : wheel(point(1 - 27.5 / half, 0), 4) + wheel(point(1 - 20.5 / half, 0), 3);
+      path.setAttribute("d", signs[kind].map(([a, b, drawnTo]) => `${drawnTo ? "L" : "M"}${point(a, b).map((v) => v.toFixed(2)).join(" ")}`).join("") + gear);
       const away = point(0, aside < 0 || (!aside && kind === "k") ? -16 : 16);
       name.setAttribute("x", away[0].toFixed(2));
       name.setAttribute("y", (away[1] + 4).toFixed(2));

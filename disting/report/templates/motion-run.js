@@ -21,24 +21,23 @@ const exponential = (a) => {
   for (let i = 0; i < halvings; i++) sum = matrixProduct(sum, sum);
   return sum;
 };
-// z' = A z + b F for places and velocities. What travels is seen from its centre of mass, so that it stays in the picture.
-const stateSpace = (machine, { m, k, d }) => {
-  const { masses: n, joints, free, act } = machine, total = freeMass(machine, { m });
-  const on = ([minus, plus], i) => (i + 1 === plus) - (i + 1 === minus), net = free.reduce((sum, i) => sum + on(act, i), 0) / total;
+// z' = A z + b F for places and velocities. What travels is seen from its centre of mass (behind gears as these make it travel), so that
+// it stays in the picture.
+const stateSpace = (machine, parts) => {
+  const { masses: n, joints, free, act } = machine, { m, k, d, g } = parts, h = travelOf(machine, parts);
+  const on = ([minus, plus], i) => (i + 1 === plus) - (i + 1 === minus), along = (port) => free.reduce((sum, i) => sum + h[i] * on(port, i), 0);
+  const net = free.length ? along(act) / free.reduce((sum, i) => sum + m[i] * h[i] ** 2, 0) : 0;
   const a = Array.from({ length: 2 * n }, () => Array(2 * n).fill(0)), b = Array(2 * n).fill(0);
   for (let i = 0; i < n; i++) {
     a[i][n + i] = 1;
-    b[n + i] = on(act, i) / m[i] - (free.includes(i) ? net : 0);
+    b[n + i] = on(act, i) / m[i] - (free.includes(i) ? net * h[i] : 0);
   }
   for (const [of, offset] of [[k, 0], [d, n]])
     joints.forEach(([from, to], at) => {
-      for (const [i, j] of [[from - 1, to - 1], [to - 1, from - 1]]) {
-        if (i < 0) continue;
-        a[n + i][offset + i] -= of[at] / m[i];
-        if (j >= 0) a[n + i][offset + j] += of[at] / m[i];
-      }
+      const felt = [[from - 1, 1], [to - 1, -g[at]]].filter(([i]) => i >= 0);
+      for (const [i, u] of felt) for (const [j, v] of felt) a[n + i][offset + j] -= (of[at] * u * v) / m[i];
     });
-  const travel = free.reduce((sum, i) => sum + on(machine.meas, i), 0) * net; // what the sensor sees of it
+  const travel = along(machine.meas) * net; // what the sensor sees of it
   return { a, b, travel };
 };
 // Places of the masses [m], row after row, without the travel; what the sensor shows (its `order`-th derivative, with the travel for

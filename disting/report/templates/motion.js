@@ -2,7 +2,7 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   const byId = (id) => document.getElementById(id), root = document.documentElement;
   const SECONDS = 20, SAMPLES = 16; // of a run; samples of the fastest oscillation
-  const UNITS = { m: "kg", k: "N/m", d: "N s/m" };
+  const UNITS = { m: " kg", k: " N/m", d: " N s/m", i: "" };
   const chains = data.machines?.map(machineOf) ?? data.models.map((ports) => chainOf(data.masses, data.damped, ports, data.order));
   const nameOf = (i) => data.names?.[i - 1] ?? `A${i}`, numbers = chains.map((_, i) => i + 1);
   const kindOf = (given, other) => {
@@ -68,7 +68,7 @@
       cells[1].append(input);
       row.append(...cells);
       const tell = () => {
-        cells[2].textContent = `${written(values[i])} ${unit(given(), i)}`;
+        cells[2].textContent = `${written(values[i])}${unit(given(), i)}`;
         input.setAttribute("aria-valuetext", cells[2].textContent);
       };
       tell();
@@ -89,7 +89,7 @@
     [...byId("values").querySelectorAll("tbody")[1].rows].forEach((row, i) => {
       const fails = !(found.values[i] > 0);
       row.classList.toggle("fails", fails);
-      row.cells[1].textContent = `${written(found.values[i])} ${unit(other(), i)}${fails ? ", not positive" : ""}`;
+      row.cells[1].textContent = `${written(found.values[i])}${unit(other(), i)}${fails ? ", not positive" : ""}`;
     });
 
   // ---- motion

@@ -46,7 +46,7 @@ def receptance(row, numbers):
 
 @pytest.mark.parametrize("row", COLLOCATED, ids=repr)
 def test_models_fulfil_the_equations_and_others_do_not(row):
-    for k in range(3):
+    for k in range(3 if row.n_masses < 5 else 1):
         num, den = receptance(row, residues(f"{k}:{row}", len(row.structure.parameters), P))
         assert end_resultant(row, num, den, P) == inner_resultant(row, num, den, P) == 0
     e = 2 * row.n_masses - 2

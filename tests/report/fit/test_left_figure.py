@@ -38,6 +38,12 @@ def test_one_structure_without_equivalents_needs_no_figure(left):
     alone = replace(found.members[0], twins=())
     assert left_figure(replace(found, members=(alone,), controller=None), train) is None
     assert left_figure(replace(found, members=(), controller=None), train) is None
+
+
+@pytest.mark.slow
+def test_one_structure_with_a_controller_has_a_figure(left):
+    train, found = left
+    alone = replace(found.members[0], twins=())
     assert left_figure(replace(found, members=(alone,)), train) is not None
 
 
