@@ -140,8 +140,8 @@ def write_report(
     each. Executed notebooks in the folder `notebooks` of `out` become pages of the guide. The same
     catalogues and notebooks give the same bytes. `out` is made if it does not exist; other files in
     it stay as they are, and the index leads to the pages of shipped catalogues and to other known
-    pages among them too, those of lists of models for one. Returns the paths, in order. Raises
-    OSError where the folder cannot be written.
+    pages among them too, those of lists of models for one. Returns the paths as they were written,
+    the pages of the largest catalogue first. Raises OSError where the folder cannot be written.
 
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
