@@ -98,7 +98,12 @@ def test_more_candidates_do_not_explain_a_beam_either():
     [
         (-ONE_MASS, ONE, "with the sign reversed"),
         (ONE_MASS / (1j * OMEGA), ONE, "read as velocity"),
-        (EXACT.conj(), DRIVE, "with the sign of all phases (of the imaginary parts) turned"),
+        pytest.param(
+            EXACT.conj(),
+            DRIVE,
+            "with the sign of all phases (of the imaginary parts) turned",
+            marks=pytest.mark.slow,
+        ),
         pytest.param(
             EXACT * HELD,
             DRIVE,

@@ -208,7 +208,9 @@ def test_what_contains_what():
     assert not contains(replace(both, meas_plus=2), one)
 
 
-@pytest.mark.parametrize(("machine", "repeats"), [(DRIVES[0], 1), (DRIVES[2], 2)])
+@pytest.mark.parametrize(
+    ("machine", "repeats"), [(DRIVES[0], 1), pytest.param(DRIVES[2], 2, marks=pytest.mark.slow)]
+)
 def test_the_true_structure_is_kept(machine, repeats):
     """A quiet and a loud drive; the wrong smaller ones are excluded."""
     found = outcome(machine, selected(machine, repeats))

@@ -72,6 +72,15 @@ def test_a_line_on_an_antiresonance_without_damping_is_no_division_by_zero():
     assert np.all(np.abs(response) < 1e-12) and np.all(np.isfinite(gradient))
 
 
+def test_a_line_on_a_resonance_without_damping_is_no_division_by_zero():
+    """k (1/m1 + 1/m2) = w^2."""
+    response, gradient = Plant(
+        Chain(2, damped=False).structure, np.array([2.0])
+    ).logarithmic_gradient(np.array([1.0, 1.0, 2.0]))
+    assert np.all(np.abs(response) > 1e10) and np.all(np.isfinite(response))
+    assert np.all(np.isfinite(gradient))
+
+
 @pytest.mark.parametrize("chain", [c for c in CHAINS if c.sensor is Sensor.ACCELERATION])
 def test_a_wrong_unit_of_frequency_makes_other_values_of_the_same_chain(chain):
     """Hz taken for rad/s: no fit can tell, so that a grid alone can make it suspicious."""

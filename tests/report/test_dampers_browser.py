@@ -372,7 +372,7 @@ def test_undecided_pairs_are_named_as_such(visit, large: DamperFamily) -> None: 
     ) or "That is no verdict" in tab.text_content("#counts")
 
 
-@pytest.mark.parametrize("width", [320, 390, 1280])
+@pytest.mark.parametrize("width", [320, pytest.param(390, marks=pytest.mark.slow), 1280])
 def test_nothing_of_the_panel_is_cut_off(visit, width: int) -> None:  # type: ignore[no-untyped-def]
     # never two fragments of one page in turn: the second would not load it
     for path in (PAIR, LARGE, SMALL + "#A3"):

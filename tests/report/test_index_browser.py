@@ -350,7 +350,7 @@ def test_the_address_holds_all_of_it(visit) -> None:  # type: ignore[no-untyped-
     assert again.is_checked('[name="delay"]') and again.is_checked('[name="friction-3"]')
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.slow)])
 def test_the_larger_form_fits_a_phone_and_has_no_barrier(visit, scheme: str) -> None:  # type: ignore[no-untyped-def]
     tab = _opened(visit("index.html", 320, scheme))
     _more(tab, masses="5", gap="2", joined_5="3", loop="0,5", friction_4=True)
