@@ -72,13 +72,18 @@ class StoredPair:
             return self._positively if self._positively.finding.evidence else None
         if view is View.REAL and view.value in self.record:
             return _step(Stage.PARAMETERS, repr(self.record[view.value]))
-        stages = (stage for stage in view.representations if stage in self.record)
-        stage = next(stages, None)
-        step = None if stage is None else _step(stage, repr(self.record[stage]))
+        steps = (self._steps[s] for s in view.representations if s in self._steps)
+        step = next(steps, None)
         if view.domain is Domain.COMPLEX or step is None:
             return step
         # what distinguishes over complex parameters does so over all
         return step if step.relation is Relation.DISTINGUISHABLE else None
+
+    @cached_property
+    def _steps(self) -> dict[Stage, Step]:
+        """What decides at each stage over complex parameters."""
+        stages = (stage for stage in View.EXACT.representations if stage in self.record)
+        return {stage: _step(stage, repr(self.record[stage])) for stage in stages}
 
     @cached_property
     def _both_ways(self) -> dict[str, Any]:

@@ -119,6 +119,12 @@ class SizesCatalog(Shown):
             for i, j in c.depending(view)
         )
 
+    def forget(self) -> None:
+        """Let go of the verdicts that were asked for, those of the catalogues too."""
+        self._known.clear()
+        for c in self.catalogs:
+            c.forget()
+
     def _read(self, low: int, high: int, view: View) -> Verdict:
         left, right = self.names[low - 1], self.names[high - 1]
         (one, i), (other, j) = self._places[low - 1], self._places[high - 1]

@@ -55,7 +55,7 @@ class Explicit(OverDomain):
 
     @property
     def turned(self) -> Self:
-        """The same of the pair in the other order: left is given where right was."""
+        """The same of the pair in the other order: left given where right was."""
         return replace(self, formulas=tuple((not f[0], *f[1:]) for f in self.formulas))
 
     def without_exception(self, domain: Domain) -> bool:

@@ -25,7 +25,7 @@ from disting.report.scene import (
     extent,
 )
 
-BAND = 128  # pixels
+BAND = 64  # pixels
 SLACK = 8  # pixels that a shape may reach beyond its extent, with its line
 ANCHORS = {Anchor.START: "ls", Anchor.MIDDLE: "ms", Anchor.END: "rs"}
 

@@ -61,6 +61,7 @@ def of_sizes(site: Site, damped: bool) -> Iterator[File]:
     for found in site.across:
         if found.damped == damped:
             yield f"{found.name}.html", sizes_page(found, beside=site.pages).encode()
+            found.forget()
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,10 +175,11 @@ def write_report(
 
 
 def _pages(site: Site) -> Iterator[File]:
-    """The pages of what a site is written from, with the files beside them. What a catalogue
-    remembers of its verdicts is let go with its pages.
+    """The pages of what a site is written from, with the files beside them; those of the largest
+    catalogue first, whose figure takes most memory. What a catalogue remembers of its verdicts is
+    let go with its pages.
     """
-    for c in site.catalogs:
+    for c in sorted(site.catalogs, key=lambda c: len(c.family), reverse=True):
         yield from _files(c, site.pages)
         c.forget()
     for family in site.dampers:

@@ -7,6 +7,7 @@ positive. The paper's views speak of generic complex parameters.
 
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
 from disting.conditions.rule import RULES, Rule, Stage
 from disting.errors import InputError
@@ -34,12 +35,12 @@ class View(StrEnum):
     REAL = "real"
     POSITIVE = "positive"
 
-    @property
+    @cached_property
     def domain(self) -> Domain:
         """Parameter values that this view speaks of."""
         return Domain(self.value) if self in (View.REAL, View.POSITIVE) else Domain.COMPLEX
 
-    @property
+    @cached_property
     def representations(self) -> tuple[Stage, ...]:
         """The representations of this view, in order."""
         if self in (View.TF, View.MARKOV):

@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from disting.errors import InputError
 from disting.fit.search.plant import Plant
@@ -13,6 +13,7 @@ from tests.fit.drives import CHAINS, OMEGA, dense_response, response, truth
 
 
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
+@settings(max_examples=30)
 @given(seed=st.integers(0, 10**6))
 def test_the_response_is_that_of_the_matrix_equation(chain, seed):
     values = truth(chain, seed)
@@ -22,6 +23,7 @@ def test_the_response_is_that_of_the_matrix_equation(chain, seed):
 
 
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
+@settings(max_examples=30)
 @given(seed=st.integers(0, 10**6))
 def test_derivatives_are_those_of_central_differences(chain, seed):
     values = truth(chain, seed)
