@@ -60,11 +60,16 @@ def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions(
     assert {
         "disting.model.chain",
         "disting.fit.search.plant",
-        "disting.fibres.synthesis.decide",
+        "disting.measurement.response",
     } <= set(modules_of("disting.fit.search.exchange"))
-    assert {"disting.model.chain", "disting.conditions.table", "disting.model.question"} <= set(
-        modules_of("disting.verdict.engine")
-    )
+    assert {
+        "disting.model.chain",
+        "disting.conditions.table",
+        "disting.fibres.synthesis.decide",
+        "disting.general.parts",
+        "disting.network.outflows",
+        "disting.questions.identifiability.analysis",
+    } <= set(modules_of("disting.verdict.engine"))
     assert not any(
         name.startswith(("disting.report", "disting.cli"))
         for name in modules_of("disting.fit.search.exchange")
