@@ -31,6 +31,8 @@ from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
 MOST_TWINS = 12  # of which formulas are written
+FEW = 24  # of which are seen at once
+RANKS = (Relation.INDISTINGUISHABLE, Relation.SOMETIMES, Relation.UNDECIDED)
 FUNCTIONS, LETTERS = {Sort.CIRCUIT: "impedance"}, {Sort.CIRCUIT: "Z"}
 SEEN = {
     Sort.MACHINE: "experiment with this force and sensor",
@@ -85,6 +87,7 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
         for other, v in verdicts.items()
         if v.relation is not Relation.DISTINGUISHABLE
     ]
+    twins.sort(key=lambda twin: RANKS.index(twin.relation))
     complex_same = [
         shown.cards[o - 1]
         for o in verdicts
@@ -99,6 +102,7 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
         shown=shown,
         card=card,
         twins=twins,
+        few=FEW,
         aside=any(v.has_exceptions for v in verdicts.values()),
         complex_same=complex_same,
         told_apart=told_apart(verdicts),
