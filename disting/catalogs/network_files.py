@@ -43,6 +43,7 @@ SHIPPED = (
     "machines-2",
     "machines-2-damped",
     "machines-3",
+    "trees-4",
     "circuits-4",
     "circuits-5",
     "cells-4",

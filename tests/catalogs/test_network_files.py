@@ -68,11 +68,14 @@ def test_circuits_are_all_decided(name, count):
     assert Relation.UNDECIDED.value not in pairs
 
 
-SEARCHED = {"machines-3": (2817, 84), "compartments-3": (8355, 980)}
+SEARCHED = {"machines-3": (2817, 84), "compartments-3": (8355, 980), "trees-4": (2767, 440)}
 """Pairs that are the same over complex values, and those that stay open over positive ones."""
 
 
-@pytest.fixture(scope="module", params=SEARCHED)
+@pytest.fixture(
+    scope="module",
+    params=[pytest.param(n, marks=[pytest.mark.slow] * (n == "trees-4")) for n in SEARCHED],
+)
 def searched(request):
     """A large family: its name, its sides, and its pairs as the file has them."""
     header, *records = read(shipped_folder() / f"{name_of(request.param)}.jsonl")

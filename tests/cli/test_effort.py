@@ -142,14 +142,14 @@ def test_more_masses_take_longer(work: Work) -> None:
     assert seconds == sorted(seconds) and seconds[-1] > seconds[0] > 0
 
 
-@pytest.mark.parametrize("command", ["report trees-4 --out pages", "verdicts trees-4"])
+@pytest.mark.parametrize("command", ["report trees-4-damped --out pages", "verdicts trees-4-damped"])
 def test_a_family_that_is_not_shipped_says_how_long_it_takes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     _, _, words = stopped(command)
     assert re.fullmatch(
-        r"disting: all pairs of trees-4, which may take about .*; less to do: two networks"
+        r"disting: all pairs of trees-4-damped, which may take about .*; less to do: two networks"
         r" alone \(disting compare\); Ctrl-C stops it, and what is done stays in the cache",
         words.split("\n")[0],
     )
