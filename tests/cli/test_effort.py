@@ -142,7 +142,9 @@ def test_more_masses_take_longer(work: Work) -> None:
     assert seconds == sorted(seconds) and seconds[-1] > seconds[0] > 0
 
 
-@pytest.mark.parametrize("command", ["report trees-4-damped --out pages", "verdicts trees-4-damped"])
+@pytest.mark.parametrize(
+    "command", ["report trees-4-damped --out pages", "verdicts trees-4-damped"]
+)
 def test_a_family_that_is_not_shipped_says_how_long_it_takes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
 ) -> None:
