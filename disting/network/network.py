@@ -9,6 +9,7 @@ q counts the differentiations of the sensor.
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from math import lcm
 
 from disting.errors import InputError, shown
@@ -25,6 +26,7 @@ PORTS = {
     Sort.CIRCUIT: (("a port", "port 1 0"),) * 2,
     Sort.COMPARTMENTS: (("an input", "in 1"), ("an output", "out 2")),
 }  # what they are called, and an example as texts have it
+REMEMBERED = 4096  # networks, of which it is known what is seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,9 +117,7 @@ class Network(Drawn):
         """The elements that can enter: for the others the place in the graph shows that they do
         not.
         """
-        find = seen_by_flows if self.is_directed else seen_by_blocks
-        chosen = find(self.elements, self.inputs, self.outputs)
-        return tuple(e for i, e in enumerate(self.elements) if i in chosen)
+        return _seen(self)
 
     @property
     def unseen(self) -> tuple[str, ...]:
@@ -180,6 +180,13 @@ class Network(Drawn):
     def ports(self) -> tuple[Port, ...]:
         """Inputs, then outputs."""
         return (*self.inputs, *self.outputs)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _seen(network: Network) -> tuple[Element, ...]:
+    find = seen_by_flows if network.is_directed else seen_by_blocks
+    chosen = find(network.elements, network.inputs, network.outputs)
+    return tuple(e for i, e in enumerate(network.elements) if i in chosen)
 
 
 def _unchecked(

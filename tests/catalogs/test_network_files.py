@@ -2,6 +2,7 @@
 
 import json
 import random
+from dataclasses import replace
 from itertools import combinations
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from disting.catalogs.network_files import (
     POSITIVE,
     SHIPPED,
+    build_networks,
     name_of,
     read,
     recall,
@@ -116,6 +118,30 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
         evidence = r["finding"].evidence if "finding" in r else None
         evidence = evidence or evidence_from(r["positive"]["evidence"])
         assert left.confirms(right, evidence, r["positive"]["representation"])
+
+
+@pytest.mark.parametrize(("group", "kinds"), [(6, {"of-part", "witnesses"}), (9, {"explicit"})])
+def test_some_of_a_large_family_alone_get_what_the_whole_gets(group, kinds):
+    """Eight networks of a class: other ones are searched then, and what is found is the same."""
+    whole = family_of("compartments-3")
+    header, *records = read(shipped_folder() / f"{name_of(whole.name)}.jsonl")
+    models, pairs = records[: header["models"]], records[header["models"] :]
+    members = [m["model"] for m in models if m["group"] == group]
+    chosen = sorted(random.Random(2).sample(members, 8))
+    names = [whole.networks[i - 1].name for i in chosen]
+    built = build_networks(replace(whole, source=lambda: names), Engine()).splitlines()[9:]
+    known = {(p["left"], p["right"]): p["positive"]["relation"] for p in pairs}
+    seen = set()
+    for record in map(json.loads, built):
+        if "positive" in record:
+            found = record["positive"]["relation"]
+            wanted = known[chosen[record["left"] - 1], chosen[record["right"] - 1]]
+            assert found == wanted or "undecided" in (found, wanted)
+        evidence = record.get("finding", [None] * 5)[4]
+        seen |= {evidence["kind"]} if evidence else set()
+    assert (
+        len(built) == 28 and kinds <= seen and any('"as"' in line for line in built) is (group == 9)
+    )
 
 
 @pytest.mark.parametrize("text", ["#~1, 1~2; F1; S1", "#~2, 2~1; F2; S2"])
