@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
+from disting.errors import InputError
 from disting.network.element import Element
 from disting.network.network import Network
 
@@ -25,7 +26,7 @@ Height = tuple[Fraction, tuple[int, ...]]
 
 def ungeared(network: Network) -> Network | None:
     """The machine without its gears, which gives the same transfer functions; None where ratios do
-    not agree, or ports keep them apart.
+    not agree, ports keep them apart, or the casings of gears are all that holds a part.
 
     >>> from disting.network.notation import network_of
     >>> [str(e) for e in ungeared(network_of("1~2*5/2, 2~3*i; F1; S3")).elements]
@@ -40,7 +41,10 @@ def ungeared(network: Network) -> Network | None:
     for ports in (network.inputs, network.outputs):
         if len({heights[i] for port in ports for i in port.ends}) != 1:
             return None
-    return replace(network, elements=tuple(replace(e, ratio="") for e in network.elements))
+    try:
+        return replace(network, elements=tuple(replace(e, ratio="") for e in network.elements))
+    except InputError:
+        return None
 
 
 def units(network: Network) -> dict[str, Height]:

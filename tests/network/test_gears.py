@@ -83,6 +83,14 @@ def test_gears_that_are_no_units(text, why) -> None:
     assert simplest(network) is None
 
 
+def test_a_part_that_only_the_casing_of_its_gear_holds() -> None:
+    """Without the gear it would hang on nothing."""
+    elements = Element("j0", "j", (1, 3), "g"), Element("j1", "j", (2, 0))
+    network = Network(elements, (Port(2),), (Port(2),), order=0)
+    assert ungeared(network) is None
+    assert compare(network, network).relation is Relation.INDISTINGUISHABLE
+
+
 def test_two_sensors_in_the_same_units() -> None:
     network = network_of("1=2*3, 1=3*3; F1; S2; S3")
     assert ungeared(network) is not None

@@ -33,9 +33,11 @@ def is_as_the_laws_say(description, seed):
     expected = [response(network, values, root) for values, root in points]
     try:
         model = of_network(network)
-    except InputError:
+    except InputError as problem:
         entries = [y for matrix in expected for line in matrix for y in line]
-        assert None in entries or not any(entries)
+        # gears that nothing holds are refused, also where only differences are seen
+        loose = any(e.ratio for e in network.elements) and "nothing that holds it" in str(problem)
+        assert None in entries or not any(entries) or loose
         return
     assert model.parameters == network.parameters
     for (values, root), matrix in zip(points, expected, strict=True):
