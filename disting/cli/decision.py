@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from disting.cli.compare import in_order, shipped, shipped_ranks
 from disting.cli.compare_words import Known, both_ways, explained
+from disting.cli.look_up import in_order, shipped, shipped_ranks
 from disting.cli.model_names import in_letters, models_named
 from disting.cli.output import emitted
 from disting.cli.relations import query

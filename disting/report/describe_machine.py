@@ -10,12 +10,12 @@ never on the number of masses: so each is held once, under a name that the page'
 """
 
 from collections.abc import Iterable, Iterator
-from itertools import combinations, product
+from itertools import product
 
 from disting.catalogs import Catalog
 from disting.model.chain import Chain
 from disting.model.structure import Indices, violated
-from disting.report.domains import one_sided
+from disting.report.domains import one_sided, with_exceptions
 from disting.report.drawing import draw
 from disting.report.graph_drawing import hatched
 from disting.report.model import folder_of
@@ -23,6 +23,7 @@ from disting.report.network_symbols import Track, drawn, gear
 from disting.report.page_drawing import Part, ground_dampers, height_with_dampers
 from disting.report.scene import Layer
 from disting.report.words import not_known, short_title
+from disting.verdict.query import View
 from disting.verdict.result import Relation
 
 
@@ -111,17 +112,11 @@ def _machine(c: Catalog) -> dict[str, object]:
         "below": height_with_dampers(c.n_masses) - scene.height,
         "models": [chain.indices[1:] for chain in c.family],
         "groups": c.classes(),
-        "aside": _with_exceptions(c),
+        "aside": sorted({m for pair in with_exceptions(c, View.POSITIVE) for m in pair}),
         "depends": _depending(c),
         "open": _undecided(c),
         "known": {row.number: said for row in c.rows if (said := not_known(row))},
     }
-
-
-def _with_exceptions(c: Catalog) -> list[int]:
-    """The models that some other one of their group equals but for special values."""
-    pairs = (pair for members in c.classes() for pair in combinations(members, 2))
-    return sorted({m for pair in pairs if c.verdict(*pair).has_exceptions for m in pair})
 
 
 def _depending(c: Catalog) -> dict[int, list[int]]:

@@ -9,6 +9,7 @@ other in the order by groups.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
 
 from disting.evidence.positive import Share
 from disting.model.question import Domain
@@ -37,13 +38,15 @@ class Over:
     """A catalogue over one domain: pairs by relation, groups, pairs that depend on the values,
     one-sided ones.
 
-    `blocks`: the groups and single models that the order by groups puts first, related ones beside
+    `aside`: the pairs of a group of which the verdict leaves special values aside. `blocks`: the
+    groups and single models that the order by groups puts first, related ones beside
     each other.
     """
 
     view: View
     totals: dict[Relation, int]
     groups: tuple[Members, ...]
+    aside: tuple[tuple[int, int], ...]
     depending: tuple[tuple[int, int], ...]
     one_sided: tuple[OneSided, ...]
     blocks: tuple[Members, ...]
@@ -62,10 +65,19 @@ def over(decided: Decided, view: View) -> Over:
         view=view,
         totals=totals(decided, view),
         groups=groups,
+        aside=tuple(with_exceptions(decided, view)),
         depending=decided.depending(view),
         one_sided=sides,
         blocks=blocks(decided.classes(View.EXACT), groups),
     )
+
+
+def with_exceptions(decided: Decided, view: View) -> Iterator[tuple[int, int]]:
+    """Yield the pairs of a group of which the verdict leaves special values aside."""
+    for members in decided.classes(view):
+        for pair in combinations(members, 2):
+            if decided.verdict(*pair, view).has_exceptions:
+                yield pair
 
 
 def blocks(classes: tuple[Members, ...], groups: tuple[Members, ...]) -> tuple[Members, ...]:

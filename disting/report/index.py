@@ -99,8 +99,11 @@ class Card:
 
 @dataclass(frozen=True, slots=True)
 class Example:
-    """An indistinguishable pair, drawn, and where it moves."""
+    """An indistinguishable pair, drawn, and where it moves; `aside`: its verdict leaves special
+    values aside.
+    """
 
+    aside: bool
     address: str
     motion: str
     family: str
@@ -171,7 +174,8 @@ def example(catalogs: Sequence[Catalog]) -> Example | None:
     low, high = chosen.classes()[0][:2]
     drawings = (model_of(chosen, low).drawing, model_of(chosen, high).drawing)
     motion = f"{motion_of(chosen)}#A{low}-A{high}"
-    return Example(f"{chosen.name}.html#{low}-{high}", motion, short_title(chosen), *drawings)
+    aside, address = chosen.verdict(low, high).has_exceptions, f"{chosen.name}.html#{low}-{high}"
+    return Example(aside, address, motion, short_title(chosen), *drawings)
 
 
 def _card(

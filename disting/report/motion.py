@@ -13,7 +13,7 @@ from disting.catalogs import Catalog
 from disting.evidence.positive import Share
 from disting.model.chain import Chain
 from disting.report.describe_machine import parts_of
-from disting.report.domains import one_sided
+from disting.report.domains import one_sided, with_exceptions
 from disting.report.drawing import JOINT, MASS, PITCH, WALL, draw
 from disting.report.environment import render
 from disting.report.model import folder_of, ways
@@ -89,6 +89,7 @@ def _payload(catalog: Catalog, first: tuple[int, int]) -> Markup:
             "values": [start_values(chain) for chain in catalog.family],
             "first": first,
             "groups": catalog.classes(),
+            "aside": list(with_exceptions(catalog, View.POSITIVE)),
             "able": _able(catalog),
             "open": [
                 (low, high)

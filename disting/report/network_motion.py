@@ -18,7 +18,7 @@ from disting.network.element import Element, Sort
 from disting.network.gears import ungeared, unknown_ratios
 from disting.network.graph import edges
 from disting.network.network import Network
-from disting.report.domains import one_sided
+from disting.report.domains import one_sided, with_exceptions
 from disting.report.environment import render
 from disting.report.listing import JudgedList, Listing
 from disting.report.motion import START
@@ -81,6 +81,7 @@ def motion_page_of(shown: Listing, *, site: bool = False) -> str:
         "values": [start_values_of(m) for m in machines],
         "first": groups[0][:2] if groups else (1, 2),
         "groups": groups,
+        "aside": list(with_exceptions(found, View.POSITIVE)),
         "able": _able(found),
         "open": [
             (low, high)

@@ -24,6 +24,8 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report import write_report
 from disting.report.motion import motion_page, start_values
+from disting.verdict.query import View
+from disting.verdict.result import Relation
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
@@ -290,6 +292,30 @@ def _data(text: str) -> dict[str, list[object]]:
     return json.loads(re.search(r'id="data">(.*?)</script>', text)[1])  # type: ignore[index]
 
 
+@pytest.mark.parametrize(
+    ("masses", "damped", "count"), [(3, True, 0), (3, False, 10), (4, False, 41)]
+)
+def test_the_page_knows_which_verdicts_leave_special_values_aside(masses, damped, count) -> None:  # type: ignore[no-untyped-def]
+    """As the verdicts say, and as the page says of the first pair."""
+    c = catalog(masses, damped=damped)
+    pairs = [
+        [low, high]
+        for low, high, v in c.pairs(View.POSITIVE)
+        if v.relation is Relation.INDISTINGUISHABLE and v.has_exceptions
+    ]
+    assert sorted(_data(motion_page(c))["aside"]) == pairs and len(pairs) == count
+
+
+def test_a_pair_says_that_special_values_are_left_aside(visit) -> None:  # type: ignore[no-untyped-def]
+    low, high = next(
+        (low, high)
+        for low, high, v in catalog(4, damped=False).pairs(View.POSITIVE)
+        if v.has_exceptions
+    )
+    said = visit(LARGER + f"#A{high}-A{low}").inner_text("#verdict")
+    assert said.startswith(f"Whatever the positive parameters of A{high}, special values aside,")
+
+
 def test_the_page_knows_every_verdict() -> None:
     data = _data(motion_page(catalog(4, damped=False)))
     assert data["groups"] == [list(group) for group in catalog(4, damped=False).classes()]
@@ -318,6 +344,7 @@ def test_twins_follow_by_formulas(visit) -> None:  # type: ignore[no-untyped-def
     tab = visit(SMALL + "#A1-A11")
     assert tab.text_content("#pair").startswith("A1 and A11")
     assert "no experiment with this force and sensor" in tab.inner_text("#verdict")
+    assert "special values" not in tab.inner_text("#verdict")
     assert "by formulas" in tab.inner_text("#how")
     assert tab.locator("path.most").count() == 0
     before = tab.locator("#values tbody >> nth=1").inner_text()

@@ -23,9 +23,10 @@
   const forceKind = () => byId("drive").elements.force.value;
 
   // ---- what is said
+  const leavesOut = (pair) => data.aside.some((other) => other.every((i) => pair.includes(i)));
   const SAYS = {
-    always: (a, b) => `Whatever the positive parameters of ${a}, some of ${b} give the very same response: no experiment with this force and sensor tells them apart.`,
-    "always-there": (a, b) => `Whatever the positive parameters of ${a}, some of ${b} give the very same response; the reverse holds for some only.`,
+    always: (a, b) => `Whatever the positive parameters of ${a}${leavesOut(pair) ? ", special values aside" : ""}, some of ${b} give the very same response: no experiment with this force and sensor tells them apart.`,
+    "always-there": (a, b) => `Whatever the positive parameters of ${a}, special values aside, some of ${b} give the very same response; the reverse holds for some only.`,
     sometimes: (a, b) => `For some positive parameters of ${a}, some of ${b} give the very same response; for others none do.`,
     open: (a, b) => `Whether positive parameters of ${b} do what ${a} does is not known.`,
     apart: (a, b) => `An experiment tells them apart: with generic positive parameters, at least one of ${a} and ${b} does what the other cannot.`,
