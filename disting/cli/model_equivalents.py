@@ -175,8 +175,8 @@ def _formulas(
             if form.chosen:
                 yield f"{mark}chosen, other numbers may do the same: {', '.join(form.chosen)}"
             yield from (
-                f"{mark}{', '.join(names)} can share a part in any proportion; here they share"
-                " it equally"
+                f"{mark}{', '.join(names)}: one choice of infinitely many, what can be shared in"
+                " any proportion is shared equally"
                 for names in form.choices
             )
             yield form.latex if options.latex else form.python if options.sympy else form.text

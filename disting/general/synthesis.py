@@ -95,24 +95,29 @@ class Share:
 
 
 def synthesized(
-    field: Arithmetic, tree: Tree, top: Poly, bottom: Poly, view: str = "S"
+    field: Arithmetic,
+    tree: Tree,
+    top: Poly,
+    bottom: Poly,
+    kinds: tuple[Power | None, Power | None],
+    view: str = "S",
 ) -> Iterator[Values]:
     """Yield the values at which the tree is top/bottom, one lot for each way to share the terms;
-    `view`: "S" of F, "P" of 1/(x F). Raises NoFormulas.
+    `kinds`: that of a constant and that of a pole at 0, in `view` "S" of F, "P" of 1/(x F). Raises
+    NoFormulas.
     """
-    low, high = sorted(tree.part.kinds) if len(tree.part.kinds) > 1 else (None, None)
-    assert tree.element is None  # it is given its value by the branches that it is among
-    if tree.form != view:
-        yield from synthesized(field, tree, *_inverse(field, top, bottom), tree.form)
+    if tree.element is not None:
+        yield _value(field, tree.element, view, top, bottom)
         return
-    one, other = (low, high) if view == "S" else (high, low)
+    if tree.form != view:
+        yield from synthesized(field, tree, *_inverse(field, top, bottom), kinds, tree.form)
+        return
+    one, other = kinds if view == "S" else kinds[::-1]
     shares = [_share(t.part, view, one, other) for t in tree.inside]
     _chosen(field, tree.inside, shares)
     for parts in _parted(field, tree.inside, shares, top, bottom):
         found = [
-            [_value(field, t.element, view, *f)]
-            if t.element
-            else list(synthesized(field, t, *f, view))
+            list(synthesized(field, t, *f, kinds, view))
             for t, f in zip(tree.inside, parts, strict=True)
         ]
         for chosen in product(*found):

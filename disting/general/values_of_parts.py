@@ -4,6 +4,7 @@ part, each by synthesis.
 A one-port of two kinds of elements is a part as a whole, however it is made, if the other one is in
 series and parallel. Else both networks are drawn as graphs with parts at their edges, and edges are
 matched that have the same sets of functions. Parts of three kinds are matched branch by branch.
+Bridges and loops become series and parallel first where a star or a triangle of one kind allows it.
 Trees of compartments have their own way (`values_of_compartments`).
 """
 
@@ -20,6 +21,7 @@ from disting.general.model import Model
 from disting.general.orthant import TooMuch
 from disting.general.powers import placed_network
 from disting.general.replacement import set_of
+from disting.general.star_triangle import Exchange, unbridged
 from disting.general.synthesis import (
     NoFormulas,
     Tree,
@@ -90,7 +92,11 @@ def _of_graphs(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[
     for name, unit in _units(field, given.network, [field[n] for n in ratios]).items():
         known[name] = field[name] * unit
     back = _units(field, other.network, [field.one] * len(chosen))
-    for values in _of_edges(field, known, here, there):
+    (plain, made), (wanted, undone) = unbridged(here), unbridged(there)
+    for exchange in made:
+        known = exchange.forth(field, known)
+    for values in _of_edges(field, known, plain, wanted):
+        values = _before(field, undone, values)
         found = {name: x / back.get(name, field.one) for name, x in values.items()}
         yield found | dict.fromkeys(chosen, field.one)
 
@@ -119,12 +125,22 @@ def _of_one_port(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterato
     known = set_of(given)
     if known is None or known != set_of(other) or not isinstance(given, Model):
         return None
-    edges = _edges(_placed(other)[0])
+    plain, exchanges = unbridged(_placed(other)[0])
+    edges = _edges(plain)
     if len(edges) != 1:
         return None
     (tree,) = edges.values()
     low, high = sorted(known[1].kinds)
-    return synthesized(field, tree, *function_of(field, given, low, high))
+    every = synthesized(field, tree, *function_of(field, given, low, high), (low, high))
+    return (_before(field, exchanges, values) for values in every)
+
+
+def _before(field: Arithmetic, exchanges: Sequence[Exchange], values: Values) -> Values:
+    """The values before all exchanges; what is chosen of one of three elements is so of all."""
+    for exchange in reversed(exchanges):
+        values = exchange.back(field, values)
+        field.choices = [exchange.widened(names) for names in field.choices]
+    return values
 
 
 def _edges(plain: Network) -> Edges:
@@ -205,11 +221,10 @@ def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
 
 def _of_part(field: Arithmetic, known: Values, given: Tree, other: Tree) -> list[Values]:
     """The values of one part in those of another one of the same set."""
-    if given.element and other.element:
-        return [{other.element.value: known[given.element.value]}]
-    if len(given.part.kinds) == TWO:
-        low, _ = sorted(given.part.kinds)
-        return list(synthesized(field, other, *_composed(field, known, given, low)))
+    if len(given.part.kinds) <= TWO:
+        low, *more = sorted(given.part.kinds)
+        kinds = low, more[0] if more else None
+        return list(synthesized(field, other, *_composed(field, known, given, low), kinds))
     pairs = _paired(given, other)
     found = [_of_part(field, known, a, b) for a, b in pairs]
     return [{n: x for values in chosen for n, x in values.items()} for chosen in product(*found)]

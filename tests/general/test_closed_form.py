@@ -22,6 +22,9 @@ from disting.verdict.comparison import compare
 VOIGT = "R0-p(R1,C1)-p(R2,C2)-p(R3,C3)"
 LADDER = "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"
 FOUR, slow = (f"{VOIGT}-p(R4,C4)",), pytest.mark.slow
+BRIDGE = "C1 1 2; C2 1 3; R1 2 3; R2 2 0; R3 3 0; port 1 0"
+BRANCHES = "C1 1 2; L1 1 3; R1 2 3; R2 2 0; R3 3 0; port 1 0"
+STAR = "L1 1 2; R1 1 3; R2 2 3; L2 2 0; R3 3 0; port 1 0"
 PAIRS = (
     ("R0-p(R1,C1)-p(R2,C2)", "p(R1,R2-C1,R3-C2)", 1, True),
     ("p(R1,R2-C1,R3-C2)", "R0-p(R1,C1)-p(R2,C2)", 1, True),
@@ -40,6 +43,11 @@ PAIRS = (
     ("1<>2, 1<>3, 1<>4, 1>0; in 1; out 1", "1<>2, 2<>3, 1<>4, 2>0; in 1; out 1", 3, False),
     ("1<>2, 2<>3, 1>0; in 1; out 1", "1<>2, 1<>3, 2>0; in 1; out 1", 2, True),
     ("1<>2, 2<>3; in 1; out 1", "1<>2, 1<>3; in 1; out 1", 2, True),
+    ("R1-C1-p(R2,C2)", BRIDGE, 1, True),
+    ("p(L1,R1-p(R2,L2))", STAR, 1, True),
+    (BRANCHES, "R1-p(R2-L1,R3-C1)", 1, False),
+    ("R1-p(R2-L1,R3-R4-C1)", BRANCHES, 1, False),
+    ("#~1, 1~2, 2~3; F1; S1", "#~1, 1~2, 1~3, 2~3; F2; S2", 2, True),
 )
 
 
@@ -149,6 +157,14 @@ def test_what_can_be_shared_is_shared_equally():
     (form,) = by_parts(one, two)
     values = dict(form.values)
     assert (form.choices, values["R1"] == values["R4"]) == ((("R1", "R4"),), True)
+    assert confirmed(form, one, two).safety >= 100
+
+
+def test_what_is_chosen_of_a_triangle_is_so_of_all_three():
+    """The star has R1 and R4 in series: in the bridge R2, R3, R4 are what is chosen with R1."""
+    one, two = models("R1-p(R2,C1)", "C1 1 2; R1 1 3; R2 2 3; R3 2 0; R4 3 0; port 1 0")
+    (form,) = by_parts(one, two)
+    assert form.choices and all({"R1", "R2", "R4"} <= {*names} for names in form.choices)
     assert confirmed(form, one, two).safety >= 100
 
 
