@@ -160,18 +160,20 @@ def test_a_verdict_is_looked_up_without_what_decides_it():
     assert not [name for name in loaded if name.startswith(("disting.fibres.", "disting.general"))]
 
 
-def test_commands_load_sympy_only_where_they_write_an_expression():
-    """One after the other in one process, whose last one writes one."""
-    commands = ("compare 3:2 3:5", "models 3", "equivalents 3:4 --to 3:1 --undamped --formulas")
+def test_sympy_is_loaded_for_its_expressions_alone(tmp_path):
+    """Not where formulas are written; all in one process, whose last line asks for an expression."""
+    maps = "equivalents 3:4 --to 3:1 --undamped --"
+    commands = ("models 3", f"{maps}formulas", f"{maps}latex", f"report 1 --out {tmp_path / 'out'}")
     code = (
-        "import sys; from disting.cli import main\n"
-        f"for command in {commands}: main(command.split()); print('loaded', 'sympy' in sys.modules)"
+        "import sys, disting; from disting.cli import main\n"
+        f"for command in {commands}: main(command.split()); print('loaded', 'sympy' in sys.modules)\n"
+        "disting.transfer_function('2:1'); print('loaded', 'sympy' in sys.modules)"
     )
     said = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout
     loaded = [line for line in said.splitlines() if line.startswith("loaded ")]
-    assert loaded == ["loaded False", "loaded False", "loaded True"]
+    assert loaded == ["loaded False"] * len(commands) + ["loaded True"]
 
 
 def callables(room):

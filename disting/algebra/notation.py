@@ -1,83 +1,77 @@
-"""Rational functions for people, by SymPy: as its expressions, as text that Python reads, and in
-LaTeX.
+"""Rational functions for people: as text that Python reads, in LaTeX, and as SymPy's expressions.
 
-Importing SymPy takes about as long as importing all of this package, so it is imported where an
-expression is written and nowhere else. What is printed is built unevaluated: SymPy then keeps the
-order of the terms, which is the chain's (k12/m1 + k12/m2, where it would sort k12/m2 + k12/m1),
-and numbers before sums. What users compute with is evaluated, in symbols that are positive, as
-parameters are, but for the frequency variable s.
+Text and LaTeX keep the order of the terms, which is the chain's (k12/m1 + k12/m2, where SymPy would
+sort k12/m2 + k12/m1), and write numbers before sums. Expressions are in symbols that are positive,
+as parameters are, but for the frequency variable s. Importing SymPy takes about as long as
+importing all of this package, and 18 MB: only who computes with an expression of SymPy loads it.
 """
 
 import re
-from collections.abc import Callable, Sequence
-from functools import cache
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
-from disting.algebra.symbols import (
-    Content,
-    Polynomial,
-    RationalFunction,
-    Term,
-    content,
-    factors,
-    polynomial_of,
-    terms,
-)
+from disting.algebra.symbols import Polynomial, RationalFunction, Term, factors, terms
 
 Expr = Any  # an expression of SymPy
 Sum = Sequence[Term]
 """A sum of products of powers, whose exponents may be negative."""
-Product = tuple[Any, list[tuple[Expr, int]]]
-"""A number, and bases with their exponents."""
+Power = tuple[str | Sum, int]
+"""A symbol, by its name, or a sum, and its exponent."""
 
 
-def expression(of: RationalFunction | Sum, *, evaluate: bool = True) -> Expr:
-    """The same for SymPy; a rational function factorised, a sum term by term.
-
-    >>> from disting.algebra.symbols import variables
-    >>> a, b = variables(["m1", "m2"]).values()
-    >>> expression((a**2 - b**2) / a) * expression([(1, {"m1": 1})])
-    (m1 - m2)*(m1 + m2)
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """How formulas are written: a `symbol`, by its name; a `power`; a first term's `minus`; a `sum`
+    that is a factor; a product of `times`; and a quotient of two products, `over`, in which a sum
+    that stands alone above or below is written as a factor or, `bare`, as it is.
     """
-    from sympy import Rational
 
-    if not isinstance(of, RationalFunction):
-        return _added(_products(of), evaluate)
-    (above, top), (below, bottom) = factors(of.num), factors(of.den)
-    powers = [
-        (_added(_products(terms(p)), evaluate), sign * e)
-        for sign, found in ((1, top), (-1, bottom))
-        for p, e in found
-    ]
-    return _product((Rational(above, below), powers), evaluate)
+    symbol: Callable[[str], str]
+    power: str
+    minus: str
+    sum: str
+    times: str
+    over: Callable[[list[str], list[str]], str]
+    bare: bool
 
+    def written(self, of: RationalFunction | Sum) -> str:
+        """A rational function factorised, a sum term by term."""
+        if not isinstance(of, RationalFunction):
+            return self._sum(of)
+        number, found = _factorised(of)
+        return self.product(number, [(str(p) if len(p) == 1 else terms(p), e) for p, e in found])
 
-def quotient(
-    above: Sequence[Polynomial],
-    below: Sequence[Polynomial],
-    *,
-    evaluate: bool = True,
-    power: Callable[[int], Expr] = int,
-) -> Expr:
-    """A rational function of s, from the coefficients of the powers 0, 1, .. of numerator and
-    denominator, or of those that `power` makes of 0, 1, ..
+    def product(self, number: Fraction, powers: Sequence[Power]) -> str:
+        """A number times powers."""
+        top = [(base, e) for base, e in powers if e > 0]
+        bottom = [(base, -e) for base, e in powers if e < 0]
+        is_quotient = bool(bottom) or number.denominator > 1
+        bare = self.bare if is_quotient else number > 0
+        above = self._side(abs(number.numerator), top, bare)
+        below = self._side(number.denominator, bottom, bare)
+        text = self.over(above, below) if is_quotient else self.times.join(above)
+        return self.minus + text if number < 0 else text
 
-    >>> from disting.algebra.symbols import symbols
-    >>> k, m = symbols(["k", "m"]).values()
-    >>> printed(quotient([k], [k, m - m, m + 1], evaluate=False))
-    'k/(k + (m + 1)*s**2)'
-    """
-    from sympy import Rational
+    def _side(self, number: int, powers: Sequence[Power], bare: bool) -> list[str]:
+        """The factors above or below."""
+        numbers = [str(number)] if number != 1 or not powers else []
+        alone = bare and not numbers and len(powers) == 1
+        return [*numbers, *(self._power(base, e, alone) for base, e in powers)]
 
-    (n, top), (d, bottom) = (_in_s(side, evaluate, power) for side in (above, below))
-    return _product((Rational(n, d), [*top, *((x, -e) for x, e in bottom)]), evaluate)
+    def _power(self, base: str | Sum, exponent: int, alone: bool) -> str:
+        text = self.symbol(base) if isinstance(base, str) else self._sum(base)
+        if not (isinstance(base, str) or (alone and exponent == 1)):
+            text = self.sum.format(text)
+        return text if exponent == 1 else self.power.format(text, exponent)
 
-
-def symbol(name: str) -> Expr:
-    """A parameter, which is positive, or the frequency variable s."""
-    from sympy import Symbol
-
-    return Symbol(name) if name == "s" else Symbol(name, positive=True)
+    def _sum(self, found: Sum) -> str:
+        text = "".join(
+            (" - " if c < 0 else " + ") + self.product(Fraction(abs(c)), list(powers.items()))
+            for c, powers in found
+        )
+        return (self.minus if text.startswith(" - ") else "") + (text[3:] or "0")
 
 
 def text(of: RationalFunction | Sum) -> str:
@@ -86,14 +80,7 @@ def text(of: RationalFunction | Sum) -> str:
     >>> text([(1, {"k12": 1, "m1": -1}), (-2, {"k12": 1, "m2": -1})])
     'k12/m1 - 2*k12/m2'
     """
-    return printed(expression(of, evaluate=False))
-
-
-def printed(unevaluated: Expr) -> str:
-    """An expression as text, in the order in which it is built."""
-    from sympy import sstr
-
-    return str(sstr(unevaluated, order="none"))
+    return TEXT.written(of)
 
 
 def latex(of: RationalFunction | Sum) -> str:
@@ -102,23 +89,77 @@ def latex(of: RationalFunction | Sum) -> str:
     >>> latex([(1, {"k9_10": 2, "m1": -1})])
     '\\frac{k_{9,10}^{2}}{m_{1}}'
     """
-    if isinstance(of, RationalFunction):
-        return _quotient_latex(content(of.num), content(of.den))
-    return _printed_latex(expression(of, evaluate=False))
+    return LATEX.written(of)
 
 
-@cache
-def _quotient_latex(above: Content, below: Content) -> str:
-    """Kept: the maps between the models of a family repeat a few formulas many times."""
-    of = RationalFunction(polynomial_of(above), polynomial_of(below))
-    return _printed_latex(expression(of, evaluate=False))
+def text_in_s(
+    above: Sequence[Polynomial], below: Sequence[Polynomial], power: Callable[[int], str]
+) -> str:
+    """A rational function of s as a valid Python expression, from the coefficients of the powers
+    0, 1, .. of numerator and denominator; `power` writes these.
+
+    >>> from disting.algebra.symbols import symbols
+    >>> k, m = symbols(["k", "m"]).values()
+    >>> text_in_s([k], [k, m - m, m + 1], lambda n: f"s**{n}" if n else "")
+    'k/(k + (m + 1)*s**2)'
+    """
+    (n, top), (d, bottom) = (_as_product(list(_in_s(side, power))) for side in (above, below))
+    return TEXT.product(Fraction(n, d), [*top, *((base, -e) for base, e in bottom)])
 
 
-def _printed_latex(unevaluated: Expr) -> str:
-    import sympy
+def _in_s(coefficients: Sequence[Polynomial], power: Callable[[int], str]) -> Iterator[Term]:
+    """The terms of a polynomial in s; sums in brackets, and powers of s, are symbols."""
+    for i, found in enumerate(map(terms, coefficients)):
+        in_brackets: Sum = [(1, {TEXT.sum.format(text(found)): 1})]
+        for number, powers in in_brackets if i and len(found) > 1 else found:
+            yield number, {**powers, power(i): 1} if power(i) else powers
 
-    names = {x: latex_symbol(x.name) for x in unevaluated.free_symbols}
-    return str(sympy.latex(unevaluated, order="none", symbol_names=names))
+
+def _as_product(of: Sum) -> tuple[int, list[Power]]:
+    """A sum's only term, or the sum as a factor."""
+    return (of[0][0], list(of[0][1].items())) if len(of) == 1 else (1, [(of, 1)])
+
+
+def expression(of: RationalFunction | Sum) -> Expr:
+    """The same for SymPy; a rational function factorised, a sum term by term.
+
+    >>> from disting.algebra.symbols import variables
+    >>> a, b = variables(["m1", "m2"]).values()
+    >>> expression((a**2 - b**2) / a) * expression([(1, {"m1": 1})])
+    (m1 - m2)*(m1 + m2)
+    """
+    from sympy import Add, Mul, Rational
+
+    if not isinstance(of, RationalFunction):
+        return Add(*(Mul(c, *(symbol(n) ** e for n, e in powers.items())) for c, powers in of))
+    number, found = _factorised(of)
+    return Mul(Rational(number), *(expression(terms(p)) ** e for p, e in found))
+
+
+def _factorised(of: RationalFunction) -> tuple[Fraction, list[tuple[Polynomial, int]]]:
+    """The number, and the other factors with their exponents."""
+    (above, top), (below, bottom) = factors(of.num), factors(of.den)
+    return Fraction(above, below), [*top, *((p, -e) for p, e in bottom)]
+
+
+def quotient(
+    above: Sequence[Polynomial], below: Sequence[Polynomial], power: Callable[[int], Expr] = int
+) -> Expr:
+    """A rational function of s for SymPy, from the coefficients of the powers 0, 1, .. of numerator
+    and denominator, or of those that `power` makes of 0, 1, ..
+    """
+    top, bottom = (
+        sum(expression(terms(p)) * symbol("s") ** power(i) for i, p in enumerate(side))
+        for side in (above, below)
+    )
+    return top / bottom
+
+
+def symbol(name: str) -> Expr:
+    """A parameter, which is positive, or the frequency variable s."""
+    from sympy import Symbol
+
+    return Symbol(name) if name == "s" else Symbol(name, positive=True)
 
 
 def latex_symbol(name: str) -> str:
@@ -147,33 +188,14 @@ def split_name(name: str) -> tuple[str, str]:
     return head[0], name[head.end() :].strip("_").replace("_", ",")
 
 
-def _in_s(
-    coefficients: Sequence[Polynomial], evaluate: bool, power: Callable[[int], Expr]
-) -> Product:
-    """A polynomial in s as one product: a sum with brackets around its longer coefficients, or
-    its only term.
-    """
-    found: list[Product] = []
-    for i, coefficient in enumerate(coefficients):
-        products = _products(terms(coefficient))
-        shown = [(1, [(_added(products, evaluate), 1)])] if i and len(products) > 1 else products
-        found += [(number, [*powers, (symbol("s"), power(i))]) for number, powers in shown]
-    return found[0] if len(found) == 1 else (1, [(_added(found, evaluate), 1)])
+def _python_over(above: list[str], below: list[str]) -> str:
+    bottom = "*".join(below)
+    return f"{'*'.join(above)}/{f'({bottom})' if len(below) > 1 else bottom}"
 
 
-def _products(found: Sum) -> list[Product]:
-    return [(number, [(symbol(name), e) for name, e in powers.items()]) for number, powers in found]
+def _latex_over(above: list[str], below: list[str]) -> str:
+    return rf"\frac{{{' '.join(above)}}}{{{' '.join(below)}}}"
 
 
-def _added(products: Sequence[Product], evaluate: bool) -> Expr:
-    from sympy import Add
-
-    return Add(*(_product(p, evaluate) for p in products), evaluate=evaluate)
-
-
-def _product(of: Product, evaluate: bool) -> Expr:
-    from sympy import Mul, Pow
-
-    number, powers = of
-    parts = [x if e == 1 else Pow(x, e, evaluate=evaluate) for x, e in powers if e]
-    return Mul(*([number] if number != 1 or not parts else []), *parts, evaluate=evaluate)
+TEXT = Notation(str, "{}**{}", "-", "({})", "*", _python_over, bare=False)
+LATEX = Notation(latex_symbol, "{}^{{{}}}", "- ", r"\left({}\right)", " ", _latex_over, bare=True)

@@ -10,12 +10,10 @@ after the question whether any candidate explains the data at all (`explanation`
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from functools import partial
 
 from disting.fit.judge.admissible import Rule, reasons
 from disting.fit.judge.alternatives import (
     Alternative,
-    Limits,
     alternatives,
     limits_of,
     representatives,
@@ -37,12 +35,12 @@ from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import statements
 from disting.fit.results.selection import Selection
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.data import checked, joint_cost, judging_cost
+from disting.fit.search.data import Weighing, checked
 from disting.fit.search.estimate import Estimate, Method, Task, one_thread
 from disting.fit.search.exchange import SEARCHED, body, estimates, polished
 from disting.fit.search.joint import AnyCost, Further, JointCost
 from disting.measurement import FrequencyResponse
-from disting.measurement.arrays import Complex, Real
+from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.store import Store
@@ -92,7 +90,7 @@ def select(
     `estimates`. An engine with a store resumes interrupted work. Raises InputError.
 
     `further`: responses of the same machine that are fitted together with `train`, one parameter
-    vector for all; each counts in units of its own scatter (`joint_cost`). Candidates without their
+    vector for all; each counts in units of its own scatter (`Weighing`). Candidates without their
     places are left out, and a response that is zero in every candidate: nothing is learned from it.
     `home`: the chain whose masses the places of `further` name; of a candidate with other masses,
     springs or ports every choice of places is fitted, and the best is taken
@@ -100,44 +98,18 @@ def select(
     """
     train, test, further = checked(train, test, further, candidates, most_lines)
     candidates, further, zero = learning(candidates, further, home)
-    engine = engine or Engine(store=Store.none())
-    by_scatter = lines is None and not alike
-    cost = Cost(train, case or Case.LOGARITHM, weights)
-    weighed = partial(joint_cost, cost, further, lines, alike)
-    asked = Task(weighed(test), sign or 1, bounds or {}, fixed or {}, seed)
-    asked = asked if sign else signed(asked, _at_home(candidates, home))
-    asked = located(asked, candidates, home, engine.store) if home else asked
-    search, seen_by = _tried(asked, candidates, partial(weighed, test), by_scatter)
-    judging = judging_cost(search.cost, test, further, lines, alike, seen_by) if test else None
-    within = limits_of(search.bounds, search.fixed)
-    first = _representatives(candidates, search, engine, within, prune)
-    likely = by_scatter and case is None and weights is None
-    work = Work(engine, executor, progress)
-    fits = _fits([c for c in candidates if first[c] == c], search, judging, likely, method, work)
-    limits = thresholds or Thresholds()
-    chosen = _chosen(fits, limits, rule, engine.settings)
-    whole, containing = _members(fits, chosen, within, work)
-    return Selection(
-        selected=chosen.selected,
-        candidates=chosen.candidates,
-        alternatives=_alternatives(chosen.selected, candidates, fits.task, engine, within),
-        thresholds=limits,
-        validation="test data" if test else CROSS_VALIDATION,
-        same_as={c: other for c, other in first.items() if c != other},
-        rule=rule,
-        explanation=chosen.explanation,
-        members=whole,
-        containing=containing,
-        readings=() if further else _readings(fits, chosen.explanation, work),
-        relied_on=statements(whole, fits.task, controller),
-        controller=controller,
-        better=chosen.better,
-        silent=tuple(zero),
-        task=fits.task,
-        test=(fits.test or fits.task.cost).measured,
-        judging=fits.test or fits.task.cost,
-        quantities=other_quantities(fits.searched, search, engine.store, executor, progress),
-    )
+    work = Work(engine or Engine(store=Store.none()), executor, progress)
+    weighing = Weighing(Cost(train, case or Case.LOGARITHM, weights), test, further, lines, alike)
+    task = Task(weighing.training(), sign or 1, bounds or {}, fixed or {}, seed)
+    task = task if sign else signed(task, _at_home(candidates, home))
+    task = located(task, candidates, home, work.engine.store) if home else task
+    search, judging = _tried(task, candidates, weighing)
+    same_as = _represented(candidates, search, work.engine) if prune else {}
+    fitted = [c for c in candidates if c not in same_as]
+    likely = weighing.by_scatter and case is None and weights is None
+    fits = _fits(fitted, search, judging, likely, method, work)
+    terms = Terms(thresholds or Thresholds(), rule, controller)
+    return _selection(fits, terms, candidates, same_as, tuple(zero), work)
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +119,15 @@ class Work:
     engine: Engine
     executor: Executor | None
     progress: Progress
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """What the fits are judged by, and the controller whose margins are told."""
+
+    thresholds: Thresholds
+    rule: Rule
+    controller: Controller | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,19 +175,57 @@ def _fits(
     return Fits(search, searched, task, found, test and test.likely(known[1]), known)
 
 
-def _chosen(fits: Fits, limits: Thresholds, rule: Rule, settings: Settings) -> Choice:
+def _selection(
+    fits: Fits,
+    terms: Terms,
+    candidates: Sequence[Chain],
+    same_as: dict[Chain, Chain],
+    silent: tuple[str, ...],
+    work: Work,
+) -> Selection:
+    """What the fits tell of all candidates."""
+    task, search = fits.task, fits.search
+    chosen = _chosen(fits, terms, work.engine.settings)
+    whole, containing = _members(fits, chosen, work)
+    return Selection(
+        selected=chosen.selected,
+        candidates=chosen.candidates,
+        alternatives=_alternatives(chosen.selected, candidates, task, work.engine),
+        thresholds=terms.thresholds,
+        validation="test data" if fits.test else CROSS_VALIDATION,
+        same_as=same_as,
+        rule=terms.rule,
+        explanation=chosen.explanation,
+        members=whole,
+        containing=containing,
+        readings=_readings(fits, chosen.explanation, work),
+        relied_on=statements(whole, task, terms.controller),
+        controller=terms.controller,
+        better=chosen.better,
+        silent=silent,
+        task=task,
+        test=(fits.test or task.cost).measured,
+        judging=fits.test or task.cost,
+        quantities=other_quantities(
+            fits.searched, search, work.engine.store, work.executor, work.progress
+        ),
+    )
+
+
+def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
     """Which candidate is taken, which others are left, and whether any explains the data."""
     task, test, known = fits.task, fits.test, fits.known
     fitted = judged(fits.found, task, test, known, settings)
-    fitted = [replace(c, reasons=reasons(c, task, limits, rule)) for c in fitted]
-    return choice(akaike_weighted(fitted, task), task, test, known, rule, settings)
+    fitted = [replace(c, reasons=reasons(c, task, terms.thresholds, terms.rule)) for c in fitted]
+    return choice(akaike_weighted(fitted, task), task, test, known, terms.rule, settings)
 
 
 def _members(
-    fits: Fits, chosen: Choice, within: Limits, work: Work
+    fits: Fits, chosen: Choice, work: Work
 ) -> tuple[tuple[Member, ...], tuple[Member, ...]]:
     """What the data do not exclude: those that contain no other one, and those that do."""
     kept = chosen.left if chosen.explanation.explains else ()
+    within = limits_of(fits.task.bounds, fits.task.fixed)
     left = members(kept, fits.task, fits.test, fits.known, within, work.executor, work.progress)
     return tuple(m for m in left if m.contains is None), tuple(m for m in left if m.contains)
 
@@ -217,51 +236,41 @@ def _at_home(candidates: Sequence[Chain], home: Chain | None) -> Sequence[Chain]
 
 
 def _tried(
-    task: Task,
-    candidates: Sequence[Chain],
-    weighed: Callable[[Sequence[Complex]], AnyCost],
-    by_scatter: bool,
-) -> tuple[Task, Callable[[AnyCost], Sequence[Complex]]]:
+    task: Task, candidates: Sequence[Chain], weighing: Weighing
+) -> tuple[Task, AnyCost | None]:
     """The task, its responses weighed by how their lines scatter about the best of a few candidates
-    (`pilot`), and what these look like at the lines of any cost.
+    (`pilot`), and the cost on test data, weighed so too.
     """
-    if not (by_scatter or isinstance(task.cost, JointCost)):
-        return task, lambda cost: []
-    seen_by = pilot(task, candidates)
-    parts = weighed(seen_by(task.cost)).parts
-    if isinstance(task.cost, JointCost):
-        return replace(task, cost=replace(task.cost, parts=parts)), seen_by
-    return replace(task, cost=parts[0]), seen_by
+    is_seen = weighing.by_scatter or isinstance(task.cost, JointCost)
+    seen_by = pilot(task, candidates) if is_seen else lambda cost: []
+    weighed = weighing.training(seen_by(task.cost))
+    cost = replace(task.cost, parts=weighed.parts) if isinstance(task.cost, JointCost) else weighed
+    return replace(task, cost=cost), weighing.judging(cost, seen_by)
 
 
-def _representatives(
-    candidates: Sequence[Chain], task: Task, engine: Engine, within: Limits, prune: bool
-) -> dict[Chain, Chain]:
-    """For each candidate the one that is fitted in its place, in all responses."""
-    if not prune:
-        return {c: c for c in candidates}
+def _represented(candidates: Sequence[Chain], task: Task, engine: Engine) -> dict[Chain, Chain]:
+    """Candidates that are not fitted, each with the one that stands for it in all responses."""
+    within = limits_of(task.bounds, task.fixed)
     # what stands for another in the first response need not do so in the others
     first = representatives(candidates, engine, within)
-    return representatives_under_all(first, task.cost, within)
+    whole = representatives_under_all(first, task.cost, within)
+    return {c: other for c, other in whole.items() if c != other}
 
 
 def _alternatives(
-    selected: Candidate | None,
-    candidates: Sequence[Chain],
-    task: Task,
-    engine: Engine,
-    within: Limits,
+    selected: Candidate | None, candidates: Sequence[Chain], task: Task, engine: Engine
 ) -> tuple[Alternative, ...]:
     """What may behave the same as the selected structure in all responses."""
     if selected is None:
         return ()
+    within = limits_of(task.bounds, task.fixed)
     found = alternatives(selected.chain, candidates, engine, within)
     return alternatives_under_all(selected.chain, found, task.cost, engine, within)
 
 
 def _readings(fits: Fits, said: Explanation, work: Work) -> tuple[Reading, ...]:
     """What the data would be where the fits do not explain them."""
-    if said.explains or said.noisy or not fits.searched:
+    if said.explains or said.noisy or not fits.searched or isinstance(fits.search.cost, JointCost):
         return ()
     store, executor, progress = work.engine.store, work.executor, work.progress
     return readings(fits.searched, fits.search, store=store, executor=executor, progress=progress)

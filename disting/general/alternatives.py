@@ -7,7 +7,7 @@ Alternatives keep the order of the model: parameters at which its leading denomi
 is zero are none.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -16,15 +16,16 @@ from disting.algebra.groebner.rational import Bounds, Polynomial, TooLarge
 from disting.conditions.finding import Outcome
 from disting.errors import InputError, of_type
 from disting.general.any_model import on_one_variable
-from disting.general.equivalent import Equivalent
+from disting.general.equivalent import Equivalent, rational
 from disting.general.fibre import Extent, Fibre, solved
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
-from disting.general.target import joint_equations, rational_values, target
+from disting.general.target import Target, joint_equations, rational_values, target
 from disting.model.presentation import summary
 from disting.model.question import Domain
 
 SECONDS = 30.0
+OTHER_ZEROS = "not the same transfer functions of both are zero"
 # milliseconds, seldom half a second; what is larger gets a process of its own, with a limit of time
 AT_ONCE = Bounds()
 AT_MOST = Bounds(2000, 5000, 100_000, 300)
@@ -121,11 +122,13 @@ def alternatives(
     values: Mapping[str, object],
     other: AnyModel,
     *,
+    plain: Sequence[Mapping[str, object]] = (),
     seed: str = "disting",
     seconds: float = SECONDS,
 ) -> Alternatives:
     """Alternatives to a model at rational values (numbers, texts such as "0.1", fractions), in the
     parameters of `other`, which has as many inputs and outputs: with all its transfer functions.
+    Sets of positive values that are `plain`, as a theorem has them, come first where they do.
 
     Gives up after so many seconds. Raises InputError for missing, foreign or inexact values, a
     zero leading coefficient, and models of different inputs and outputs.
@@ -141,11 +144,14 @@ def alternatives(
     if model.shape != other.shape:
         raise InputError(f"{model.name} and {other.name} have other numbers of inputs and outputs")
     here, there = on_one_variable([model, other])
-    found = (
-        _solved(_equations(here, exact, there), other.parameters, seed, seconds)
-        if [e is None for e in here.cells] == [e is None for e in there.cells]
-        else Fibre(Extent.UNKNOWN, reason="not the same transfer functions of both are zero")
-    )
+    found, goals = Fibre(Extent.UNKNOWN, reason=OTHER_ZEROS), _targets(here, exact)
+    if [e is None for e in here.cells] == [e is None for e in there.cells]:
+        equations = joint_equations(goals, there.entries)
+        found = _solved(equations, other.parameters, seed, seconds)
+        points = [rational_values(other, values) for values in plain]
+        first = [rational(dict(point)) for point in points if _targets(there, point) == goals]
+        others = (x for x in found.equivalents if x.values not in [one.values for one in first])
+        found = replace(found, equivalents=(*first, *others))
     return Alternatives(
         model=model.name,
         other=other.name,
@@ -158,9 +164,8 @@ def alternatives(
     )
 
 
-def _equations(given: AnyModel, values: Values, other: AnyModel) -> tuple[Polynomial, ...]:
-    goals = [target(replace(entry, name=given.name), values) for entry in given.entries]
-    return joint_equations(goals, other.entries)
+def _targets(model: AnyModel, values: Values) -> list[Target]:
+    return [target(replace(entry, name=model.name), values) for entry in model.entries]
 
 
 def _solved(

@@ -7,7 +7,7 @@ is zero exactly if f divides g; the sign of any other one is seen in ball arithm
 are small enough.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -59,6 +59,17 @@ class Equivalent:
         if len(exact) <= 1:
             return exact[0] if exact else Fraction(0)
         return number if self.domain is Domain.COMPLEX else number.real
+
+
+def rational(values: Mapping[str, Fraction]) -> Equivalent:
+    """A parameter vector of positive fractions.
+
+    >>> str(rational({"k": Fraction(1, 2)}))
+    'k = 1/2'
+    """
+    point, numbers = (Fraction(0), Fraction(0)), tuple(map(complex, values.values()))
+    exact = tuple((x,) for x in values.values())
+    return Equivalent(tuple(values), (0, 1), (point, point), exact, Domain.POSITIVE, numbers)
 
 
 def equivalents(found: Shape, parameters: tuple[str, ...]) -> Iterator[Equivalent]:

@@ -12,7 +12,7 @@ be written as text. SymPy expressions are recognised by their own attributes, so
 not needed. Symbols are known by their names alone, whatever they are assumed to be.
 
 Evidence is stored as FLINT writes polynomials and fractions, and read back so: its bytes depend on
-no printer's taste, and a search writes hundreds without loading SymPy.
+no printer's taste.
 """
 
 import re

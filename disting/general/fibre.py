@@ -142,7 +142,7 @@ def _family(
         found = _listed(cut, parameters, seed, bounds) if fixed else None
         if found:
             successes += 1
-            members += found
+            members += [one for one in found if one not in members]
             names |= {parameters[i - 1]: None for i in fixed}
         if successes >= MEMBERS and any(x.domain is Domain.POSITIVE for x in members):
             break

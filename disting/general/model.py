@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.notation import printed, quotient
+from disting.algebra.notation import quotient, text_in_s
 from disting.algebra.symbols import RationalFunction, renamed, symbols
 from disting.behaviour.expanded import expanded
 from disting.errors import InputError
@@ -242,12 +242,11 @@ class Model(Shown):
         return None if network is None else counts_of(network, self.powers.halves)
 
     def __str__(self) -> str:
-        return f"G(s) = {printed(self.expression(evaluate=False))}"
+        return f"G(s) = {text_in_s(self.numerator, self.denominator, self.powers.text)}"
 
-    def expression(self, *, evaluate: bool = True) -> object:
+    def expression(self) -> object:
         """G(s) as a SymPy expression."""
-        sides = self.numerator, self.denominator
-        return quotient(*sides, evaluate=evaluate, power=self.powers.exponent)
+        return quotient(self.numerator, self.denominator, self.powers.exponent)
 
     def _polynomials(self, coefficients: tuple[Terms, ...]) -> tuple[fmpz_mpoly, ...]:
         context = fmpz_mpoly_ctx.get(self.parameters, Ordering.lex)

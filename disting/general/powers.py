@@ -11,6 +11,7 @@ then is a power of v, which is cancelled and remembered, or the weights are chos
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from itertools import permutations
 
 from flint import fmpz_mpoly, nmod_poly
@@ -85,6 +86,20 @@ class Powers:
         first, *others = self.parts(power)
         named = (symbol(n) * k for n, k in zip(self.exponents, others, strict=True))
         return sum(named, Rational(first, self.step))
+
+    def text(self, power: int) -> str:
+        """v^power as a power of s, as Python writes it; "" for 1.
+
+        >>> Powers(True, (("n1", 5),)).text(6), Powers(True).text(1), Powers().text(2)
+        ('s**(1/2 + n1)', 'sqrt(s)', 's**2')
+        """
+        first, *others = self.parts(power)
+        weighted = zip(others, self.exponents, strict=True)
+        summands = [str(Fraction(first, self.step))] if first else []
+        summands += [n if k == 1 else f"{k}*{n}" for k, n in weighted if k]
+        exponent = " + ".join(summands)
+        short = {"": "", "1": "s", "1/2": "sqrt(s)"}
+        return short.get(exponent, f"s**{exponent}" if exponent.isalnum() else f"s**({exponent})")
 
     def of_element(self, halves: int, exponent: str) -> int:
         """The power of v of an element's power of s."""

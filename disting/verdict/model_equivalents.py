@@ -109,14 +109,20 @@ def model_equivalents(
 def _sets(
     given: AnyModel, values: Mapping[str, object], other: AnyModel
 ) -> tuple[Alternatives | None, Synthesis | None]:
-    """All values of small models; of larger ones the positive ones by synthesis, where these are
-    all, or nothing else is found.
+    """All values of small models, those by synthesis first; of larger ones the positive ones by
+    synthesis, where these are all, or nothing else is found.
     """
-    found = _synthesized(given, values, other) if len(other.parameters) > MOST_SOLVED else None
-    if found is not None and found.complete:
+    found = _synthesized(given, values, other)
+    is_large = len(other.parameters) > MOST_SOLVED
+    if is_large and found is not None and found.complete:
         return None, found
-    solved = alternatives(given, values, other)
-    return (None, found) if found and solved.extent is Extent.UNKNOWN else (solved, None)
+    names, sets = set(other.parameters), found.sets if found is not None else ()
+    plain = [
+        x for x in sets if x.keys() == names and not any(isinstance(v, float) for v in x.values())
+    ]
+    solved = alternatives(given, values, other, plain=plain)
+    is_open = is_large and found is not None and solved.extent is Extent.UNKNOWN
+    return (None, found) if is_open else (solved, None)
 
 
 def _synthesized(

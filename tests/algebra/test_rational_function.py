@@ -2,6 +2,8 @@
 it.
 """
 
+import re
+
 import pytest
 import sympy
 from hypothesis import given, settings, strategies as st
@@ -49,6 +51,53 @@ def test_latex():
     assert latex(-m1 * (m1 + m2 + m2) ** 3) == r"- m_{1} \left(m_{1} + 2 m_{2}\right)^{3}"
     assert latex(m1 / (k12 + k12)) == r"\frac{m_{1}}{2 k_{12}}"
     assert latex(RING["m1"] / RING["m1"]) == "1"
+
+
+def printed_by_sympy(of):
+    """LaTeX of a sum by SymPy's printer, which keeps an order only of what is built unevaluated;
+    it writes a first number -1 without a space.
+    """
+    products = [
+        sympy.Mul(
+            *([c] if c != 1 or not powers else []),
+            *(sympy.Pow(sympy.Symbol(n), e, evaluate=e == 1) for n, e in powers.items()),
+            evaluate=False,
+        )
+        for c, powers in of
+    ]
+    found = sympy.Add(*products, evaluate=False)
+    names = {x: latex_symbol(x.name) for x in found.free_symbols}
+    return re.sub(r"^-(?=\d)", "- ", sympy.latex(found, order="none", symbol_names=names))
+
+
+POWERS = st.dictionaries(
+    st.sampled_from(["m1", "k9_10", "Td", "gain", "s"]),
+    st.sampled_from([-2, -1, 1, 2, 3]),
+    max_size=4,
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.tuples(st.sampled_from([-3, -1, 1, 2]), POWERS), max_size=3))
+def test_sums_in_latex_are_what_sympy_prints(found):
+    assert latex(found) == printed_by_sympy(found)
+
+
+def test_signs_powers_and_brackets():
+    m1, m2, k12 = RING.values()
+    for function, python, tex in (
+        (-(m1 + m2), "-(m1 + m2)", r"- \left(m_{1} + m_{2}\right)"),
+        (m1**-2, "1/m1**2", r"\frac{1}{m_{1}^{2}}"),
+        (
+            m1 / (k12 * (m1 + m2)),
+            "m1/(k12*(m1 + m2))",
+            r"\frac{m_{1}}{k_{12} \left(m_{1} + m_{2}\right)}",
+        ),
+        (-(m1 - m2) / k12, "-(m1 - m2)/k12", r"- \frac{m_{1} - m_{2}}{k_{12}}"),
+        ((m1 + m2) ** 2 / m2, "(m1 + m2)**2/m2", r"\frac{\left(m_{1} + m_{2}\right)^{2}}{m_{2}}"),
+        (k12 / (m1 + m2), "k12/(m1 + m2)", r"\frac{k_{12}}{m_{1} + m_{2}}"),
+    ):
+        assert (text(function), latex(function)) == (python, tex)
 
 
 def test_sums_keep_their_order_and_numbers_stay_before_sums():

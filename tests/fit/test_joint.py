@@ -22,7 +22,7 @@ from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.practical import covariance
 from disting.fit.noise.covariance import expected
 from disting.fit.search.cost import Case, Cost, lines_by_deviation
-from disting.fit.search.data import joint_cost
+from disting.fit.search.data import Weighing
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import Further, JointCost
@@ -256,9 +256,9 @@ def errors(chain, values, data, further):
     truth.
     """
     start = np.array([values[n] for n in chain.parameters])
-    task = Task(joint_cost(Cost(data), further, None, alike=False))
+    task = Task(Weighing(Cost(data), further=further).training())
     exact = task.plant(chain).response(start)
-    task = Task(joint_cost(Cost(data), further, None, alike=False, fitted=[exact]))
+    task = Task(Weighing(Cost(data), further=further).training([exact]))
     plant = task.plant(chain)
     p, j = fine(plant, task.cost, task.box(chain.parameters), start)
     residual, columns = task.cost.of(plant, p)
@@ -303,7 +303,7 @@ def test_two_equal_responses_are_one_of_half_the_variance():
     p = np.array([values[n] for n in TWO.parameters])
     sizes = []
     for further in ([], [Further(data[1], Setup(sensor="1"))]):
-        task = Task(joint_cost(Cost(data[0]), further, None, alike=True))
+        task = Task(Weighing(Cost(data[0]), further=further, alike=True).training())
         residual, columns = task.cost.of(task.plant(TWO), p)
         sigma = task.cost.scatter(together(scatters(task.cost, [task.plant(TWO).response(p)])))
         there = noises(task.cost, residual, sigma, expected(columns, sigma))

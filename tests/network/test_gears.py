@@ -11,6 +11,7 @@ from hypothesis import assume, given, strategies as st
 from disting import Query, View, compare, verdict_file
 from disting.cli.run import main
 from disting.errors import InputError
+from disting.general.alternatives import alternatives
 from disting.general.any_model import of_network
 from disting.general.behaviour import GeneralModel
 from disting.network import Network, Port
@@ -136,3 +137,20 @@ def test_formulas_say_the_units(capsys) -> None:
     assert "identity checked" in said and "m2'" in said
     assert main(["equivalents", SAME[0][0], "--to", SAME[0][1], "--formulas"]) == 0
     assert "m1'  = 5*m1/2\nm2'  = 2*m2/5\n" in capsys.readouterr().out
+
+
+def test_values_in_other_units_come_first_where_there_are_others(capsys) -> None:
+    """2 m1' = 5 m1, 5 m2' = 2 m2, 2 k12' = 5 k12, among infinitely many sets."""
+    pair = ["1~2*5/2; F1; S2", "--to", "1~2; F1; S2"]
+    assert main(["equivalents", *pair, "--set", "m1=1,m2=2,k12=4"]) == 0
+    listed = capsys.readouterr().out.splitlines()[2:]
+    assert listed[0] == "  k12 = 10, m1 = 5/2, m2 = 4/5"
+    assert listed[-1] == "  and infinitely many more" and len(set(listed)) == len(listed) > 3
+
+
+def test_sets_that_do_not_give_the_function_do_not_come_first() -> None:
+    one, two = (of_network(network_of(t)) for t in ("1~2*5/2; F1; S2", "1~2; F1; S2"))
+    plain = [{"k12": 10, "m1": m1, "m2": "4/5"} for m1 in (2, "5/2")]
+    found = alternatives(one, {"m1": 1, "m2": 2, "k12": 4}, two, plain=plain)
+    assert str(found.equivalents[0]) == "k12 = 10, m1 = 5/2, m2 = 4/5"
+    assert not any(x.values["m1"] == 2 for x in found.equivalents)

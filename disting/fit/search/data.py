@@ -132,89 +132,95 @@ def _check_units(data: FrequencyResponse) -> None:
             )
 
 
-def joint_cost(
-    first: Cost,
-    further: Sequence[Further],
-    lines: Lines | None,
-    alike: bool,
-    test: FrequencyResponse | None = None,
-    fitted: Sequence[Complex] = (),
-) -> AnyCost:
-    """The cost of all responses on the training data, each in units of its own scatter.
+@dataclass(frozen=True, slots=True, eq=False)
+class Weighing:
+    """What the lines of all responses count: of the `first` cost's, which was measured another time
+    too where there is a `test`, and of `further` ones, each in units of its own scatter.
 
-    Weights 1/rho of each line, rho as `scatter` tells it with the stacked responses `fitted` of
-    candidates, what the machine changes by until its test data included; or those by `lines`, of
-    each response divided by what its weighted residuals scatter by, lambda^2 = mean (w rho)^2. Then
-    those of all are scaled to a mean square of 1. `alike`: all lines of all responses count alike.
+    Weights are 1/rho of each line, rho as `scatter` tells it, what the machine changes by until its
+    test data included; or those by `lines`, of each response divided by what its weighted residuals
+    scatter by, lambda^2 = mean (w rho)^2. `alike`: all lines of all responses count alike.
     """
-    whole = (Further(first.measured, Setup(), test), *further)
-    ends = np.cumsum([len(one.measured) for one in whole])[:-1]
-    known = [np.split(response, ends) for response in fitted]
-    own = [
-        np.ones(len(one.measured))
-        if alike
-        else _weights(one.measured, one.test, lines, [each[k] for each in known])
-        for k, one in enumerate(whole)
-    ]
-    size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))
-    parts = [
-        replace(first, measured=one.measured, lines=None if alike and not further else w / size)
-        for one, w in zip(whole, own, strict=True)
-    ]
-    setups = tuple(one.setup for one in whole)
-    if not further:
-        return parts[0]
-    return JointCost(tuple(parts), setups, tuple(s.delay for s in setups if s.delay))
 
+    first: Cost
+    test: FrequencyResponse | None = None
+    further: Sequence[Further] = ()
+    lines: Lines | None = None
+    alike: bool = False
 
-def _weights(
-    measured: FrequencyResponse,
-    other: FrequencyResponse | None,
-    lines: Lines | None,
-    fitted: Sequence[Complex],
-) -> Real:
-    """Weights of the lines of a response that was measured another time too."""
-    own = scatter(measured, fitted)
-    if lines is not None:
-        weights = lines(measured)
-        return weights / max(float(np.sqrt(np.mean((weights * own.rho) ** 2))), LEAST)
-    tau = changed(measured, other, own, scatter(other)) if other is not None else 0.0
-    return np.asarray(1.0 / widened(own, tau).rho)
+    @property
+    def by_scatter(self) -> bool:
+        """Whether lines count by what they scatter."""
+        return self.lines is None and not self.alike
 
+    def training(self, fitted: Sequence[Complex] = ()) -> AnyCost:
+        """The cost of all responses on the training data, weights scaled to a mean square of 1.
+        What the lines scatter is seen beside the stacked responses `fitted` of candidates.
+        """
+        whole = (Further(self.first.measured, Setup(), self.test), *self.further)
+        ends = np.cumsum([len(one.measured) for one in whole])[:-1]
+        known = [np.split(response, ends) for response in fitted]
+        own = [
+            self._weights(one.measured, one.test, [each[k] for each in known])
+            for k, one in enumerate(whole)
+        ]
+        size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))
+        plain = self.alike and not self.further
+        parts = [
+            replace(self.first, measured=one.measured, lines=None if plain else w / size)
+            for one, w in zip(whole, own, strict=True)
+        ]
+        setups = tuple(one.setup for one in whole)
+        if not self.further:
+            return parts[0]
+        return JointCost(tuple(parts), setups, tuple(s.delay for s in setups if s.delay))
 
-def judging_cost(
-    cost: AnyCost,
-    test: FrequencyResponse,
-    further: Sequence[Further],
-    lines: Lines | None,
-    alike: bool,
-    fitted: Callable[[AnyCost], Sequence[Complex]],
-) -> AnyCost:
-    """The cost on independent data, of the responses that have some; a response counts there as
-    much as on the training data. `fitted`: responses of candidates at the lines of a cost.
-    """
-    tests = [test, *(one.test for one in further)]
-    kept = [
-        (replace(part, measured=data, lines=None), part)
-        for part, data in zip(cost.parts, tests, strict=True)
-        if data is not None
-    ]
-    tested = [data is not None for data in tests]
-    places = cost.places if isinstance(cost, JointCost) else {}
-    plain = JointCost(
-        tuple(part for part, _ in kept),
-        tuple(compress(cost.setups, tested)),
-        cost.delays,
-        {of: tuple(compress(setups, tested)) for of, setups in places.items()},
-    )
-    each = [plain.by_line(response) for response in fitted(plain)]
-    parts = []
-    for k, (part, trained) in enumerate(kept):
-        own = [responses[k] for responses in each]
-        data = part.measured
-        weights = np.ones(len(data)) if alike else _weights(data, trained.measured, lines, own)
-        parts.append(replace(part, lines=weights * _size(trained.lines) / _size(weights)))
-    return parts[0] if isinstance(cost, Cost) else replace(plain, parts=tuple(parts))
+    def judging(
+        self, cost: AnyCost, fitted: Callable[[AnyCost], Sequence[Complex]]
+    ) -> AnyCost | None:
+        """The cost on independent data, of the responses that have some, None without such; a
+        response counts there as much as on the training data, in `cost`. `fitted`: responses of
+        candidates at the lines of a cost.
+        """
+        if self.test is None:
+            return None
+        tests = [self.test, *(one.test for one in self.further)]
+        kept = [
+            (replace(part, measured=data, lines=None), part)
+            for part, data in zip(cost.parts, tests, strict=True)
+            if data is not None
+        ]
+        tested = [data is not None for data in tests]
+        places = cost.places if isinstance(cost, JointCost) else {}
+        plain = JointCost(
+            tuple(part for part, _ in kept),
+            tuple(compress(cost.setups, tested)),
+            cost.delays,
+            {of: tuple(compress(setups, tested)) for of, setups in places.items()},
+        )
+        each = [plain.by_line(response) for response in fitted(plain)]
+        parts = []
+        for k, (part, trained) in enumerate(kept):
+            own = [responses[k] for responses in each]
+            weights = self._weights(part.measured, trained.measured, own)
+            parts.append(replace(part, lines=weights * _size(trained.lines) / _size(weights)))
+        return parts[0] if isinstance(cost, Cost) else replace(plain, parts=tuple(parts))
+
+    def _weights(
+        self,
+        measured: FrequencyResponse,
+        other: FrequencyResponse | None,
+        fitted: Sequence[Complex],
+    ) -> Real:
+        """Weights of the lines of a response that was measured another time too."""
+        if self.alike:
+            return np.ones(len(measured))
+        own = scatter(measured, fitted)
+        if self.lines is not None:
+            weights = self.lines(measured)
+            return weights / max(float(np.sqrt(np.mean((weights * own.rho) ** 2))), LEAST)
+        tau = changed(measured, other, own, scatter(other)) if other is not None else 0.0
+        return np.asarray(1.0 / widened(own, tau).rho)
 
 
 def _size(weights: Real | None) -> float:
