@@ -69,7 +69,7 @@ class ModelEquivalent(Shown):
 
 
 def model_equivalents(
-    given: Network | AnyModel,
+    source: Network | AnyModel,
     others: Sequence[Network | AnyModel],
     values: Mapping[str, object] | None = None,
     *,
@@ -87,50 +87,50 @@ def model_equivalents(
     >>> found.verdict.relation.value, str(found.values.equivalents[0])
     ('indistinguishable', 'C1 = 2/9, R0 = 3, R1 = 3/2')
     """
-    model = _as_model(given)
+    model = _as_model(source)
     engine = Engine() if engine is None else engine
     exponents = model.network.exponents if model.network is not None else ()
     phases = {n: _phase(n, (values or {}).get(n, n)) for n in exponents}
     numbers = None if values is None else {n: x for n, x in values.items() if n not in phases}
     equivalents = []
-    for there in map(_as_model, others):
-        if there.shape != model.shape:
+    for other in map(_as_model, others):
+        if other.shape != model.shape:
             continue
-        verdict = compare(model, there, query=query, engine=engine)
+        verdict = compare(model, other, query=query, engine=engine)
         if verdict.relation is not Relation.DISTINGUISHABLE:
-            mine, others_form = (s.subject for s in engine.general_subjects([model, there]))
+            mine, others_form = (s.subject for s in engine.general_subjects([model, other]))
             at, lots = (None, None) if numbers is None else _sets(mine, numbers, others_form)
             named = zip(others_form.powers.exponents, mine.powers.exponents, strict=False)
             equal = tuple((name, phases[given_name]) for name, given_name in named)
-            equivalents.append(ModelEquivalent(there, verdict, at, lots, equal))
+            equivalents.append(ModelEquivalent(other, verdict, at, lots, equal))
     return equivalents
 
 
 def _sets(
-    given: AnyModel, values: Mapping[str, object], other: AnyModel
+    model: AnyModel, values: Mapping[str, object], other: AnyModel
 ) -> tuple[Alternatives | None, Synthesis | None]:
     """All values of small models; of larger ones the positive ones by synthesis, where these are
     all, or nothing else is found.
     """
-    found = _synthesized(given, values, other) if len(other.parameters) > MOST_SOLVED else None
-    if found is not None and found.complete:
-        return None, found
-    solved = alternatives(given, values, other)
-    return (None, found) if found and solved.extent is Extent.UNKNOWN else (solved, None)
+    sets = _synthesized(model, values, other) if len(other.parameters) > MOST_SOLVED else None
+    if sets is not None and sets.complete:
+        return None, sets
+    solved = alternatives(model, values, other)
+    return (None, sets) if sets and solved.extent is Extent.UNKNOWN else (solved, None)
 
 
 def _synthesized(
-    given: AnyModel, values: Mapping[str, object], other: AnyModel
+    model: AnyModel, values: Mapping[str, object], other: AnyModel
 ) -> Synthesis | None:
-    one, two = on_one_variable([given, other])
+    first, second = on_one_variable([model, other])
     try:
-        return positive_sets(one, dict(rational_values(given, values)), two)
+        return positive_sets(first, dict(rational_values(model, values)), second)
     except NoFormulas:
         return None
 
 
-def _as_model(given: Network | AnyModel) -> AnyModel:
-    return of_network(given) if isinstance(given, Network) else given
+def _as_model(source: Network | AnyModel) -> AnyModel:
+    return of_network(source) if isinstance(source, Network) else source
 
 
 def _phase(name: str, value: object) -> str:

@@ -43,24 +43,24 @@ class FibreIdeal:
 
 
 def fibre_ideal(
-    given: PolynomialMap, other: PolynomialMap, label: str, equal_rank: bool, bits: int = BITS
+    model: PolynomialMap, other: PolynomialMap, label: str, equal_rank: bool, bits: int = BITS
 ) -> FibreIdeal:
-    """The fibre of `other` over a random point of `given`, modulo a random prime, both determined
+    """The fibre of `other` over a random point of `model`, modulo a random prime, both determined
     by the label.
 
     Both maps have coordinates that can be compared (see `system.matched`).
     """
-    modulus, point = drawn(given, label, bits)
-    there = residues(f"slice:{label}", len(other.parameters), modulus)
-    fixed = _slice(other, there, modulus) if equal_rank else {}
-    targets = [evaluated(c, point, modulus) for c in given.coordinates]
+    modulus, point = drawn(model, label, bits)
+    origin = residues(f"slice:{label}", len(other.parameters), modulus)
+    fixed = _slice(other, origin, modulus) if equal_rank else {}
+    targets = [evaluated(c, point, modulus) for c in model.coordinates]
     zero = (0,) * len(other.parameters)
     equations = [
         dict(c) | {zero: dict(c).get(zero, 0) - y}
         for c, y in zip(other.coordinates, targets, strict=True)
     ]
     if equal_rank:
-        equations += _tangents(given, other, point, modulus)
+        equations += _tangents(model, other, point, modulus)
     kept = [i for i, name in enumerate(other.parameters) if name not in fixed]
     values = [fixed.get(name, 0) for name in other.parameters]
     reduced = (restricted(e, kept, values, modulus) for e in equations)
@@ -73,14 +73,14 @@ def fibre_ideal(
     )
 
 
-def drawn(given: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
+def drawn(model: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
     """The random prime and point that a label stands for; values are drawn by name, so a scale
     factor changes no other.
 
     Those who choose labels make them depend on the models (`sampling.about`).
     """
     modulus = prime(label, bits)
-    return modulus, tuple(residues(f"{name}:{label}", 1, modulus)[0] for name in given.parameters)
+    return modulus, tuple(residues(f"{name}:{label}", 1, modulus)[0] for name in model.parameters)
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -113,7 +113,7 @@ def sides_at(
 
 
 def agree(
-    given: PolynomialMap,
+    model: PolynomialMap,
     point: Sequence[int],
     other: PolynomialMap,
     values: Sequence[int],
@@ -122,7 +122,7 @@ def agree(
     """Whether two maps that can be compared have the same coefficients at these parameters
     modulo a prime.
     """
-    pairs = zip(given.coordinates, other.coordinates, strict=True)
+    pairs = zip(model.coordinates, other.coordinates, strict=True)
     return all(evaluated(a, point, modulus) == evaluated(b, values, modulus) for a, b in pairs)
 
 
@@ -160,20 +160,20 @@ def pivots(echelon: Matrix, rank: int) -> list[int]:
     return [next(j for j in range(echelon.ncols()) if int(echelon[i, j])) for i in range(rank)]
 
 
-def _slice(model: PolynomialMap, there: Sequence[int], modulus: int) -> dict[str, int]:
-    free = pivots(*jacobian(model, there, modulus).rref())
+def _slice(model: PolynomialMap, origin: Sequence[int], modulus: int) -> dict[str, int]:
+    free = pivots(*jacobian(model, origin, modulus).rref())
     return {
         name: x
-        for j, (name, x) in enumerate(zip(model.parameters, there, strict=True))
+        for j, (name, x) in enumerate(zip(model.parameters, origin, strict=True))
         if j not in free
     }
 
 
 def _tangents(
-    given: PolynomialMap, other: PolynomialMap, point: Sequence[int], modulus: int
+    model: PolynomialMap, other: PolynomialMap, point: Sequence[int], modulus: int
 ) -> list[Polynomial]:
     order = sorted(range(len(other.coordinates)), key=lambda i: -_degree(other.coordinates[i]))
-    normals, rank = _left_null_space(jacobian(given, point, modulus), order, modulus)
+    normals, rank = _left_null_space(jacobian(model, point, modulus), order, modulus)
     gradients = [
         [derivative(c, j) for j in range(len(other.parameters))] for c in other.coordinates
     ]

@@ -53,9 +53,9 @@ def _krawczyk(
     except ZeroDivisionError:
         return Confirmation.BALLS
     size = len(rows)
-    one = acb_mat([[int(i == j) for j in range(size)] for i in range(size)])
+    identity = acb_mat([[int(i == j) for j in range(size)] for i in range(size)])
     offset = acb_mat([[box[name] - mid[name]] for name in mid])
-    step = (one - inverse * wide) * offset - inverse * acb_mat([[r] for r in residual])
+    step = (identity - inverse * wide) * offset - inverse * acb_mat([[r] for r in residual])
     inside = all(offset[i, 0].contains_interior(step[i, 0]) for i in range(size))
     return Confirmation.SUBSYSTEM if inside else Confirmation.BALLS
 
@@ -81,16 +81,16 @@ def _system(chain: Chain, values: dict[str, Ball], target: Target) -> tuple[list
         (raw.num, raw.num_gradient, target.numerator),
         (raw.den, raw.den_gradient, target.denominator),
     )
-    for ours, gradient, given in pairs:
-        for i in range(given.degree() + 1):
-            if given[i] and not (ours is raw.den and i == top):
+    for ours, gradient, wanted in pairs:
+        for i in range(wanted.degree() + 1):
+            if wanted[i] and not (ours is raw.den and i == top):
                 value = ours[i] / raw.den[top]
-                residual.append(value / acb(given[i]) - 1)
+                residual.append(value / acb(wanted[i]) - 1)
                 slopes = (
                     (gradient[n][i] - value * raw.den_gradient[n][top]) / raw.den[top]
                     for n in values
                 )
-                jacobian.append([slope / acb(given[i]) for slope in slopes])
+                jacobian.append([slope / acb(wanted[i]) for slope in slopes])
     return residual, jacobian
 
 
@@ -141,9 +141,9 @@ def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) 
     num, den = plain_receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
     lead = den[den.degree()]
     width = 0.0
-    for ours, given in ((num, target.numerator), (den, target.denominator)):
-        largest = max(abs(c) for c in given.coeffs())
-        for i, coefficient in enumerate(_padded(given, ours.degree())):
+    for ours, wanted in ((num, target.numerator), (den, target.denominator)):
+        largest = max(abs(c) for c in wanted.coeffs())
+        for i, coefficient in enumerate(_padded(wanted, ours.degree())):
             gap = ours[i] / lead - acb(coefficient)
             if not gap.is_finite():
                 raise Imprecise("a coefficient is not finite")
@@ -155,8 +155,8 @@ def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) 
     return Checked(values, gauges, width)
 
 
-def _padded(given: Exact, degree: int) -> list[Exact]:
-    return [given[i] for i in range(max(degree, given.degree()) + 1)]
+def _padded(polynomial: Exact, degree: int) -> list[Exact]:
+    return [polynomial[i] for i in range(max(degree, polynomial.degree()) + 1)]
 
 
 def _lifted(values: dict[str, Ball]) -> dict[str, acb_poly]:

@@ -130,9 +130,9 @@ def target(structure: Structure, point: Mapping[str, fmpq]) -> Target:
     >>> str(t.numerator), str(t.denominator)
     ('1/2', 'x^2')
     """
-    one = fmpq_poly([1])
+    unit = fmpq_poly([1])
     values = {name: fmpq_poly([value]) for name, value in point.items()}
-    num, den = plain_receptance(structure, values, fmpq_poly([0, 1]), one)
+    num, den = plain_receptance(structure, values, fmpq_poly([0, 1]), unit)
     common = num.gcd(den)
     num, den = num // common, den // common
     return Target(num / den[den.degree()], den / den[den.degree()])

@@ -85,43 +85,43 @@ def is_untested(chain: Chain) -> bool:
     return is_plain(chain) and (grounded is None or grounded.distance == free.distance == 0)
 
 
-def is_constructed(given: Chain, point: Mapping[str, fmpq], other: Chain) -> bool:
+def is_constructed(chain: Chain, point: Mapping[str, fmpq], other: Chain) -> bool:
     """Whether a solution of `other` for the given model is proven to exist; False says nothing."""
     grounded, free = grounded_and_free(canonical(other).chain.structure)
     if (
-        not is_plain(given)
+        not is_plain(chain)
         or not is_plain(other)
         or not all(is_covered(s) for s in (grounded, free) if s)
     ):
         return False
-    whole = target(given.structure, point).folded(1)
+    whole = target(chain.structure, point).folded(1)
     if grounded is None:
         return whole.numerator.degree() == free.numerator_degree and _exists(free, whole)
     return any(
         all(_exists(*pair) for pair in pairs)
-        for pairs in exact_rows(given, point, whole, grounded, free)
+        for pairs in exact_rows(chain, point, whole, grounded, free)
     )
 
 
 def exact_rows(
-    given: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Row, free: Row
+    chain: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Row, free: Row
 ) -> Iterator[list[tuple[Row, Target]]]:
     """Yield the receptances of both rows, of the right degrees, where the given chain's own
     poles are the ones to take.
     """
-    for poles in _poles(given, point, whole):
-        found = _summands(whole, poles) if poles.degree() == grounded.n_masses else None
-        pairs = list(zip((grounded, free), found, strict=True)) if found else []
+    for poles in _poles(chain, point, whole):
+        summands = _summands(whole, poles) if poles.degree() == grounded.n_masses else None
+        pairs = list(zip((grounded, free), summands, strict=True)) if summands else []
         if pairs and all(t.numerator.degree() == row.numerator_degree for row, t in pairs):
             yield pairs
 
 
-def _poles(given: Chain, point: Mapping[str, fmpq], whole: Target) -> tuple[Exact, Exact]:
+def _poles(chain: Chain, point: Mapping[str, fmpq], whole: Target) -> tuple[Exact, Exact]:
     """Denominator of the given chain's grounded row, and of its free row without the motion
     of the whole.
     """
-    ports = Ports(0, given.act_plus, 0, given.meas_plus)
-    free = target(replace(given.structure, ports=ports), point).folded(1).denominator
+    ports = Ports(0, chain.act_plus, 0, chain.meas_plus)
+    free = target(replace(chain.structure, ports=ports), point).folded(1).denominator
     return whole.denominator // free, free // type(free)([0, 1])
 
 

@@ -98,11 +98,11 @@ def to_end(row: Row, data: Receptance) -> Iterator[Leaf]:
     numerator = data.numerator
     for tau in taus:
         numerator = numerator * poly([1, 1 / (0 * data.denominator[0] + tau)])
-    drive, known = (
+    drive, own_zeros = (
         Receptance(numerator, data.denominator),
         roots(data.numerator, row.numerator_degree),
     )
-    left, right = (inverse_residues(drive, zeros) for zeros in (known, prescribed))
+    left, right = (inverse_residues(drive, zeros) for zeros in (own_zeros, prescribed))
     for leaf in between(replace(row, b=row.a), drive.denominator // numerator, left, right):
         yield replace(leaf, gauges=row.distance) if isinstance(leaf, RowValues) else leaf
 

@@ -78,14 +78,14 @@ def room(small: Structure, large: Structure, seed: str = "meeting") -> Room:
     """The numbers for two structures with the same sensor, without dead time; the rank is seen
     at points of the seed.
     """
-    wanted, given = powers(small), powers(large)
-    factors = sum(_fits(c, wanted, given) for c in range(max(given[1]) + 1))
-    return Room(least_rank(large, seed), sum(map(len, given)), factors, _same_mass(small, large))
+    wanted, searched = powers(small), powers(large)
+    factors = sum(_fits(c, wanted, searched) for c in range(max(searched[1]) + 1))
+    return Room(least_rank(large, seed), sum(map(len, searched)), factors, _same_mass(small, large))
 
 
-def _fits(c: int, wanted: Powers, given: Powers) -> bool:
+def _fits(c: int, wanted: Powers, searched: Powers) -> bool:
     """Whether s^c times the one has no other powers than the other."""
-    return all({c + i for i in w} <= g for w, g in zip(wanted, given, strict=True))
+    return all({c + i for i in w} <= g for w, g in zip(wanted, searched, strict=True))
 
 
 @lru_cache(maxsize=COUNTS)

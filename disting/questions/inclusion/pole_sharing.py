@@ -97,11 +97,13 @@ def excluding_points(small: Chain, large: Chain, label: str) -> Points:
 
     Each is taken modulo the prime of a label of its own, see `labels`. () if none are found.
     """
-    found = (split_model(small, one) if _covered(small, large) else None for one in labels(label))
-    points = tuple(split.point for split in islice(found, 1) if split is not None)
+    models = (
+        split_model(small, trial) if _covered(small, large) else None for trial in labels(label)
+    )
+    points = tuple(split.point for split in islice(models, 1) if split is not None)
     if points and excludes(small, large, label, points):
         return points
-    points += tuple(split.point for split in found if split is not None)
+    points += tuple(split.point for split in models if split is not None)
     return points if len(points) == TRIALS and excludes(small, large, label, points) else ()
 
 
@@ -118,7 +120,8 @@ def excludes(small: Chain, large: Chain, label: str, points: Points) -> bool:
         return False
     trials = zip(labels(label), points, strict=False)
     return all(
-        _excludes(small, large, one, point, by_equation=len(points) > 1) for one, point in trials
+        _excludes(small, large, trial, point, by_equation=len(points) > 1)
+        for trial, point in trials
     )
 
 

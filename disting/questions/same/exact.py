@@ -113,8 +113,8 @@ def by_labels(
 ) -> Finding:
     """What the ideals at these labels say of two models of equal rank, if the seed draws them."""
     is_solved = isinstance(evidence, Solved)
-    told = Membership.MEMBER if is_solved else Membership.EXCLUDED
-    return decided(Decision(told, safety_of(evidence, left, right, seed), evidence))
+    membership = Membership.MEMBER if is_solved else Membership.EXCLUDED
+    return decided(Decision(membership, safety_of(evidence, left, right, seed), evidence))
 
 
 def by_theorem(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -141,8 +141,8 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
         return None
     decided_by_fibre = decide(a, b, settings.seed)
     searched = b if decided_by_fibre.direction is Direction.LEFT_IN_RIGHT else a
-    told = decided_by_fibre.decision(safety_of_point(searched))
-    return None if told.membership is Membership.UNKNOWN else decided(told)
+    decision = decided_by_fibre.decision(safety_of_point(searched))
+    return None if decision.membership is Membership.UNKNOWN else decided(decision)
 
 
 def by_full_rows(a: Chain, b: Chain, settings: Settings) -> Finding | None:
