@@ -27,17 +27,29 @@ from dataclasses import dataclass
 from functools import cached_property
 from operator import mul
 from time import monotonic
-from typing import Any
+from typing import Generic, Protocol, Self, TypeVar
 
 from flint import fmpz_mpoly, nmod_mat, nmod_poly
 
 Polynomial = fmpz_mpoly
 Modular = nmod_poly
 """A polynomial in one variable modulo a prime."""
-Ring = Any  # an element of a commutative ring: +, -, * and, for exact quotients, //
 Times = Callable[[fmpz_mpoly, fmpz_mpoly], fmpz_mpoly]
 Minors = dict[int, fmpz_mpoly]
 """Minors of the first rows by their columns, as a bit mask; those that are not there are zero."""
+
+
+class RingElement(Protocol):
+    """An element of a commutative ring; // is for exact quotients."""
+
+    def __add__(self, other: Self, /) -> Self: ...
+    def __sub__(self, other: Self, /) -> Self: ...
+    def __mul__(self, other: Self, /) -> Self: ...
+    def __neg__(self) -> Self: ...
+    def __floordiv__(self, other: Self, /) -> Self: ...
+
+
+Ring = TypeVar("Ring", bound=RingElement)
 
 
 class OutOfTimeError(Exception):
@@ -135,7 +147,7 @@ def interpolated(values: Sequence[int], modulus: int) -> list[int]:
 
 
 @dataclass(frozen=True)
-class Tridiagonal:
+class Tridiagonal(Generic[Ring]):
     """Diagonal (n entries), negated off-diagonal (n-1 entries) and the ring's one; indices
     count from 0.
     """

@@ -11,7 +11,7 @@ parameters are, but for the frequency variable s.
 import re
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, TypeAlias
 
 from disting.algebra.symbols import (
     Content,
@@ -24,10 +24,13 @@ from disting.algebra.symbols import (
     terms,
 )
 
-Expr = Any  # an expression of SymPy
+if TYPE_CHECKING:
+    import sympy
+
+Expr: TypeAlias = "sympy.Expr"
 Sum = Sequence[Term]
 """A sum of products of powers, whose exponents may be negative."""
-Product = tuple[Any, list[tuple[Expr, int]]]
+Product = tuple["sympy.Expr | int", list[tuple[Expr, int]]]
 """A number, and bases with their exponents."""
 
 

@@ -211,7 +211,7 @@ class PositiveFinding:
             self.evidence is not None and self.certainty is not None
         ):
             raise ValueError("exactly a share that is not unknown carries certainty and evidence")
-        withhold(self, "reason", share=Share.UNKNOWN, certainty=None)
+        withhold(self, (self.certainty, self.safety), "reason", share=Share.UNKNOWN, certainty=None)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its share")

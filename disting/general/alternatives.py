@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from disting.algebra.groebner.own_process import End, run_limited
+from disting.algebra.groebner.own_process import run_limited
 from disting.algebra.groebner.rational import Bounds, Polynomial, TooLarge
 from disting.conditions.finding import Outcome
 from disting.errors import InputError, of_type
@@ -171,4 +171,4 @@ def _solved(
         return solved(equations, parameters, seed, AT_ONCE)
     except TooLarge:
         ended = run_limited(solved, (equations, parameters, seed, AT_MOST), seconds)
-        return ended.value if ended.end is End.DONE else Fibre(Extent.UNKNOWN, reason=ended.reason)
+        return ended.value or Fibre(Extent.UNKNOWN, reason=ended.reason)

@@ -11,7 +11,7 @@ is seen and drawn again.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
@@ -79,11 +79,11 @@ def basis(generators: Sequence[Polynomial], size: int, bounds: Bounds) -> Basis:
     """Groebner basis of the ideal of the generators; raises TooLarge."""
     context = fmpz_mpoly_ctx.get(tuple(f"x{i}" for i in range(size)), Ordering.degrevlex)
     given = fmpz_mpoly_vec([context.from_dict(p) for p in generators], context)
-    found: Any
-    found, done = given.buchberger_naive(limits=(bounds.polynomials, bounds.terms, bounds.bits))
+    limits = (bounds.polynomials, bounds.terms, bounds.bits)
+    grown, done = cast("Any", given).buchberger_naive(limits=limits)
     if not done:
         raise TooLarge("the Groebner basis grows beyond its bounds")
-    reduced = found.autoreduction(groebner=True)
+    reduced = grown.autoreduction(groebner=True)
     return Basis(tuple(p for p in reduced if not p.is_zero()), size)
 
 

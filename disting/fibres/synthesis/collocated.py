@@ -14,6 +14,8 @@ from beta; if more are not, the slopes of the sides are left open, and `friction
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from flint import arb
+
 from disting.fibres.synthesis.branch import (
     BOUNDARY,
     NONZERO,
@@ -111,7 +113,7 @@ class _Port:
     mass: Ball
     beta: Ball
     damper: bool
-    scale: Ball
+    scale: Ball | arb
 
 
 def driving_point(row: Row, data: Receptance) -> Iterator[Leaf]:

@@ -17,7 +17,7 @@ as balls; and the solutions that they are: which are real, which are positive.
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from flint import acb, acb_mat, acb_poly, arb, ctx
+from flint import acb, acb_mat, acb_poly, arb, ctx, fmpq
 
 from disting.behaviour.transfer import Rational, plain_receptance, receptance
 from disting.fibres.synthesis.branch import NONZERO, TOLERANCE, Ball, Dead, Imprecise
@@ -94,7 +94,7 @@ def _system(chain: Chain, values: dict[str, Ball], target: Target) -> tuple[list
     return residual, jacobian
 
 
-def _independent(jacobian: Matrix, scales: Iterable[Ball]) -> list[int]:
+def _independent(jacobian: Matrix, scales: Iterable[arb]) -> list[int]:
     """Rows chosen by elimination with complete pivoting on midpoints, parameters scaled to one:
     no proof, a good choice.
     """
@@ -129,7 +129,7 @@ class Checked:
     width: float
 
 
-def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational:
+def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational[acb_poly]:
     """Receptance and gradients over balls."""
     return receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
 
@@ -155,7 +155,7 @@ def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) 
     return Checked(values, gauges, width)
 
 
-def _padded(polynomial: Exact, degree: int) -> list[Exact]:
+def _padded(polynomial: Exact, degree: int) -> list[fmpq]:
     return [polynomial[i] for i in range(max(degree, polynomial.degree()) + 1)]
 
 

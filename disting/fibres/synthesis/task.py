@@ -3,9 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
 
-from flint import acb_poly, fmpq, fmpq_poly
+from flint import acb, acb_poly, fmpq, fmpq_poly
 
 from disting.behaviour.transfer import plain_receptance
 from disting.fibres.synthesis.branch import Receptance
@@ -13,8 +12,8 @@ from disting.model.question import Answer
 from disting.model.row import Row
 from disting.model.structure import Structure
 
-Ball = Any  # acb or arb
-Exact = Any  # fmpq_poly; what its stub says of complex_roots is not so
+Ball = acb
+Exact = fmpq_poly
 
 
 class Status(StrEnum):

@@ -52,10 +52,10 @@ its gap (or the other chain has no gap): then its own grounded or free poles are
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
 
 from flint import ctx, fmpq
 
+from disting.algebra.symbols import Number
 from disting.fibres.synthesis.branch import Imprecise, RowValues
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.methods import is_covered, synthesise
@@ -65,9 +65,10 @@ from disting.model.row import Row, grounded_and_free, rows_of
 from disting.model.structure import Ports
 from disting.model.symmetry import canonical
 
-Number = Any  # an element of a field
 Law = tuple[Number, ...]  # (c, d) of a spring and its damper, (c,) undamped
-Outwards = tuple[list[Number], list[Law]]  # masses and springs from the port outwards
+Outwards = tuple[
+    list[Number], list[tuple[Number, ...]]
+]  # masses and springs from the port outwards
 
 
 def is_plain(chain: Chain) -> bool:
@@ -191,7 +192,9 @@ def dual(chain: Chain, values: Mapping[str, Number]) -> dict[str, Number]:
     n, g = chain.n_masses, chain.gap
     masses = [values[f"m{i}"] for i in range(1, n + 1)]
     names = [name for name in chain.parameters if name[0] == "k"]
-    laws = [(values[k], values[f"d{k[1:]}"]) if chain.damped else (values[k],) for k in names]
+    laws: list[Law[Number]] = [
+        (values[k], values[f"d{k[1:]}"]) if chain.damped else (values[k],) for k in names
+    ]
     total = sum(masses[g + 1 :], masses[g])
     inner, springs = _grounded(masses[g:], laws[g:], total)
     outer, others = _free(masses[:g][::-1], laws[:g][::-1], total)
@@ -219,7 +222,7 @@ def _mirror_gap(chain: Chain) -> Chain:
     return Chain(chain.n_masses, h, h, h + 1, h, h + 1, sensor=chain.sensor, damped=chain.damped)
 
 
-def _grounded(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
+def _grounded(masses: list[Number], springs: list[Law[Number]], total: Number) -> Outwards[Number]:
     """The row of F - 1/(M s^2)."""
     if not springs:
         return [], []
@@ -231,7 +234,7 @@ def _grounded(masses: list[Number], springs: list[Law], total: Number) -> Outwar
     ]
 
 
-def _free(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
+def _free(masses: list[Number], springs: list[Law[Number]], total: Number) -> Outwards[Number]:
     """The row of R + 1/(M s^2), the inverse: M1 = M^2/(M + mu)."""
     if not masses:
         return [total], []
@@ -243,10 +246,10 @@ def _free(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
     return [total - rest, *inner], [_scaled(springs[0], factor), *laws]
 
 
-def _scaled(law: Law, factor: Number) -> Law:
+def _scaled(law: Law[Number], factor: Number) -> Law[Number]:
     return tuple(factor * x for x in law)
 
 
-def _in_order(chain: Chain, masses: list[Number], laws: list[Law]) -> list[Number]:
+def _in_order(chain: Chain, masses: list[Number], laws: list[Law[Number]]) -> list[Number]:
     """Masses, springs, dampers: the order of a chain's parameters."""
     return [*masses, *(law[0] for law in laws), *(law[1] for law in laws if chain.damped)]

@@ -19,7 +19,6 @@ tests.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import comb
-from typing import Any
 
 from flint import acb, fmpq
 
@@ -36,7 +35,7 @@ from disting.model.symmetry import forms
 from disting.questions.identifiability.parts import Alternative, Origin, Renaming
 
 MOST_LISTED = 100  # solutions of an undamped chain whose number a theorem tells
-Values = Mapping[str, Any]  # fmpq where exact, acb otherwise
+Values = Mapping[str, fmpq | acb]  # exact where possible
 
 
 @dataclass(frozen=True, slots=True)

@@ -54,9 +54,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cmp_to_key
 from itertools import pairwise
-from typing import Any
+from typing import cast
 
-from flint import ctx
+from flint import acb, arb, ctx
 
 from disting.fibres.synthesis.task import Target
 
@@ -170,7 +170,7 @@ def _counted(t: Target) -> Word | None:
     points = [
         (z, n, is_pole)
         for p, is_pole in ((t.denominator, True), (t.numerator, False))
-        for z, n in p.complex_roots()
+        for z, n in cast("list[tuple[acb, int]]", p.complex_roots())  # not as its stub says
     ]
     if any(bool(z.imag != 0) for z, _, _ in points):
         return ()
@@ -184,7 +184,7 @@ def _counted(t: Target) -> Word | None:
     return tuple(right - left - 1 for left, right in pairwise(poles)) if inside else ()
 
 
-def _compared(point: tuple[Any, bool], other: tuple[Any, bool]) -> int:
+def _compared(point: tuple[arb, bool], other: tuple[arb, bool]) -> int:
     """From right to left; balls that overlap compare as equal, neighbours in the list will show
     it.
     """

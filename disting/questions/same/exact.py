@@ -40,7 +40,6 @@ ranks.
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
@@ -176,8 +175,8 @@ def by_shares(
 
 
 Method = Callable[[Chain, Chain, Settings], Finding | None]
-OF_ANY_CHAINS: dict[type[Any], Method] = {Theorem: by_theorem, DeadTime: by_dead_time}
-METHODS: dict[type[Any], Method] = OF_ANY_CHAINS | {
+OF_ANY_CHAINS: dict[type[object], Method] = {Theorem: by_theorem, DeadTime: by_dead_time}
+METHODS: dict[type[object], Method] = OF_ANY_CHAINS | {
     FibreAt: by_synthesis,
     FullRows: by_full_rows,
     Shared: by_shares,
