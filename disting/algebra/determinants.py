@@ -31,7 +31,6 @@ from typing import Generic, Protocol, Self, TypeVar
 
 from flint import fmpz_mpoly, nmod_mat, nmod_poly
 
-Polynomial = fmpz_mpoly
 Modular = nmod_poly
 """A polynomial in one variable modulo a prime."""
 Times = Callable[[fmpz_mpoly, fmpz_mpoly], fmpz_mpoly]
@@ -56,7 +55,7 @@ class OutOfTimeError(Exception):
     """The elimination was given up."""
 
 
-def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
+def rank(rows: Sequence[Sequence[fmpz_mpoly]], seconds: float) -> int:
     """Rank over the field of fractions; raises OutOfTimeError after about `seconds`.
 
     >>> from disting.algebra.symbols import symbols
@@ -67,7 +66,7 @@ def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
     end = monotonic() + seconds
     work = [_primitive(row) for row in rows]
     columns = list(range(len(work[0]))) if work else []
-    previous: Polynomial | None = None
+    previous: fmpz_mpoly | None = None
     done = 0
     while pivots := [
         (len(work[i][j]), i, j)
@@ -88,12 +87,12 @@ def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
 
 
 def _reduced(
-    row: Sequence[Polynomial],
-    pivot: Sequence[Polynomial],
+    row: Sequence[fmpz_mpoly],
+    pivot: Sequence[fmpz_mpoly],
     column: int,
     columns: list[int],
-    previous: Polynomial | None,
-) -> list[Polynomial]:
+    previous: fmpz_mpoly | None,
+) -> list[fmpz_mpoly]:
     """Bareiss' step: (pivot * entry - factor * above) / previous pivot."""
     found = list(row)
     for j in columns:
@@ -102,9 +101,9 @@ def _reduced(
     return found
 
 
-def _primitive(row: Sequence[Polynomial]) -> list[Polynomial]:
+def _primitive(row: Sequence[fmpz_mpoly]) -> list[fmpz_mpoly]:
     """The row without its common factor."""
-    common: Polynomial | None = None
+    common: fmpz_mpoly | None = None
     for entry in row:
         if not entry.is_zero():
             common = entry if common is None else common.gcd(entry)

@@ -11,8 +11,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.own_process import run_limited
-from disting.algebra.groebner.rational import Bounds, Polynomial, TooLarge
+from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.conditions.finding import Outcome
 from disting.errors import InputError, of_type
 from disting.general.any_model import on_one_variable
@@ -158,13 +159,13 @@ def alternatives(
     )
 
 
-def _equations(given: AnyModel, values: Values, other: AnyModel) -> tuple[Polynomial, ...]:
+def _equations(given: AnyModel, values: Values, other: AnyModel) -> tuple[Sparse, ...]:
     goals = [target(replace(entry, name=given.name), values) for entry in given.entries]
     return joint_equations(goals, other.entries)
 
 
 def _solved(
-    equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed: str, seconds: float
+    equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, seconds: float
 ) -> Fibre:
     """At once, or in a process of its own."""
     try:

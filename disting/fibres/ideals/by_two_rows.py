@@ -42,7 +42,7 @@ from disting.model.structure import Structure
 
 # for up to eight statements: at most two rows in three splits, and the ranks that they rest on
 SPARE_BITS = 3
-Pair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there
+RowPair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there
 RANK_POINTS = 3  # one misses a rank with less than 2^-50, so that three are surer than the ideals
 
 
@@ -145,7 +145,7 @@ def _ranks(wanted: CoefficientMap, reached: CoefficientMap, label: str) -> tuple
     return rank, most
 
 
-def _pairs(split: Split, searched: Receptances) -> list[Pair]:
+def _pairs(split: Split, searched: Receptances) -> list[RowPair]:
     """Name of a row, the receptance wanted and the map that is there."""
     return [
         (name, wanted, reached)

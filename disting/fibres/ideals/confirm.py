@@ -11,24 +11,23 @@ of degree up to D is new, elements whose degree fell included. If 1 lies in the 
 common zeros.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from math import comb
 
 from flint import fmpz_mpoly, nmod_poly
 
-from disting.algebra.groebner.modular import matrix as modular_matrix
+from disting.algebra.groebner.modular import Sparse, matrix as modular_matrix
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
 
-Polynomial = Mapping[tuple[int, ...], int]
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
 
 
-def reaches_one(generators: Iterable[Polynomial], size: int, modulus: int, degree: int) -> bool:
+def reaches_one(generators: Iterable[Sparse], size: int, modulus: int, degree: int) -> bool:
     """Whether 1 is found in that degree.
 
     >>> reaches_one([{(1, 1): 1, (0, 0): -1}, {(1, 0): 1}], 2, 101, 2)
@@ -47,7 +46,7 @@ def reaches_one(generators: Iterable[Polynomial], size: int, modulus: int, degre
         rows += [{_times(e, i): c for e, c in row.items()} for row in fresh for i in range(size)]
 
 
-def _lead(row: Polynomial) -> tuple[int, ...]:
+def _lead(row: Sparse) -> tuple[int, ...]:
     return max(row, key=_rank)
 
 

@@ -43,9 +43,9 @@ from operator import mul
 
 from flint import fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mpoly
 
-from disting.algebra.groebner.modular import long_polynomial, null_space
+from disting.algebra.groebner.modular import Sparse, long_polynomial, null_space
 from disting.algebra.symbols import coefficients, symbols
-from disting.fibres.ideals.fibre_ideal import Polynomial, derivative, evaluated
+from disting.fibres.ideals.fibre_ideal import derivative, evaluated
 from disting.fibres.ideals.system import CoefficientMap, Terms, determinants, separated
 from disting.model.row import Row
 
@@ -80,7 +80,7 @@ class FactoredMap:
 
 
 @dataclass(frozen=True, slots=True)
-class Values:
+class FactoredValues:
     """A point of a map: roots of the joints, theta, phi, D modulo the prime, and the derivatives
     (dN, dD) by each parameter.
 
@@ -123,7 +123,7 @@ def factored(row: Row) -> FactoredMap:
     )
 
 
-def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
+def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> FactoredValues:
     """The map and its derivatives at a point."""
 
     def at(coordinates: Sequence[Terms], lead: int) -> fmpz_mod_poly:
@@ -150,14 +150,14 @@ def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
             (change, tuple(evaluated(derivative(c, by), point, modulus) for c in chain.poles))
         )
     poles = tuple(evaluated(c, point, modulus) for c in chain.poles)
-    return Values(
+    return FactoredValues(
         joints=roots, left=left, right=right, numerator=numerator, poles=poles, slopes=tuple(slopes)
     )
 
 
 def shared_fibre(
-    at: Values, other: FactoredMap, share: Share, modulus: int
-) -> tuple[int, list[Polynomial]]:
+    at: FactoredValues, other: FactoredMap, share: Share, modulus: int
+) -> tuple[int, list[Sparse]]:
     """Number of unknowns, and equations, of the parameters of `other` over these values with
     this share; linear ones solved.
     """
@@ -227,7 +227,7 @@ def _product(roots: Sequence[int], modulus: int) -> fmpz_mod_poly:
     )
 
 
-def _normals(at: Values, share: Share, modulus: int) -> list[list[int]]:
+def _normals(at: FactoredValues, share: Share, modulus: int) -> list[list[int]]:
     """W: the relations between the rows of the Jacobian matrix, in the order joints, theta,
     phi, D, in echelon form.
     """
@@ -254,7 +254,7 @@ def _tangents(
 
 def _solved(
     equations: list[fmpz_mod_mpoly], field: fmpz_mod_mpoly_ctx, gone: set[int]
-) -> tuple[int, list[Polynomial]]:
+) -> tuple[int, list[Sparse]]:
     """The equations without the unknowns that are gone already, or that linear equations give."""
     gone = set(gone)
     while True:

@@ -19,10 +19,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from disting.algebra.certainty import about, prime, residues
-from disting.algebra.groebner.modular import Matrix, matrix, null_space
+from disting.algebra.groebner.modular import Matrix, Sparse, matrix, null_space
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, Terms
 
-Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
 REMEMBERED = 512  # ranks: a row is asked for in many pairs
 # of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
 BITS = 64
@@ -39,7 +38,7 @@ class FibreIdeal:
     point: tuple[int, ...]
     unknowns: tuple[str, ...]
     fixed: dict[str, int]
-    generators: tuple[Polynomial, ...]
+    generators: tuple[Sparse, ...]
 
 
 def fibre_ideal(
@@ -171,7 +170,7 @@ def _slice(model: PolynomialMap, origin: Sequence[int], modulus: int) -> dict[st
 
 def _tangents(
     model: PolynomialMap, other: PolynomialMap, point: Sequence[int], modulus: int
-) -> list[Polynomial]:
+) -> list[Sparse]:
     order = sorted(range(len(other.coordinates)), key=lambda i: -_degree(other.coordinates[i]))
     normals, rank = _left_null_space(jacobian(model, point, modulus), order, modulus)
     gradients = [
@@ -198,21 +197,17 @@ def _left_null_space(of: Matrix, order: list[int], modulus: int) -> tuple[Matrix
     return echelon
 
 
-def _combined(
-    row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int
-) -> Polynomial:
-    total: Polynomial = {}
+def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int) -> Sparse:
+    total: Sparse = {}
     for i, weight in row.items():
         for exponents, number in gradients[i][at]:
             total[exponents] = (total.get(exponents, 0) + weight * number) % modulus
     return {e: c for e, c in total.items() if c}
 
 
-def restricted(
-    polynomial: Polynomial, kept: list[int], values: list[int], modulus: int
-) -> Polynomial:
+def restricted(polynomial: Sparse, kept: list[int], values: list[int], modulus: int) -> Sparse:
     """The fixed parameters replaced by their values."""
-    total: Polynomial = {}
+    total: Sparse = {}
     for exponents, number in polynomial.items():
         for i, e in enumerate(exponents):
             if e and values[i]:

@@ -21,7 +21,8 @@ from math import ceil
 from time import process_time
 
 from disting.algebra.certainty import about, residues
-from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
+from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
+from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.points import free_variable, solution
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
@@ -230,13 +231,12 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     labels, degree, reason = [run.label], basis.degree, ""
     try:
         while len(labels) < _needed(question, each):
-            again, again_basis = _race(
-                question, [question.run(run.left_given, _label(seed, len(labels)))]
-            )
-            if not again_basis.is_one:
+            label = _label(seed, len(labels))
+            again, next_basis = _race(question, [question.run(run.left_given, label)])
+            if not next_basis.is_one:
                 return _unknown(TWO_ANSWERS)
             labels.append(again.label)
-            degree = max(degree, again_basis.degree)
+            degree = max(degree, next_basis.degree)
     except GivenUp as why:
         reason = str(why)
     evidence = Refuted(run.left_given, tuple(labels), degree, question.equal_rank)

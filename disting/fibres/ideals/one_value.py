@@ -40,7 +40,8 @@ from math import ceil, log2
 from time import process_time
 
 from disting.algebra.certainty import LEAST_SAFETY, about
-from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
+from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
+from disting.algebra.groebner.modular import Sparse
 from disting.errors import ContradictionError
 from disting.fibres.ideals.bounds import LEAST, safety_of_one_value, safety_of_other_values
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
@@ -51,7 +52,7 @@ LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
 
 
 @dataclass(frozen=True, slots=True)
-class Values:
+class ValueCounts:
     """Parameters with one value (`unique`) in a generic fibre and with `several`; for the others
     `reason` says why nothing is known. Any of it is wrong with a probability of at most 2**-safety.
     """
@@ -62,7 +63,7 @@ class Values:
     reason: str = ""
 
 
-def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Values:
+def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> ValueCounts:
     """Which of these parameters, each locally identifiable, have one value.
 
     >>> from disting.fibres.ideals.system import coefficient_map
@@ -74,10 +75,10 @@ def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Value
     """
     wanted = [name for name in model.parameters if name in set(names)]
     if not wanted:
-        return Values()
+        return ValueCounts()
     each = min(safety_of_one_value(model), safety_of_other_values(model))
     if each < LEAST:
-        return Values(reason=NO_BOUND)
+        return ValueCounts(reason=NO_BOUND)
     runs = ceil((LIMITS.safety + ceil(log2(len(wanted) + 1))) / each)
     deadline = process_time() + LIMITS.seconds
     label = about(f"one value:{seed}", model.content)
@@ -87,11 +88,11 @@ def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Value
             asked = wanted if not run else list(single)
             for name, is_one in _at_point(model, asked, f"{label}:{run}", deadline):
                 if single.setdefault(name, is_one) != is_one:
-                    return Values(reason="one random point contradicts another")
+                    return ValueCounts(reason="one random point contradicts another")
     except GivenUp as why:
-        return Values(reason=str(why))
+        return ValueCounts(reason=str(why))
     unique, several = (tuple(n for n in wanted if single[n] is kind) for kind in (True, False))
-    return Values(unique, several, each * runs - ceil(log2(len(wanted) + 1)))
+    return ValueCounts(unique, several, each * runs - ceil(log2(len(wanted) + 1)))
 
 
 def _at_point(

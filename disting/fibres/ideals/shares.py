@@ -33,11 +33,11 @@ from flint import fmpz, fmpz_mod_poly
 
 from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
-from disting.algebra.groebner.modular import long_polynomial
+from disting.algebra.groebner.modular import Sparse, long_polynomial
 from disting.evidence.ideals import Shared
 from disting.fibres.ideals.bounds import safety_of_empty
-from disting.fibres.ideals.factored import FactoredMap, Share, Values, shared_fibre, values
-from disting.fibres.ideals.fibre_ideal import Polynomial, evaluated
+from disting.fibres.ideals.factored import FactoredMap, FactoredValues, Share, shared_fibre, values
+from disting.fibres.ideals.fibre_ideal import evaluated
 from disting.fibres.ideals.system import Terms, matched
 
 BITS = 192  # of the prime: one point gives more than 100 bits
@@ -104,7 +104,7 @@ class _Way:
     """
 
     label: str
-    fibres: Iterator[tuple[int, list[Polynomial]]]
+    fibres: Iterator[tuple[int, list[Sparse]]]
     modulus: int
     degrees: list[int] = field(default_factory=list)
     steps: Iterator[Basis | int] | None = None
@@ -160,7 +160,7 @@ def _way(model: FactoredMap, other: FactoredMap, label: str) -> _Way | None:
 
 def _points(
     model: FactoredMap, label: str, modulus: int
-) -> Iterator[tuple[Values, list[tuple[int, str]]]]:
+) -> Iterator[tuple[FactoredValues, list[tuple[int, str]]]]:
     """Points with all roots of N in the field and distinct, with the roots and their types."""
     for draw in range(DRAWS):
         point = residues(f"{label}:{draw}", len(model.parameters), modulus)

@@ -26,7 +26,7 @@ from disting.model.chain import Chain
 from disting.model.question import Answer
 
 Matrix = list[list[Ball]]
-Values = dict[str, Ball]
+Balls = dict[str, Ball]
 
 
 def confirmation(chain: Chain, values: dict[str, Ball], target: Target) -> Confirmation:
@@ -184,7 +184,7 @@ def listed(
     )
 
 
-def _solution(c: Checked, others: list[Values]) -> Solution:
+def _solution(c: Checked, others: list[Balls]) -> Solution:
     """`others` are the candidates for its conjugate; with itself among them nothing is proven."""
     real = _real(c.values, others)
     return Solution(
@@ -196,7 +196,7 @@ def _solution(c: Checked, others: list[Values]) -> Solution:
     )
 
 
-def _real(values: Values, others: list[Values]) -> Answer:
+def _real(values: Balls, others: list[Balls]) -> Answer:
     """NO if an imaginary part leaves zero out; YES if the conjugate, a solution too, can be
     none of the others.
     """
@@ -206,11 +206,11 @@ def _real(values: Values, others: list[Values]) -> Answer:
     return Answer.UNKNOWN if any(_meets(conjugate, other) for other in others) else Answer.YES
 
 
-def _meets(left: Values, right: Values) -> bool:
+def _meets(left: Balls, right: Balls) -> bool:
     return all(left[name].overlaps(right[name]) for name in left)
 
 
-def _positive(values: Values, real: Answer) -> Answer:
+def _positive(values: Balls, real: Answer) -> Answer:
     if real is Answer.NO or any(bool(v.real < arb(0)) for v in values.values()):
         return Answer.NO
     return real if all(bool(v.real > arb(0)) for v in values.values()) else Answer.UNKNOWN

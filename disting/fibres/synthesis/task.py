@@ -14,6 +14,9 @@ from disting.model.structure import Structure
 
 Ball = acb
 Exact = fmpq_poly
+Point = Mapping[str, fmpq]
+Values = Mapping[str, fmpq | acb]
+"""Parameters by name, exact where that is possible."""
 
 
 class Status(StrEnum):
@@ -121,7 +124,7 @@ class Target:
         return Receptance(acb_poly(self.numerator), acb_poly(self.denominator))
 
 
-def target(structure: Structure, point: Mapping[str, fmpq]) -> Target:
+def target(structure: Structure, point: Point) -> Target:
     """Receptance of a structure at a rational point.
 
     >>> from disting.model.chain import Chain

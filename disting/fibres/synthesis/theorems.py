@@ -53,13 +53,13 @@ its gap (or the other chain has no gap): then its own grounded or free poles are
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from flint import ctx, fmpq
+from flint import ctx
 
 from disting.algebra.symbols import Number
 from disting.fibres.synthesis.branch import Imprecise, RowValues
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.methods import is_covered, synthesise
-from disting.fibres.synthesis.task import Exact, Target, target
+from disting.fibres.synthesis.task import Exact, Point, Target, target
 from disting.model.chain import Chain
 from disting.model.row import Row, grounded_and_free, rows_of
 from disting.model.structure import Ports
@@ -86,7 +86,7 @@ def is_untested(chain: Chain) -> bool:
     return is_plain(chain) and (grounded is None or grounded.distance == free.distance == 0)
 
 
-def is_constructed(chain: Chain, point: Mapping[str, fmpq], other: Chain) -> bool:
+def is_constructed(chain: Chain, point: Point, other: Chain) -> bool:
     """Whether a solution of `other` for the given model is proven to exist; False says nothing."""
     grounded, free = grounded_and_free(canonical(other).chain.structure)
     if (
@@ -105,7 +105,7 @@ def is_constructed(chain: Chain, point: Mapping[str, fmpq], other: Chain) -> boo
 
 
 def exact_rows(
-    chain: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Row, free: Row
+    chain: Chain, point: Point, whole: Target, grounded: Row, free: Row
 ) -> Iterator[list[tuple[Row, Target]]]:
     """Yield the receptances of both rows, of the right degrees, where the given chain's own
     poles are the ones to take.
@@ -117,7 +117,7 @@ def exact_rows(
             yield pairs
 
 
-def _poles(chain: Chain, point: Mapping[str, fmpq], whole: Target) -> tuple[Exact, Exact]:
+def _poles(chain: Chain, point: Point, whole: Target) -> tuple[Exact, Exact]:
     """Denominator of the given chain's grounded row, and of its free row without the motion
     of the whole.
     """

@@ -2,6 +2,7 @@
 
 from disting.algebra.certainty import Certainty
 from disting.evidence.decision import Excluded, Theorem
+from disting.evidence.kind import PointText
 from disting.evidence.positive import (
     BoxMap,
     EmptyFibre,
@@ -11,7 +12,6 @@ from disting.evidence.positive import (
     PositiveEvidence,
     PositiveFinding,
     Share,
-    Values,
 )
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.fibre import fibre
@@ -88,7 +88,7 @@ def _excluded(evidence: Excluded, chain: Chain, other: Chain) -> bool:
     return fails and only_rows_sum_to_zero(chain, read(evidence.point), 2 * other.gap)
 
 
-def _is_empty(point: Values, chain: Chain, other: Chain) -> bool:
+def _is_empty(point: PointText, chain: Chain, other: Chain) -> bool:
     return fibre(other, target(chain.structure, read(point))).status is Status.EMPTY
 
 
@@ -101,11 +101,11 @@ def _interlaced(evidence: Interlacing, chain: Chain, other: Chain) -> bool:
     )
 
 
-def _answers(values: Values, chain: Chain, other: Chain, answer: Answer) -> bool:
+def _answers(values: PointText, chain: Chain, other: Chain, answer: Answer) -> bool:
     return _is_of(values, chain) and equivalent(chain, read(values), other) is answer
 
 
-def _is_of(values: Values, chain: Chain) -> bool:
+def _is_of(values: PointText, chain: Chain) -> bool:
     """Whether these are all parameters, positive."""
     return sorted(name for name, _ in values) == sorted(chain.parameters) and all(
         v > 0 for v in read(values).values()

@@ -46,17 +46,15 @@ from enum import StrEnum
 from itertools import combinations
 from math import inf
 
-from flint import acb, ctx, fmpq
+from flint import acb, ctx
 
 from disting.fibres.synthesis.branch import Ball, Imprecise, roots, shifted
 from disting.fibres.synthesis.fibre import PRECISIONS
-from disting.fibres.synthesis.task import Target, target
+from disting.fibres.synthesis.task import Point, Target, target
 from disting.model.chain import Chain
 from disting.model.row import Row, rows_of
 from disting.model.structure import Ports
 from disting.model.symmetry import canonical
-
-Point = dict[str, fmpq]
 
 
 class Obstacle(StrEnum):

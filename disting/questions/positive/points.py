@@ -50,13 +50,13 @@ from math import ceil, frexp, ldexp, log2
 from flint import fmpq
 
 from disting.algebra.certainty import LEAST_SAFETY, residues
-from disting.evidence.positive import Values
+from disting.evidence.kind import PointText
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Status, Target, fraction, target
+from disting.fibres.synthesis.task import Point, Status, Target, fraction, target
 from disting.model.chain import Chain
 from disting.model.question import Answer
 from disting.model.row import Row
-from disting.questions.positive.obstacles import Point, distances, receptances, rows
+from disting.questions.positive.obstacles import distances, receptances, rows
 from disting.questions.positive.undamped_rows import word, words
 
 Range = tuple[Fraction, Fraction]
@@ -77,12 +77,12 @@ def random_point(chain: Chain, label: str, ranges: Mapping[str, Range] | None = 
     }
 
 
-def spelled(point: Point) -> Values:
+def spelled(point: Point) -> PointText:
     """A point as text."""
     return tuple((name, str(value)) for name, value in point.items())
 
 
-def read(values: Values) -> Point:
+def read(values: PointText) -> Point:
     """Inverse of `spelled`."""
     return {name: fraction(value) for name, value in values}
 

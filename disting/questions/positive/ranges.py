@@ -26,13 +26,13 @@ from disting.errors import InputError, shown
 from disting.evidence.decision import Excluded
 from disting.evidence.positive import BoxMap, Empirical, Points, PositiveFinding, Share
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Solution, Status, target
+from disting.fibres.synthesis.task import Point, Solution, Status, target
 from disting.fibres.synthesis.theorems import are_dual, dual, is_untested
 from disting.model.chain import Chain
 from disting.model.names import MOST_DIGITS, is_too_long, name_of
 from disting.model.question import Answer, Settings
 from disting.model.symmetry import canonical, forms
-from disting.questions.positive.obstacles import Obstacle, Point
+from disting.questions.positive.obstacles import Obstacle
 from disting.questions.positive.points import (
     DRAWS,
     Range,

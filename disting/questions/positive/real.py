@@ -48,13 +48,13 @@ from flint import acb, ctx
 
 from disting.algebra.certainty import residues
 from disting.algebra.content import written
-from disting.evidence.positive import Values
+from disting.evidence.kind import PointText
 from disting.fibres.synthesis.branch import Ball, Imprecise, Poly, product, roots, shifted, splits
-from disting.fibres.synthesis.task import Target, target
+from disting.fibres.synthesis.task import Point, Target, target
 from disting.fibres.synthesis.theorems import is_plain
 from disting.model.chain import Chain
 from disting.model.row import Row
-from disting.questions.positive.obstacles import Point, distances, is_collocated, receptances, rows
+from disting.questions.positive.obstacles import distances, is_collocated, receptances, rows
 from disting.questions.positive.points import random_point, read, spelled
 
 TRIES = 1000  # points of mixed signs, a millisecond each; seldom are more than a few needed
@@ -80,7 +80,7 @@ def always_real(chain: Chain, other: Chain) -> bool:
     return all(_row(*pair) for pair in zip(rows(chain), rows(other), strict=True))
 
 
-def real_witness(chain: Chain, other: Chain, seed: str) -> Values:
+def real_witness(chain: Chain, other: Chain, seed: str) -> PointText:
     """A rational point of `chain` in an open set of real models without real equivalents in
     `other`; () if none is found.
     """
@@ -92,7 +92,7 @@ def real_witness(chain: Chain, other: Chain, seed: str) -> Values:
     return next((spelled(p) for p in points if lacks_real(chain, p, other)), ())
 
 
-def confirms_real(values: Values, chain: Chain, other: Chain) -> bool:
+def confirms_real(values: PointText, chain: Chain, other: Chain) -> bool:
     """Whether a stored point shows an open set of real models without real equivalents."""
     point = read(values)
     whole = sorted(point) == sorted(chain.parameters) and all(v != 0 for v in point.values())

@@ -29,8 +29,9 @@ from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import RATIONAL, Theorem
+from disting.evidence.kind import PointText
 from disting.evidence.kinds import Evidence
-from disting.evidence.positive import PositiveFinding, Share, Values
+from disting.evidence.positive import PositiveFinding, Share
 from disting.evidence.real import OddFibres, RealFactors, RealWitnesses
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings
@@ -46,7 +47,7 @@ class Asked:
     """
 
     positive: Callable[[Chain, Chain], PositiveFinding]
-    lacking: Callable[[Chain, Chain], Values]
+    lacking: Callable[[Chain, Chain], PointText]
     counted: Callable[[Chain], Identifiability]
 
 
@@ -60,14 +61,14 @@ def positive_share(chain: Chain, other: Chain, settings: Settings) -> PositiveFi
         return PositiveFinding(Share.UNKNOWN, reason=str(reason))
 
 
-def lacking_real(chain: Chain, other: Chain, settings: Settings) -> Values:
+def lacking_real(chain: Chain, other: Chain, settings: Settings) -> PointText:
     """A point of one canonical chain in an open set of real models without real equivalents in
     another; () if none is found.
     """
     return real_witness(chain, other, settings.seed)
 
 
-def _values(data: list[tuple[str, str]]) -> Values:
+def _values(data: list[tuple[str, str]]) -> PointText:
     return tuple((name, value) for name, value in data)
 
 
