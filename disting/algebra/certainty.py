@@ -21,7 +21,6 @@ from enum import StrEnum
 from fractions import Fraction
 from functools import cache
 from math import ceil, log2
-from typing import Any
 
 from flint import fmpz
 
@@ -116,11 +115,13 @@ def shortfall(certainty: Certainty | None, safety: int) -> str:
     return ""
 
 
-def withhold(finding: Any, why: str, **unknown: object) -> None:
+def withhold(
+    finding: object, grade: tuple[Certainty | None, int], why: str, **unknown: object
+) -> None:
     """A finding whose grade is not enough says nothing: its fields become `unknown`, its evidence
     and its bits none, the field `why` what is lacking (`shortfall`).
     """
-    lacking = shortfall(finding.certainty, finding.safety)
+    lacking = shortfall(*grade)
     if lacking:
         for name, value in {"safety": 0, "evidence": None, why: lacking, **unknown}.items():
             object.__setattr__(finding, name, value)

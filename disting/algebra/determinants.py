@@ -27,24 +27,35 @@ from dataclasses import dataclass
 from functools import cached_property
 from operator import mul
 from time import monotonic
-from typing import Any
+from typing import Generic, Protocol, Self, TypeVar
 
 from flint import fmpz_mpoly, nmod_mat, nmod_poly
 
-Polynomial = fmpz_mpoly
 Modular = nmod_poly
 """A polynomial in one variable modulo a prime."""
-Ring = Any  # an element of a commutative ring: +, -, * and, for exact quotients, //
 Times = Callable[[fmpz_mpoly, fmpz_mpoly], fmpz_mpoly]
 Minors = dict[int, fmpz_mpoly]
 """Minors of the first rows by their columns, as a bit mask; those that are not there are zero."""
+
+
+class RingElement(Protocol):
+    """An element of a commutative ring; // is for exact quotients."""
+
+    def __add__(self, other: Self, /) -> Self: ...
+    def __sub__(self, other: Self, /) -> Self: ...
+    def __mul__(self, other: Self, /) -> Self: ...
+    def __neg__(self) -> Self: ...
+    def __floordiv__(self, other: Self, /) -> Self: ...
+
+
+Ring = TypeVar("Ring", bound=RingElement)
 
 
 class OutOfTimeError(Exception):
     """The elimination was given up."""
 
 
-def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
+def rank(rows: Sequence[Sequence[fmpz_mpoly]], seconds: float) -> int:
     """Rank over the field of fractions; raises OutOfTimeError after about `seconds`.
 
     >>> from disting.algebra.symbols import symbols
@@ -55,7 +66,7 @@ def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
     end = monotonic() + seconds
     work = [_primitive(row) for row in rows]
     columns = list(range(len(work[0]))) if work else []
-    previous: Polynomial | None = None
+    previous: fmpz_mpoly | None = None
     done = 0
     while pivots := [
         (len(work[i][j]), i, j)
@@ -76,12 +87,12 @@ def rank(rows: Sequence[Sequence[Polynomial]], seconds: float) -> int:
 
 
 def _reduced(
-    row: Sequence[Polynomial],
-    pivot: Sequence[Polynomial],
+    row: Sequence[fmpz_mpoly],
+    pivot: Sequence[fmpz_mpoly],
     column: int,
     columns: list[int],
-    previous: Polynomial | None,
-) -> list[Polynomial]:
+    previous: fmpz_mpoly | None,
+) -> list[fmpz_mpoly]:
     """Bareiss' step: (pivot * entry - factor * above) / previous pivot."""
     found = list(row)
     for j in columns:
@@ -90,9 +101,9 @@ def _reduced(
     return found
 
 
-def _primitive(row: Sequence[Polynomial]) -> list[Polynomial]:
+def _primitive(row: Sequence[fmpz_mpoly]) -> list[fmpz_mpoly]:
     """The row without its common factor."""
-    common: Polynomial | None = None
+    common: fmpz_mpoly | None = None
     for entry in row:
         if not entry.is_zero():
             common = entry if common is None else common.gcd(entry)
@@ -135,7 +146,7 @@ def interpolated(values: Sequence[int], modulus: int) -> list[int]:
 
 
 @dataclass(frozen=True)
-class Tridiagonal:
+class Tridiagonal(Generic[Ring]):
     """Diagonal (n entries), negated off-diagonal (n-1 entries) and the ring's one; indices
     count from 0.
     """

@@ -10,11 +10,14 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, TypeAlias
 
 from disting.algebra.symbols import Polynomial, RationalFunction, Term, factors, terms
 
-Expr = Any  # an expression of SymPy
+if TYPE_CHECKING:
+    import sympy
+
+Expr: TypeAlias = "sympy.Expr"
 Sum = Sequence[Term]
 """A sum of products of powers, whose exponents may be negative."""
 Power = tuple[str | Sum, int]

@@ -7,16 +7,20 @@ positive. So equal functions are equal pairs.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from flint import Ordering, fmpq_mpoly_ctx, fmpz_mpoly, fmpz_mpoly_ctx
+
+if TYPE_CHECKING:
+    from flint.typing import scalar_p
 
 Polynomial = fmpz_mpoly
 Term = tuple[int, Mapping[str, int]]
 """Coefficient and {symbol: exponent}."""
 Content = tuple[tuple[str, ...], tuple[tuple[tuple[int, ...], int], ...]]
 """Names, and (exponents, coefficient) of every term; unlike a polynomial it has a hash."""
-Number = Any  # an element of a field
+Number = TypeVar("Number", bound="scalar_p")
+"""An element of a field."""
 
 
 def symbols(names: Sequence[str]) -> dict[str, fmpz_mpoly]:
@@ -189,9 +193,9 @@ def variables(names: Sequence[str]) -> dict[str, RationalFunction]:
 
 
 def _value(polynomial: fmpz_mpoly, at: Mapping[str, Number]) -> Number:
-    total: Number = 0
+    total = cast("Number", 0)  # whole numbers are in every field
     for coefficient, powers in terms(polynomial):
-        term: Number = coefficient
+        term = cast("Number", coefficient)
         for name, exponent in powers.items():
             term = term * at[name] ** exponent
         total = total + term

@@ -32,7 +32,7 @@ from disting.model.protocol import ZERO, Columns, Degrees, Model
 
 DRAWS = 20  # of a point
 REMEMBERED = 64  # points: of a few verdicts, for a sketch and the profile that may follow it
-Row = tuple[int, list[int]]
+Derivatives = tuple[int, list[int]]
 """Value and derivatives of an invariant."""
 
 
@@ -146,9 +146,9 @@ def shared_poles(degrees: Sequence[Degrees], at: int) -> int | None:
     return next(same, None)
 
 
-def _rows(where: Drawn, representation: Representation, count: int) -> dict[str, Row]:
+def _rows(where: Drawn, representation: Representation, count: int) -> dict[str, Derivatives]:
     """The invariants of all transfer functions but the dead time."""
-    found: dict[str, Row] = {}
+    found: dict[str, Derivatives] = {}
     for i, q in enumerate(where.quotients):
         if q is None:
             continue
@@ -169,7 +169,7 @@ def _degrees(q: Quotient | None) -> Degrees:
     return ZERO if q is None else (q.num.degree(), q.den.degree())
 
 
-def _terms(q: Quotient) -> dict[str, Row]:
+def _terms(q: Quotient) -> dict[str, Derivatives]:
     """The coefficients b_i and a_i of (25)."""
     n, m = q.num.degree(), q.den.degree()
     sides = (q.num, q.num_derivatives, n + 1), (q.den, q.den_derivatives, m)
@@ -181,12 +181,14 @@ def _terms(q: Quotient) -> dict[str, Row]:
     }
 
 
-def _series(q: Quotient, count: int) -> dict[str, Row]:
+def _series(q: Quotient, count: int) -> dict[str, Derivatives]:
     rows = list(zip(*series_rows(q, count), strict=True))
     return {f"G{i}": row for i, row in enumerate(rows, count + 1 - len(rows))}
 
 
-def _less(named: dict[str, Row], first: dict[str, Row], modulus: int) -> dict[str, Row]:
+def _less(
+    named: dict[str, Derivatives], first: dict[str, Derivatives], modulus: int
+) -> dict[str, Derivatives]:
     """The denominator's coefficients less those of the first one."""
     return {
         name: _difference(row, first[name], modulus) if name[0] == "a" else row
@@ -194,6 +196,6 @@ def _less(named: dict[str, Row], first: dict[str, Row], modulus: int) -> dict[st
     }
 
 
-def _difference(one: Row, other: Row, modulus: int) -> Row:
+def _difference(one: Derivatives, other: Derivatives, modulus: int) -> Derivatives:
     (value, row), (less, slopes) = one, other
     return (value - less) % modulus, [(x - y) % modulus for x, y in zip(row, slopes, strict=True)]

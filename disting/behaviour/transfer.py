@@ -16,10 +16,12 @@ A joint whose other end does not move (the ground, a locked mass) acts on one ma
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Generic, Protocol, TypeVar
 
 from disting.algebra.determinants import Ring, Tridiagonal
 from disting.model.structure import Element, Ports, power
+
+Value = TypeVar("Value")
 
 
 class Arrangement(Protocol):
@@ -51,7 +53,7 @@ class Arrangement(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Rational:
+class Rational(Generic[Ring]):
     """Receptance times lag as num/den, polynomials in s, with the gradients by parameter name;
     not yet cancelled.
     """
@@ -63,11 +65,11 @@ class Rational:
 
 
 @dataclass(frozen=True)
-class _RowMatrix:
+class _RowMatrix(Generic[Ring]):
     """A row, of a structure of any kind: up to four ports."""
 
     first: int
-    matrix: Tridiagonal
+    matrix: Tridiagonal[Ring]
     # act_plus, act_minus, meas_plus, meas_minus, counted from the row's first mass
     ports: tuple[int, int, int, int]
     elements: tuple[Element, ...]
@@ -92,7 +94,9 @@ class _RowMatrix:
         return _difference(self.act, *self.ports[2:])
 
 
-def receptance(structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring) -> Rational:
+def receptance(
+    structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
+) -> Rational[Ring]:
     """num, den and gradients at the given parameter values (ring elements); `s` and `one` belong
     to the same ring.
 
@@ -124,15 +128,15 @@ def plain_receptance(
 
 
 def values_at(
-    structure: Arrangement, numbers: Sequence[int], lift: Callable[[int], Any]
-) -> dict[str, Any]:
+    structure: Arrangement, numbers: Sequence[int], lift: Callable[[int], Value]
+) -> dict[str, Value]:
     """Parameter values from numbers, in the structure's order, lifted into the ring."""
     return {name: lift(number) for name, number in zip(structure.parameters, numbers, strict=True)}
 
 
 def _matrices(
     structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
-) -> list[_RowMatrix]:
+) -> list[_RowMatrix[Ring]]:
     return [_matrix(structure, ends, values, s, one) for ends in touched(structure)]
 
 
@@ -145,7 +149,7 @@ def touched(structure: Arrangement) -> tuple[tuple[int, int], ...]:
 
 def _matrix(
     structure: Arrangement, ends: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring
-) -> _RowMatrix:
+) -> _RowMatrix[Ring]:
     first, last = ends
     elements = tuple(e for e in structure.elements if _nodes(e, ends))
     powers = [one, s, s * s]
@@ -169,7 +173,7 @@ def _nodes(element: Element, span: tuple[int, int]) -> tuple[int, ...]:
     return tuple(node for node in ends if span[0] <= node <= span[1])
 
 
-def _response(matrix: Tridiagonal, plus: int, minus: int) -> list[Ring]:
+def _response(matrix: Tridiagonal[Ring], plus: int, minus: int) -> list[Ring]:
     """adj(A) (e_plus - e_minus), where a port outside the row does not count."""
     size = len(matrix.diagonal)
     up = matrix.adjugate_column(plus) if 0 <= plus < size else None
@@ -185,7 +189,7 @@ def _difference(vector: list[Ring], plus: int, minus: int) -> Ring:
     return inside[0] - inside[1]
 
 
-def _gradient(row: _RowMatrix, element: Element, s: Ring) -> tuple[Ring, Ring]:
+def _gradient(row: _RowMatrix[Ring], element: Element, s: Ring) -> tuple[Ring, Ring]:
     """(dP_c, dD_c) for one element."""
     matrix = row.matrix
     nodes = _nodes(element, (row.first, row.first + len(matrix.diagonal) - 1))
@@ -202,7 +206,7 @@ def _gradient(row: _RowMatrix, element: Element, s: Ring) -> tuple[Ring, Ring]:
     return d_num, square
 
 
-def _sum(rows: Sequence[_RowMatrix], one: Ring) -> tuple[Ring, Ring]:
+def _sum(rows: Sequence[_RowMatrix[Ring]], one: Ring) -> tuple[Ring, Ring]:
     """Product of the determinants, and the numerator of the sum of the receptances over it."""
     num, den = one - one, one
     for row in rows:
@@ -210,7 +214,7 @@ def _sum(rows: Sequence[_RowMatrix], one: Ring) -> tuple[Ring, Ring]:
     return den, num
 
 
-def _lagged(plain: Rational, time_constant: Ring, s: Ring, one: Ring) -> Rational:
+def _lagged(plain: Rational[Ring], time_constant: Ring, s: Ring, one: Ring) -> Rational[Ring]:
     factor = one + time_constant * s
     gradient = {name: d * factor for name, d in plain.den_gradient.items()} | {"T1": s * plain.den}
     return Rational(plain.num, plain.den * factor, plain.num_gradient, gradient)

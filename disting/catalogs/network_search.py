@@ -14,11 +14,9 @@ from disting.general.model_side import ComparedModel, positive_question
 from disting.general.parts import parts_of
 from disting.general.replacement import simplest_network
 from disting.network.simplest import same_drawing
-from disting.verdict.decisions import Decisions
+from disting.verdict.decisions import Decisions, Pair
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.result import Relation
-
-Pair = tuple[int, int]
 
 
 def search_in_brief(

@@ -26,6 +26,7 @@ from disting.fit.plan.fit_file import (
 )
 from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
 from disting.fit.plan.search import AnyStructure, responses_of, sensor_of
+from disting.fit.search.starts import Parameters
 from disting.measurement import read
 from disting.measurement.arrays import Real
 from disting.measurement.impedance import as_impedance
@@ -52,7 +53,7 @@ class Effort:
     repeats: int = 1
 
     def planned(
-        self, model: AnyStructure, values: dict[str, float], rival: AnyStructure, **work: Any
+        self, model: AnyStructure, values: Parameters, rival: AnyStructure, **work: Any
     ) -> Plan:
         """One plan with this effort; `work`: engine, executor and progress of `plan`."""
         return plan(model, values, rival, self.omega, self.rho, repeats=self.repeats, **work)
@@ -136,7 +137,7 @@ def _emit(options: argparse.Namespace, plain: dict[str, Any]) -> None:
 def _effort(
     options: argparse.Namespace,
     model: AnyStructure,
-    values: dict[str, float],
+    values: Parameters,
     named: AnyNamed | None,
 ) -> Effort:
     """From a number, a measured response, or the file of a fit."""
@@ -166,7 +167,7 @@ def _number(text: str | None) -> float | None:
         return None
 
 
-def _measured(options: argparse.Namespace, model: AnyStructure, values: dict[str, float]) -> Effort:
+def _measured(options: argparse.Namespace, model: AnyStructure, values: Parameters) -> Effort:
     """Lines and scatter of a measured response."""
     if options.lines is not None:
         raise InputError("the lines are those of the measured response: leave --lines away")

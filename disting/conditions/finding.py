@@ -61,7 +61,13 @@ class Finding:
     note: str = ""
 
     def __post_init__(self) -> None:
-        withhold(self, "note", outcome=Outcome.ABANDONED, certainty=Certainty.PROVEN)
+        withhold(
+            self,
+            (self.certainty, self.safety),
+            "note",
+            outcome=Outcome.ABANDONED,
+            certainty=Certainty.PROVEN,
+        )
 
     def __repr__(self) -> str:
         return summary(self, f"{self.rule.in_words()} {self.outcome} ({self.certainty})")

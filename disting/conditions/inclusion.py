@@ -65,7 +65,13 @@ class InclusionFinding:
         known = self.inclusion is not Inclusion.UNKNOWN
         if (self.evidence is not None, self.certainty is not None) != (known, known):
             raise ValueError("exactly a finding that is not unknown carries certainty and evidence")
-        withhold(self, "reason", inclusion=Inclusion.UNKNOWN, certainty=None)
+        withhold(
+            self,
+            (self.certainty, self.safety),
+            "reason",
+            inclusion=Inclusion.UNKNOWN,
+            certainty=None,
+        )
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its inclusion")

@@ -29,12 +29,11 @@ from disting.algebra.symbols import RationalFunction, symbols, variables
 from disting.behaviour.transfer import plain_receptance
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
 from disting.experiments.places import Named, Places, moved, named, ways
+from disting.fibres.synthesis.task import Values
 from disting.model.chain import Chain
 
-Number = Any  # fmpq or acb
 COORDINATE = 256  # bits of a random coordinate
 BITS = 320  # of the evaluation in balls; inputs of 15 digits leave far more than enough
-Values = Mapping[str, Number]
 
 
 def is_identity(given: Chain, other: Chain, formulas: Mapping[str, RationalFunction]) -> bool:
@@ -85,7 +84,7 @@ def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[s
     return bool(f_num * g_den == g_num * f_den)
 
 
-def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, Number]) -> float:
+def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Values) -> float:
     """Upper bound of the largest relative difference of a coefficient, denominators made monic.
 
     Relative to the coefficient of the left model, or to its largest one where that coefficient is
@@ -96,7 +95,7 @@ def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str,
         return max(_relative(*pair) for pair in pairs)
 
 
-def _coefficients(chain: Chain, values: Mapping[str, Number]) -> Iterator[list[acb]]:
+def _coefficients(chain: Chain, values: Values) -> Iterator[list[acb]]:
     """Numerator and denominator, coefficients from low to high."""
     lifted = {name: acb_poly([acb(value)]) for name, value in values.items()}
     num, den = plain_receptance(chain.structure, lifted, acb_poly([0, 1]), acb_poly([1]))

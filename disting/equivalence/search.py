@@ -37,13 +37,11 @@ from disting.equivalence.theorems import (
 from disting.errors import ContradictionError, InputError
 from disting.experiments import Experiment, named
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Fibre, Solution, Status, target
+from disting.fibres.synthesis.task import Fibre, Point, Solution, Status, target
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chains_named, name_of
 from disting.model.question import Answer
-
-Point = Mapping[str, fmpq]
 
 
 def equivalents(

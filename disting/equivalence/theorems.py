@@ -38,9 +38,9 @@ from disting.model.chain import Chain
 from disting.model.structure import Ports, Structure
 from disting.model.symmetry import forms
 
-Number = Any  # an element of a field
-Outwards = tuple[list[Number], list[Number]]  # masses and springs from the port outwards
-Values = Mapping[str, Number]
+Outwards = tuple[
+    list[RationalFunction], list[RationalFunction]
+]  # masses and springs from the port outwards
 DUALITY = "duality of chains with both ports at the gap"
 
 
@@ -73,14 +73,16 @@ def expansions(given: Chain) -> Iterator[Expansion]:
             yield _by_rows(given, n, g, free, grounded)
 
 
-def row_from_end(num: list[Number], den: list[Number], *, wall: bool) -> Outwards:
+def row_from_end(
+    num: list[RationalFunction], den: list[RationalFunction], *, wall: bool
+) -> Outwards:
     """Masses and springs from coefficients in x, lowest first, without vanishing leading ones.
 
     >>> row_from_end([0.5], [3.0, 1.0], wall=True)
     ([2.0], [6.0])
     """
-    masses: list[Number] = []
-    springs: list[Number] = []
+    masses: list[RationalFunction] = []
+    springs: list[RationalFunction] = []
     while num:
         masses.append(den[-1] / num[-1])
         rest = [d - masses[-1] * n for d, n in zip(den[1:-1], num[:-1], strict=True)]
@@ -172,11 +174,11 @@ class Image:
     """
 
     chain: Chain
-    values: Values
+    values: Mapping[str, Any]
     steps: tuple[str, ...]
 
 
-def images(chain: Chain, values: Values) -> tuple[Image, ...]:
+def images(chain: Chain, values: Mapping[str, Any]) -> tuple[Image, ...]:
     """All of them, the chain itself first, those by fewer theorems before the others, none twice.
 
     >>> two = Chain(2, damped=False)

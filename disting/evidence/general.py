@@ -7,7 +7,7 @@ from typing import ClassVar, Self
 
 from disting.errors import listed
 from disting.evidence.decision import Theorem
-from disting.evidence.kind import Carrier, Claim, Kind, Labels
+from disting.evidence.kind import Carrier, Claim, Kind, Labels, PointText
 from disting.model.question import Domain, Relation
 
 Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, ...]]
@@ -15,7 +15,6 @@ Formula = tuple[bool, tuple[str, ...], tuple[tuple[str, str], ...], tuple[str, .
 parameters; and, if a value contains a root, (its name, the equation's polynomial, two numbers or
 fractions): the first root from the one to the other, or one where those polynomials are positive.
 """
-Point = tuple[tuple[str, str], ...]  # parameter name, number
 SHOWN, LONGEST = 3, 160  # contradictions that are told, characters of each
 ZERO = "0"  # the value of what is to be small
 BOTH = (True, False)  # ways from one model to the other
@@ -145,10 +144,10 @@ class Witnesses(OverDomain):
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.SOMETIMES)
     symbols: ClassVar[str] = "∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A ≠ ∅,  ∃ p: Φ₂⁻¹(Φ₁(p)) ∩ A = ∅"
     with_left_given: bool
-    point_with: Point
-    equivalent: Point
+    point_with: PointText
+    equivalent: PointText
     without_left_given: bool
-    point_without: Point
+    point_without: PointText
     solutions: int
 
     def sentence(self, left: str, right: str) -> str:
@@ -294,5 +293,5 @@ OfNetworks = Explicit | NoEquivalent | Witnesses | Theorem | Replaced | AtInvers
 OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced | AtInverse | OfPart
 
 
-def _spelled(point: Point) -> str:
+def _spelled(point: PointText) -> str:
     return ", ".join(f"{name} = {value}" for name, value in point)

@@ -20,6 +20,8 @@ if TYPE_CHECKING:  # a record is read without what its check needs
     from disting.evidence.model_samples import SeenPair
 
 Labels = tuple[str, ...]
+PointText = tuple[tuple[str, str], ...]
+"""Parameter names and their values, as text."""
 # kinds that older versions wrote, each with what it rested on
 OUTSIDE = "an external program, which decides nothing now"
 GONE = {"program": OUTSIDE, "row": "an answer about rows of masses that is shipped no more"}

@@ -12,9 +12,8 @@ from typing import Any, ClassVar, Self, get_args
 
 from disting.algebra.certainty import Certainty, withhold
 from disting.evidence.decision import Excluded, Theorem
-from disting.evidence.kind import Kind, plain_fields, read
+from disting.evidence.kind import Kind, PointText, plain_fields, read
 
-Values = tuple[tuple[str, str], ...]  # parameter name, fraction
 Z95 = 1.96  # quantile of the normal distribution for 95 %
 
 
@@ -30,7 +29,7 @@ class EmptyFibre(Kind):
         " give the same transfer function; so generic parameters have no equivalent."
     )
     symbols: ClassVar[str] = "Φ₂⁻¹(Φ₁(p₀)) = ∅"
-    point: Values
+    point: PointText
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +56,8 @@ class Interlacing(Kind):
     kind: ClassVar[str] = "interlacing"
     theorem: ClassVar[str] = "order of poles and zeros"
     parts: tuple[RowWords, ...]
-    with_one: Values = ()
-    without: Values = ()
+    with_one: PointText = ()
+    without: PointText = ()
 
     def sentence(self, given: str, other: str) -> str:
         """Which arrangements of poles and zeros `other` lacks."""
@@ -102,8 +101,8 @@ class Points(Kind):
         " equivalent in {right}, generic ones near another choice have none."
     )
     symbols: ClassVar[str] = "∃ p₀: Φ₂⁻¹(Φ₁(p₀)) ∩ ℝ₊ⁿ ≠ ∅,  ∃ p₁: Φ₂⁻¹(Φ₁(p₁)) ∩ ℝ₊ⁿ = ∅"
-    with_one: Values
-    without: Values
+    with_one: PointText
+    without: PointText
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,7 +210,7 @@ class PositiveFinding:
             self.evidence is not None and self.certainty is not None
         ):
             raise ValueError("exactly a share that is not unknown carries certainty and evidence")
-        withhold(self, "reason", share=Share.UNKNOWN, certainty=None)
+        withhold(self, (self.certainty, self.safety), "reason", share=Share.UNKNOWN, certainty=None)
 
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its share")

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from disting.evidence.decision import Theorem
-from disting.evidence.kind import Carrier, Claim, Kind
+from disting.evidence.kind import Carrier, Claim, Kind, PointText
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.question import Domain, Relation
 
-Point = tuple[tuple[str, str], ...]  # parameter name, fraction
 _REAL = (Domain.REAL,)
 _RELATIONS = {
     Share.ALWAYS: Relation.INDISTINGUISHABLE,
@@ -50,7 +49,7 @@ class RealWitnesses(Kind):
     claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.SOMETIMES, _REAL)
     symbols: ClassVar[str] = "∃ p₀: Φ₂⁻¹(Φ₁(p₀)) ∩ ℝⁿ ≠ ∅,  ∃ p₁: Φ₂⁻¹(Φ₁(p₁)) ∩ ℝⁿ = ∅"
     without_left_given: bool
-    without: Point
+    without: PointText
     with_left_given: bool
     with_one: PositiveFinding
 

@@ -23,16 +23,17 @@ comparison of its own has its own point: experiments could be written for a poin
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeVar
 
 from flint import acb_poly, ctx, fmpq, fmpq_poly
 
 from disting.algebra.certainty import Certainty, about
-from disting.algebra.determinants import Ring
 from disting.behaviour.transfer import plain_receptance
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import FibreUnder
 from disting.experiments.experiment import Entry, MeasuredChain
+from disting.fibres.synthesis.branch import Ball
 from disting.fibres.synthesis.decide import (
     DRAWS,
     dearest,
@@ -48,7 +49,7 @@ from disting.model.question import Settings
 from disting.model.row import rows_of
 from disting.model.symmetry import canonical
 
-Values = dict[str, Ring]
+Poly = TypeVar("Poly", fmpq_poly, acb_poly)
 REMEMBERED = 64  # fibres
 
 
@@ -213,21 +214,19 @@ def _canonical_fibre(
     return fibre(searched, target(given.structure, dict(values)), confirm=confirm)
 
 
-def _differs(here: Entry, point: dict[str, fmpq], there: Entry, balls: Values) -> bool:
+def _differs(here: Entry, point: dict[str, fmpq], there: Entry, balls: dict[str, Ball]) -> bool:
     """Whether N2 D1 - N1 D2 has a coefficient that is certainly not zero."""
     rational = {name: fmpq_poly([value]) for name, value in point.items()}
-    num, den = _receptance(here, rational, fmpq_poly([0, 1]), fmpq_poly)
-    top, bottom = _receptance(
-        there, {n: acb_poly([v]) for n, v in balls.items()}, acb_poly([0, 1]), acb_poly
-    )
+    num, den = _receptance(here, rational, fmpq_poly)
+    top, bottom = _receptance(there, {n: acb_poly([v]) for n, v in balls.items()}, acb_poly)
     lift = here.sensor_order - there.sensor_order
     gap = top * acb_poly(den) - acb_poly(num) * bottom if not lift else acb_poly([1])
     return any(not gap[i].contains(0) for i in range(gap.length()))
 
 
-def _receptance(entry: Entry, values: Values, s: Ring, ring: type) -> tuple[Ring, Ring]:
+def _receptance(entry: Entry, values: dict[str, Poly], ring: type[Poly]) -> tuple[Poly, Poly]:
     known = {n: ring([fmpq(x.numerator, x.denominator)]) for n, x in entry.known.items()}
-    return plain_receptance(entry, values | known, s, ring([1]))
+    return plain_receptance(entry, values | known, ring([0, 1]), ring([1]))
 
 
 def _is_covered(chain: Chain) -> bool:

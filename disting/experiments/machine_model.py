@@ -16,12 +16,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import lcm
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from flint import fmpz_mpoly, fmpz_poly
 
 from disting.algebra.certainty import Size, prime, residues
-from disting.algebra.determinants import Ring
 from disting.algebra.quotient import Quotient, matrix
 from disting.algebra.symbols import coefficients, symbols
 from disting.behaviour.chain_model import quotient, size_of_minors, vanishing_series
@@ -38,6 +37,7 @@ from disting.behaviour.transfer import plain_receptance, touched
 from disting.experiments.experiment import Entry, MeasuredChain
 from disting.model.protocol import ZERO, Columns, Degrees
 
+Whole = TypeVar("Whole", fmpz_poly, fmpz_mpoly)
 REMEMBERED = 1024
 
 
@@ -76,12 +76,12 @@ def shape(entry: Entry) -> Shape:
     if not touched(entry):
         return Shape(frozenset(), frozenset(), ())
     if not _has_one_sign(entry):
-        num, den = expanded(entry)
+        parts = expanded(entry)
         top, bottom = (
             frozenset(i for i, c in enumerate(coefficients(p, "s")) if not c.is_zero())
-            for p in (num, den)
+            for p in parts
         )
-        return Shape(top, bottom, (entry.experiment.changes, str(den)))
+        return Shape(top, bottom, (entry.experiment.changes, str(parts[1])))
     num, den = _scaled(entry, dict.fromkeys(entry.parameters, fmpz_poly([1])), fmpz_poly([0, 1]))
     sides = [{i for i, c in enumerate(p.coeffs()) if c} for p in (num, den)]
     sides[0] = {i + entry.sensor_order for i in sides[0]}
@@ -139,7 +139,7 @@ def _has_one_sign(entry: Entry) -> bool:
     return len(signs) == 1
 
 
-def _scaled(entry: Entry, values: Mapping[str, Ring], s: Ring) -> tuple[Ring, Ring]:
+def _scaled(entry: Entry, values: Mapping[str, Whole], s: Whole) -> tuple[Whole, Whole]:
     """Receptance num/den over the integers: A(s) times the common denominator L of what is known
     has integer entries, and its inverse is that of A(s) divided by L. T1 is no part of A(s).
     """

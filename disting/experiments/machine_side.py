@@ -41,7 +41,7 @@ POSITIVELY = Question.plain(
     PositiveFinding.to_dict,
     PositiveFinding.from_dict,
 )
-Pair = tuple["ComparedMachine", "ComparedMachine"]
+MachinePair = tuple["ComparedMachine", "ComparedMachine"]
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class ComparedMachine(Side[MeasuredChain]):
         return self.answerer(POSITIVELY, (self.measured, other.measured), self.settings)
 
     @classmethod
-    def prepare_exact(cls, pairs: Sequence[Pair], ask: Ask) -> None:
+    def prepare_exact(cls, pairs: Sequence[MachinePair], ask: Ask) -> None:
         """Have the exact decisions on pairs of equal rank and degrees computed."""
         ask(EXACTLY, [(a.measured, b.measured) for a, b in pairs if comparable(a, b)])
 

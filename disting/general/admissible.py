@@ -18,7 +18,8 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import Explicit, NoEquivalent, Point, Witnesses
+from disting.evidence.general import Explicit, NoEquivalent, Witnesses
+from disting.evidence.kind import PointText
 from disting.general import listed, newton
 from disting.general.combination import excludes
 from disting.general.equivalent import spelled
@@ -40,7 +41,7 @@ SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of a
 TOO_LARGE = "the search for all equivalents grew too large"
 
 Ways = tuple[Way | None, Way | None]
-Found = tuple[bool, Point, Point]
+Found = tuple[bool, PointText, PointText]
 """Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
 
 
@@ -271,7 +272,7 @@ def _witnesses(
     return Witnesses(domain.value, *having, *lacking[:2], _count(*sides, lacking[1]))
 
 
-def _count(given: AnyModel, other: AnyModel, point: Point) -> int:
+def _count(given: AnyModel, other: AnyModel, point: PointText) -> int:
     """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
     at once.
     """
@@ -285,9 +286,9 @@ def _count(given: AnyModel, other: AnyModel, point: Point) -> int:
     return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(found.extent, len(found.equivalents))
 
 
-def _written(values: dict[str, Fraction]) -> Point:
+def _written(values: dict[str, Fraction]) -> PointText:
     return tuple((name, str(x)) for name, x in values.items())
 
 
-def _rounded(model: AnyModel, values: tuple[float, ...]) -> Point:
+def _rounded(model: AnyModel, values: tuple[float, ...]) -> PointText:
     return tuple((name, spelled(x)) for name, x in zip(model.parameters, values, strict=True))

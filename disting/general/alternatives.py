@@ -11,8 +11,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from disting.algebra.groebner.own_process import End, run_limited
-from disting.algebra.groebner.rational import Bounds, Polynomial, TooLarge
+from disting.algebra.groebner.modular import Sparse
+from disting.algebra.groebner.own_process import run_limited
+from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.conditions.finding import Outcome
 from disting.errors import InputError, of_type
 from disting.general.any_model import on_one_variable
@@ -169,11 +170,11 @@ def _targets(model: AnyModel, values: Values) -> list[Target]:
 
 
 def _solved(
-    equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed: str, seconds: float
+    equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, seconds: float
 ) -> Fibre:
     """At once, or in a process of its own."""
     try:
         return solved(equations, parameters, seed, AT_ONCE)
     except TooLarge:
         ended = run_limited(solved, (equations, parameters, seed, AT_MOST), seconds)
-        return ended.value if ended.end is End.DONE else Fibre(Extent.UNKNOWN, reason=ended.reason)
+        return ended.value or Fibre(Extent.UNKNOWN, reason=ended.reason)

@@ -21,10 +21,10 @@ from typing import Any
 from flint import fmpq_poly, fmpz_mpoly, fmpz_poly
 
 from disting.algebra.certainty import residues
+from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.rational import (
     Basis,
     Bounds,
-    Polynomial,
     Shape,
     TooLarge,
     basis,
@@ -59,7 +59,7 @@ class Fibre:
 
 
 def solved(
-    equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
+    equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
 ) -> Fibre:
     """The solutions of the equations in t and the parameters; raises TooLarge."""
     ideal = basis(equations, len(parameters) + 1, bounds)
@@ -76,7 +76,7 @@ def solved(
 
 
 def _listed(
-    equations: tuple[Polynomial, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
+    equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
 ) -> tuple[Equivalent, ...] | None:
     """Finitely many solutions, ordered by their values."""
     found = shape(equations, len(parameters) + 1, bounds, seed)
@@ -88,7 +88,7 @@ def _listed(
 
 
 def without_zeros(
-    equations: Sequence[Polynomial], parameters: tuple[str, ...], seed: str, bounds: Bounds
+    equations: Sequence[Sparse], parameters: tuple[str, ...], seed: str, bounds: Bounds
 ) -> tuple[Equivalent, ...] | None:
     """All solutions without zeros of equations in t, of which they tell nothing, and the
     parameters, if finitely many are listed within the bounds for some choice of inverses.
@@ -109,9 +109,9 @@ def without_zeros(
     return None
 
 
-def _inverted(equations: Sequence[Polynomial], chosen: tuple[int, ...]) -> list[Polynomial]:
+def _inverted(equations: Sequence[Sparse], chosen: tuple[int, ...]) -> list[Sparse]:
     """The equations in the inverses of the chosen unknowns, and that no unknown is zero."""
-    made = list[Polynomial]()
+    made = list[Sparse]()
     for one in equations:
         size = len(next(iter(one)))
         top = [max(e[i] for e in one) if i in chosen else 0 for i in range(size)]
@@ -130,7 +130,7 @@ def _inverse(number: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _family(
-    equations: tuple[Polynomial, ...],
+    equations: tuple[Sparse, ...],
     ideal: Basis,
     parameters: tuple[str, ...],
     seed: str,
@@ -150,8 +150,8 @@ def _family(
 
 
 def _cut(
-    equations: tuple[Polynomial, ...], ideal: Basis, label: str, bounds: Bounds
-) -> tuple[tuple[Polynomial, ...], tuple[int, ...]]:
+    equations: tuple[Sparse, ...], ideal: Basis, label: str, bounds: Bounds
+) -> tuple[tuple[Sparse, ...], tuple[int, ...]]:
     """The equations with free parameters at random values until the solutions are finite;
     nothing fixed if that failed.
     """
@@ -171,7 +171,7 @@ def _cut(
     return equations, fixed
 
 
-def _fixed(at: int, size: int, label: str) -> Polynomial:
+def _fixed(at: int, size: int, label: str) -> Sparse:
     """x - p/q with p, q of 1..12."""
     p, q = residues(label, 2, 13)
     return {tuple(int(i == at) for i in range(size)): q, (0,) * size: -p}

@@ -62,7 +62,7 @@ OTHER_ORDER = "the exponents can be matched in another order, for which it is no
 TOO_MANY_TERMS = "the transfer functions have too many terms"
 ON_NETWORKS = (GEARS, REPLACEMENT, INTERLACING)  # theorems
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
-Pair = tuple["ComparedModel", "ComparedModel"]
+ModelPair = tuple["ComparedModel", "ComparedModel"]
 
 
 @dataclass(frozen=True)
@@ -246,12 +246,12 @@ class ComparedModel(Side[AnyModel]):
         return PositiveFinding(Share.UNKNOWN, reason=NO_SHARES)
 
     @classmethod
-    def prepare_exact(cls, pairs: Sequence[Pair], ask: Ask) -> None:
+    def prepare_exact(cls, pairs: Sequence[ModelPair], ask: Ask) -> None:
         """Have the exact decisions on pairs of equal rank and degrees computed."""
         ask(EXACTLY, [_models(a, b) for a, b in pairs if comparable(a, b)])
 
     @classmethod
-    def prepare_admissible(cls, pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
+    def prepare_admissible(cls, pairs: Sequence[ModelPair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
         left = [pair for pair in pairs if _is_asked(*pair, domain)]
         ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in left])

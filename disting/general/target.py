@@ -17,7 +17,7 @@ from operator import add
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx
 
-from disting.algebra.groebner.rational import Polynomial
+from disting.algebra.groebner.modular import Sparse
 from disting.errors import InputError, listed, shown
 from disting.general.expansion import Expansion
 from disting.general.expression import names, tree
@@ -75,25 +75,25 @@ def target(model: Model, values: Sequence[tuple[str, Fraction]]) -> Target:
     return Target(*(tuple(fraction(c / lead) for c in side.coeffs()) for side in (num, den)))
 
 
-def fibre_equations(goal: Target, other: Model) -> tuple[Polynomial, ...]:
+def fibre_equations(goal: Target, other: Model) -> tuple[Sparse, ...]:
     """The equations of this module's text, in t and the parameters of `other`."""
     return joint_equations([goal], [other])
 
 
-def joint_equations(goals: Sequence[Target], others: Sequence[Model]) -> tuple[Polynomial, ...]:
+def joint_equations(goals: Sequence[Target], others: Sequence[Model]) -> tuple[Sparse, ...]:
     """The same of several transfer functions in the same parameters, each with its goal: t times
     the product of their different leading coefficients is 1.
     """
-    rows = list[Polynomial]()
+    rows = list[Sparse]()
     for goal, other in zip(goals, others, strict=True):
         rows += [row for row in _rows(goal, other) if row not in rows]
     leads = dict.fromkeys(other.denominator_terms[-1] for other in others)
-    inverse: Polynomial = {(1, *e): c for e, c in reduce(_product, map(dict, leads)).items()}
+    inverse: Sparse = {(1, *e): c for e, c in reduce(_product, map(dict, leads)).items()}
     inverse[(0,) * (len(others[0].parameters) + 1)] = -1
     return (*rows, inverse)
 
 
-def _product(one: Polynomial, other: Polynomial) -> Polynomial:
+def _product(one: Sparse, other: Sparse) -> Sparse:
     total = defaultdict[tuple[int, ...], int](int)
     for e, c in one.items():
         for f, d in other.items():
@@ -101,7 +101,7 @@ def _product(one: Polynomial, other: Polynomial) -> Polynomial:
     return {e: c for e, c in total.items() if c}
 
 
-def _rows(goal: Target, other: Model) -> Iterator[Polynomial]:
+def _rows(goal: Target, other: Model) -> Iterator[Sparse]:
     """Yield combinations of coefficients that are to be zero."""
     coefficients = (*other.numerator_terms, *other.denominator_terms)
     rows, rank = _conditions(goal, len(other.numerator_terms), len(other.denominator_terms)).rref()
@@ -158,7 +158,7 @@ def _conditions(goal: Target, above: int, below: int) -> fmpq_mat:
     return fmpq_mat(table)
 
 
-def _combined(row: Sequence[fmpq], coefficients: Sequence[Terms]) -> Polynomial:
+def _combined(row: Sequence[fmpq], coefficients: Sequence[Terms]) -> Sparse:
     """A combination of coefficients, cleared of denominators."""
     parts = [fraction(factor) for factor in row]
     total: dict[tuple[int, ...], Fraction] = {}

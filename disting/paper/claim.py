@@ -22,7 +22,7 @@ from disting.model.family import Family
 from disting.model.question import Domain
 from disting.paper.refit import Refit, refitted
 from disting.simulation import demo
-from disting.verdict.decisions import Decisions
+from disting.verdict.decisions import Decisions, Pair
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View
 
@@ -187,9 +187,6 @@ class Claim:
         if self.check is None:
             return Outcome.UNCHECKED
         return Outcome.DIFFERS if self.about else Outcome.AGREES
-
-
-Pair = tuple[int, int]
 
 
 def counted(found: Decisions) -> dict[str, int]:

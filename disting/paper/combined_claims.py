@@ -13,7 +13,6 @@ from disting.paper.claim import (
     Claim,
     Findings,
     Found,
-    Pair,
     Seen,
     counted,
     families,
@@ -23,6 +22,7 @@ from disting.paper.claim import (
     undecided,
 )
 from disting.paper.damped_claims import MISREAD
+from disting.verdict.decisions import Pair
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 

@@ -9,7 +9,6 @@ from disting.paper.claim import (
     Claim,
     Findings,
     Found,
-    Pair,
     Seen,
     counted,
     deciding,
@@ -21,6 +20,7 @@ from disting.paper.claim import (
     undecided,
 )
 from disting.paper.family_claims import coefficients
+from disting.verdict.decisions import Pair
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 

@@ -40,7 +40,7 @@ from disting.store.database_file import (
 )
 
 T = TypeVar("T")
-Row = tuple[bytes, bytes, bytes]  # key, checksum, value
+Record = tuple[bytes, bytes, bytes]  # key, checksum, value
 
 # A damaged or altered cell may have any type; read as bytes it fails the checksum instead of the
 # program.
@@ -78,11 +78,11 @@ def _checksum(key: bytes, value: bytes) -> bytes:
     return blake2b(len(key).to_bytes(8, "big") + key + value, digest_size=16).digest()
 
 
-def _read(connection: sqlite3.Connection, keys: Iterable[bytes]) -> list[Row]:
+def _read(connection: sqlite3.Connection, keys: Iterable[bytes]) -> list[Record]:
     return [(key, *cells) for key in keys for cells in connection.execute(SELECT, (key,))]
 
 
-def _change(connection: sqlite3.Connection, statement: str, rows: Iterable[Row]) -> None:
+def _change(connection: sqlite3.Connection, statement: str, rows: Iterable[Record]) -> None:
     with connection:
         connection.execute("BEGIN IMMEDIATE")
         connection.executemany(statement, rows)
@@ -149,7 +149,7 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         deleted.
         """
         names = [key.encode() for key in dict.fromkeys(keys)]
-        nothing: list[Row] = []
+        nothing: list[Record] = []
         rows = self._run(lambda connection: _read(connection, names), nothing)
         sound = [row for row in rows if row[1] == _checksum(row[0], row[2])]
         if len(sound) < len(rows):

@@ -172,10 +172,10 @@ def agreed(left: str, right: str, every: Iterable[Step]) -> None:
     """Raise ContradictionError where two steps decide differently."""
     deciding = [step for step in every if step.relation is not Relation.UNDECIDED]
     if len({step.relation for step in deciding}) > 1:
-        told = ", ".join(
+        contradictions = ", ".join(
             f"{s.relation} by {s.finding.rule.in_words()} ({s.representation})" for s in deciding
         )
-        raise ContradictionError(f"{left} and {right}: {told}")
+        raise ContradictionError(f"{left} and {right}: {contradictions}")
 
 
 def undecided(

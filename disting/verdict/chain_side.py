@@ -13,8 +13,9 @@ from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import EXACT
 from disting.conditions.side import Ask, Side
 from disting.evidence.conditions import Renaming
+from disting.evidence.kind import PointText
 from disting.evidence.kinds import Evidence, InclusionEvidence
-from disting.evidence.positive import PositiveFinding, Share, Values
+from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain, Premise
 from disting.model.minors import embeddings
 from disting.model.question import Domain, Question
@@ -49,7 +50,7 @@ from disting.questions.same.real_and_positive import (
 )
 
 EXACTLY = Question("exact decisions", exact_finding, Finding.to_json, Finding.from_json)
-Pair = tuple["ComparedChain", "ComparedChain"]
+ChainPair = tuple["ComparedChain", "ComparedChain"]
 
 
 @dataclass(frozen=True)
@@ -183,17 +184,17 @@ class ComparedChain(Side[Chain]):
         return low, high
 
     @classmethod
-    def prepare_exact(cls, pairs: Sequence[Pair], ask: Ask) -> None:
+    def prepare_exact(cls, pairs: Sequence[ChainPair], ask: Ask) -> None:
         """Have the exact decisions on pairs of equal rank computed."""
         ask(EXACTLY, [a.in_order(b) for a, b in pairs if a.rank == b.rank])
 
     @classmethod
-    def prepare_positive(cls, ways: Sequence[Pair], ask: Ask) -> None:
+    def prepare_positive(cls, ways: Sequence[ChainPair], ask: Ask) -> None:
         """Have the positive equivalents of the first ones of each pair looked for."""
         ask(POSITIVELY, [_canonical(*way) for way in ways])
 
     @classmethod
-    def prepare_admissible(cls, pairs: Sequence[Pair], domain: Domain, ask: Ask) -> None:
+    def prepare_admissible(cls, pairs: Sequence[ChainPair], domain: Domain, ask: Ask) -> None:
         """Over real parameters: counts of solutions, and real models without real equivalents,
         the second way where the first finds none.
         """
@@ -209,7 +210,7 @@ class ComparedChain(Side[Chain]):
             ways = [(s, way) for s, way in ways if len(way) > k and way[k] in none]
 
     @classmethod
-    def all_inclusions(cls, pairs: Sequence[Pair], ask: Ask) -> list[Inclusions]:
+    def all_inclusions(cls, pairs: Sequence[ChainPair], ask: Ask) -> list[Inclusions]:
         """What profiles settle at once, then what has to be asked; each pair of canonical forms
         is looked at once.
         """
@@ -236,7 +237,7 @@ class ComparedChain(Side[Chain]):
     def _positive(self, form: Chain, other: Chain) -> PositiveFinding:
         return self.answerer(POSITIVELY, (form, other), self.settings)
 
-    def _lacking(self, form: Chain, other: Chain) -> Values:
+    def _lacking(self, form: Chain, other: Chain) -> PointText:
         return self.answerer(LACKING, (form, other), self.settings)
 
     def _identifiability(self, canonical_chain: Chain) -> Identifiability:

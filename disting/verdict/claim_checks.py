@@ -125,12 +125,12 @@ def false_of_inclusions(both: Inclusions | None, left: AnySide, right: AnySide) 
     """Yield what evidence of an inclusion is not true of both models; what is no limit has no
     equivalent either, by the same evidence, which is looked at once.
     """
-    told = (
+    statements = (
         {}
         if both is None
         else {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
     )
-    for evidence, what in told.items():
+    for evidence, what in statements.items():
         if evidence is not None and not left.includes(right, evidence):
             yield f"the evidence of the inclusion ({what})"
 
@@ -154,8 +154,8 @@ def _false_shares(claim: Claim) -> Iterator[str]:
     """Yield what is false of positive equivalents: a point is the one that the settings draw."""
     v, left, right, where = claim.verdict, claim.sides.left, claim.sides.right, claim.where
     if isinstance(v.evidence, BothWays):
-        told = (v.left_positive, v.right_positive)
-        if told != (v.evidence.left, v.evidence.right) and told != (None, None):
+        shares = (v.left_positive, v.right_positive)
+        if shares != (v.evidence.left, v.evidence.right) and shares != (None, None):
             yield f"{where}positive equivalents are told in two ways"
     for share, side, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         if share is None:

@@ -71,8 +71,8 @@ def decisions(
 
 def _are_asked(stage: Stage, subjects: Sequence[AnySide]) -> NDArray[np.bool_]:
     """The pairs that have such a summary: Markov parameters are those of functions of s."""
-    told = np.array([stage is Stage.TF or s.in_s for s in subjects], bool)
-    return np.asarray(told[:, None] & told[None, :])
+    asked = np.array([stage is Stage.TF or s.in_s for s in subjects], bool)
+    return np.asarray(asked[:, None] & asked[None, :])
 
 
 def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[AnySide, AnySide]]:

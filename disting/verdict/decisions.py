@@ -200,7 +200,7 @@ class Decisions(Shown):
 
     def grades(self) -> Iterator[tuple[int, int, str, str, str, int]]:
         """Yield (i, j, rule, representation, certainty, safety) of all pairs, without evidence."""
-        told = {(g[0], g[1]): g[2:] for g in self.part.decisions.grades()} if self.part else {}
+        grades = {(g[0], g[1]): g[2:] for g in self.part.decisions.grades()} if self.part else {}
         profiles: dict[tuple[int, int], Profile] = {}
 
         def profile(where: int, i: int) -> Profile:
@@ -212,7 +212,7 @@ class Decisions(Shown):
         for i, j in combinations(range(len(self.subjects)), 2):
             inner = self.within(i, j)
             if inner:
-                yield i, j, *told[inner]
+                yield i, j, *grades[inner]
                 continue
             rule, where = self.rule(i, j), int(self.representation[i, j])
             grade: Grade | tuple[str, int] = ("", 0)

@@ -113,12 +113,12 @@ def named_all(also: Sequence[str | Experiment]) -> tuple[Named, ...]:
 
 
 def placements(
-    left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()
+    left: Chain, right: Chain, asked: Sequence[Named], places: Places = ()
 ) -> Iterator[tuple[Places, Pairs]]:
     """Yield every way to place experiments on the right chain, with all that is measured then, the
     chains as they are first; raises InputError.
     """
-    for way in ways(left, right, asked, known):
+    for way in ways(left, right, asked, places):
         further = [(pair.experiment, moved(pair.experiment, way)) for pair in asked]
         yield way, both_places([Experiment(), *further])
 

@@ -55,7 +55,7 @@ def in_words(further: AnyFurther, structure: int, item: Item) -> str:
     left = left_over(further, structure, item)
     if not left:
         return "surely tells it from the rest"
-    told = [
+    phrases = [
         f"{start} if that is {_among(further, kept)}"
         for start, kept in (
             ("not", _only(further, structure, item, Relation.INDISTINGUISHABLE)),
@@ -63,7 +63,7 @@ def in_words(further: AnyFurther, structure: int, item: Item) -> str:
         )
         if kept
     ]
-    return "; ".join(told)
+    return "; ".join(phrases)
 
 
 def option_in_words(option: Option) -> str:
@@ -94,8 +94,8 @@ def conclusion(further: AnyFurther, structure: int) -> str:
 def anywhere(further: AnyFurther) -> str:
     """The kinds that tell all of them apart wherever they are done; "" if none does."""
     enough = [k for k in further.kinds if further.anywhere(k)]
-    told = [f"{k.anywhere} (cost {further.costs.cost(k):g})" for k in enough]
-    return "; or ".join(told)
+    phrases = [f"{k.anywhere} (cost {further.costs.cost(k):g})" for k in enough]
+    return "; or ".join(phrases)
 
 
 def rows(further: AnyFurther) -> Iterator[tuple[str, ...]]:

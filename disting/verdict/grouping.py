@@ -75,15 +75,15 @@ def classes(
     count = 2 * max(s.chain.structure.n_states for s in work.subjects)
     everyone = range(len(work.subjects))
     profiles = work.profiles(everyone, Representation.TF, 0, executor, progress)
-    work.known.split(profiles, NECESSARY, 0)
+    work.buckets.split(profiles, NECESSARY, 0)
     work.link(profiles)
     several = [
         i
-        for bucket in work.known.shared(everyone)
+        for bucket in work.buckets.shared(everyone)
         for i in bucket
         if len(bucket) > 1 and work.free[i] < 0
     ]
-    work.known.split(
+    work.buckets.split(
         work.profiles(several, Representation.MARKOV, count, executor, progress),
         OF_MARKOV,
         len(NECESSARY),
@@ -104,7 +104,7 @@ class _Work:
     engine: Engine
     subjects: list[ComparedChain]
     place: list[int]
-    known: Buckets
+    buckets: Buckets
     renamed: list[int]
     free: list[int]
     unions: dict[tuple[Chain, frozenset[int]], int]
@@ -143,24 +143,24 @@ class _Work:
 
     def link(self, profiles: dict[int, Profile]) -> None:
         """Free choice, and sets of ground dampers in one another."""
-        for number, bucket in enumerate(self.known.shared(profiles)):
+        for number, bucket in enumerate(self.buckets.shared(profiles)):
             first = profiles[bucket[0]]
             if first.rank == len(first.form) and len({profiles[i].constants for i in bucket}) == 1:
                 for i in bucket:
                     self.free[i] = number
-                    self.known.classes.unite(bucket[0], i)
+                    self.buckets.classes.unite(bucket[0], i)
         for (base, masses), i in self.unions.items():
             for more in range(1, base.n_masses + 1):
                 j = self.unions.get((base, masses | {more}), i)
                 if profiles[i].rank == profiles[j].rank:
-                    self.known.classes.unite(i, j)
+                    self.buckets.classes.unite(i, j)
 
     def rename(self) -> None:
         """Renamings inside buckets: those by symmetry are one canonical form already."""
-        for bucket in self.known.shared(range(len(self.subjects))):
-            for first, i in self.known.renamed(bucket):
+        for bucket in self.buckets.shared(range(len(self.subjects))):
+            for first, i in self.buckets.renamed(bucket):
                 self.renamed[i] = first
-                self.known.classes.unite(first, i)
+                self.buckets.classes.unite(first, i)
 
     def take_over(self, settled: Settled) -> None:
         """What is settled of canonical forms that are here."""
@@ -174,28 +174,31 @@ class _Work:
         if finding.certainty is Certainty.NUMERICAL:
             return
         if finding.outcome is Outcome.HOLDS:
-            self.known.classes.unite(i, j)
+            self.buckets.classes.unite(i, j)
         elif finding.outcome is Outcome.FAILS:
             self.refuted.add((i, j))
 
     def open_pairs(self) -> list[tuple[int, int]]:
         """Pairs of representatives that share all columns and are not refuted."""
-        roots = [i for i in range(len(self.subjects)) if self.known.classes.root(i) == i]
+        roots = [i for i in range(len(self.subjects)) if self.buckets.classes.root(i) == i]
         apart = {
-            _sorted(self.known.classes.root(a), self.known.classes.root(b)) for a, b in self.refuted
+            _sorted(self.buckets.classes.root(a), self.buckets.classes.root(b))
+            for a, b in self.refuted
         }
         pairs = (
-            _sorted(i, j) for bucket in self.known.shared(roots) for i, j in combinations(bucket, 2)
+            _sorted(i, j)
+            for bucket in self.buckets.shared(roots)
+            for i, j in combinations(bucket, 2)
         )
         return [pair for pair in pairs if pair not in apart]
 
     def finished(self, chains: Sequence[Chain]) -> Classes:
         """What was found, for the chains as given."""
-        columns, root = self.known.columns, self.known.classes.root
-        told = {i: columns[i][:-1] for i in range(len(self.subjects))}
+        columns, root = self.buckets.columns, self.buckets.classes.root
+        keys = {i: columns[i][:-1] for i in range(len(self.subjects))}
         apart = [
             *self.refuted,
-            *((i, root(i)) for i in told if told[i] != told[root(i)]),
+            *((i, root(i)) for i in keys if keys[i] != keys[root(i)]),
         ]
         for a, b in apart:
             if root(a) == root(b):
@@ -226,7 +229,7 @@ def _invert(work: _Work, executor: Executor | None, progress: Progress) -> None:
     values: dict[int, Hashable] = {}
     for i, p in zip(wanted, inverses, strict=True):
         values[i] = p.matroid if isinstance(p.matroid, Unsearched) else (p.form, p.rank, p.matroid)
-    work.known.fill(len(TESTS) - 1, values)
+    work.buckets.fill(len(TESTS) - 1, values)
 
 
 def _decide(

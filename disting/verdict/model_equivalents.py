@@ -69,7 +69,7 @@ class ModelEquivalent(Shown):
 
 
 def model_equivalents(
-    given: Network | AnyModel,
+    source: Network | AnyModel,
     others: Sequence[Network | AnyModel],
     values: Mapping[str, object] | None = None,
     *,
@@ -87,32 +87,32 @@ def model_equivalents(
     >>> found.verdict.relation.value, str(found.values.equivalents[0])
     ('indistinguishable', 'C1 = 2/9, R0 = 3, R1 = 3/2')
     """
-    model = _as_model(given)
+    model = _as_model(source)
     engine = Engine() if engine is None else engine
     exponents = model.network.exponents if model.network is not None else ()
     phases = {n: _phase(n, (values or {}).get(n, n)) for n in exponents}
     numbers = None if values is None else {n: x for n, x in values.items() if n not in phases}
     equivalents = []
-    for there in map(_as_model, others):
-        if there.shape != model.shape:
+    for other in map(_as_model, others):
+        if other.shape != model.shape:
             continue
-        verdict = compare(model, there, query=query, engine=engine)
+        verdict = compare(model, other, query=query, engine=engine)
         if verdict.relation is not Relation.DISTINGUISHABLE:
-            mine, others_form = (s.subject for s in engine.general_subjects([model, there]))
+            mine, others_form = (s.subject for s in engine.general_subjects([model, other]))
             at, lots = (None, None) if numbers is None else _sets(mine, numbers, others_form)
             named = zip(others_form.powers.exponents, mine.powers.exponents, strict=False)
             equal = tuple((name, phases[given_name]) for name, given_name in named)
-            equivalents.append(ModelEquivalent(there, verdict, at, lots, equal))
+            equivalents.append(ModelEquivalent(other, verdict, at, lots, equal))
     return equivalents
 
 
 def _sets(
-    given: AnyModel, values: Mapping[str, object], other: AnyModel
+    model: AnyModel, values: Mapping[str, object], other: AnyModel
 ) -> tuple[Alternatives | None, Synthesis | None]:
     """All values of small models, those by synthesis first; of larger ones the positive ones by
     synthesis, where these are all, or nothing else is found.
     """
-    found = _synthesized(given, values, other)
+    found = _synthesized(model, values, other)
     is_large = len(other.parameters) > MOST_SOLVED
     if is_large and found is not None and found.complete:
         return None, found
@@ -120,23 +120,23 @@ def _sets(
     plain = [
         x for x in sets if x.keys() == names and not any(isinstance(v, float) for v in x.values())
     ]
-    solved = alternatives(given, values, other, plain=plain)
+    solved = alternatives(model, values, other, plain=plain)
     is_open = is_large and found is not None and solved.extent is Extent.UNKNOWN
     return (None, found) if is_open else (solved, None)
 
 
 def _synthesized(
-    given: AnyModel, values: Mapping[str, object], other: AnyModel
+    model: AnyModel, values: Mapping[str, object], other: AnyModel
 ) -> Synthesis | None:
-    one, two = on_one_variable([given, other])
+    first, second = on_one_variable([model, other])
     try:
-        return positive_sets(one, dict(rational_values(given, values)), two)
+        return positive_sets(first, dict(rational_values(model, values)), second)
     except NoFormulas:
         return None
 
 
-def _as_model(given: Network | AnyModel) -> AnyModel:
-    return of_network(given) if isinstance(given, Network) else given
+def _as_model(source: Network | AnyModel) -> AnyModel:
+    return of_network(source) if isinstance(source, Network) else source
 
 
 def _phase(name: str, value: object) -> str:

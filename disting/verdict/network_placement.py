@@ -64,8 +64,8 @@ def measured(network: Network, kind: Kind, node: int, name: str) -> Measured:
     >>> print(measured(network_of("1~2; F1; S1"), LOCK, 2, "").model.rows[1][0])
     G(s) = s**2/(k12 + m1*s**2)
     """
-    there = Port(node, network.reference)
-    ports = (*network.inputs, there), (*network.outputs, there)
+    port = Port(node, network.reference)
+    ports = (*network.inputs, port), (*network.outputs, port)
     whole = network_ratios(replace(network, inputs=ports[0], outputs=ports[1]))
     now = tuple(row[:-1] for row in whole[:-1])
     more = _shown(kind, whole, network)
@@ -92,13 +92,13 @@ def _shown(kind: Kind, whole: Ratios, network: Network) -> Ratios:
     if kind.power is not None:
         s = below.num.context().gen(0)
         step = 2 if network.halves else 1
-        one = s**0
-        known = RationalFunction(s ** (step * kind.power), one)
-        quantity = RationalFunction(s ** (step * network.order), one)
-        below = quantity / known + below
+        unit = s**0
+        added = RationalFunction(s ** (step * kind.power), unit)
+        quantity = RationalFunction(s ** (step * network.order), unit)
+        below = quantity / added + below
     return tuple(
-        tuple(x - there * left / below for x, left in zip(row[:-1], last[:-1], strict=True))
-        for row, (there,) in zip(outer, moved, strict=True)
+        tuple(x - moves * left / below for x, left in zip(row[:-1], last[:-1], strict=True))
+        for row, (moves,) in zip(outer, moved, strict=True)
     )
 
 
@@ -109,10 +109,10 @@ def _gain(kind: Kind, whole: Ratios, now: Ratios, more: Ratios) -> Gain:
     seen = [x for row in more for x in row if not x.num.is_zero()]
     if not seen:
         return Gain.SILENT
-    known = [x for row in now for x in row]
-    if all(x in known or -x in known for x in seen):
+    responses = [x for row in now for x in row]
+    if all(x in responses or -x in responses for x in seen):
         return Gain.REPEATS
-    collocated = all(x == seen_at for row in whole for x in row for seen_at in known)
+    collocated = all(x == seen_at for row in whole for x in row for seen_at in responses)
     return Gain.REPEATS if kind.takes_size and collocated else Gain.NEW
 
 

@@ -60,7 +60,7 @@ def placed(
     new = [s for s, g in enumerate(work.gains) if g is Gain.NEW]
     engine.prefetch({work.sides[s].profiled for s in new}, Representation.TF, 0, executor, progress)
     profiles = {s: work.sides[s].profile(Representation.TF, 0) for s in new}
-    work.known.split(profiles, NECESSARY, 1)
+    work.buckets.split(profiles, NECESSARY, 1)
     work.safeties += [p.safety for p in profiles.values()]
     work.join_known(profiles)
     work.decide(profiles, executor, progress)
@@ -76,7 +76,7 @@ class _Work:
     n_masses: int
     sides: list[ComparedMachine]
     gains: list[Gain]
-    known: Buckets
+    buckets: Buckets
     links: list[str]
     open: set[tuple[int, int]] = field(default_factory=set)
     apart: set[tuple[int, int]] = field(default_factory=set)
@@ -113,9 +113,9 @@ class _Work:
     def asked(self, chosen: Iterable[int]) -> list[list[int]]:
         """Roots by buckets, where those hold more than one structure."""
         asked = []
-        for bucket in self.known.shared(chosen):
+        for bucket in self.buckets.shared(chosen):
             if len({s // self.n_masses for s in bucket}) > 1:
-                roots = list(dict.fromkeys(map(self.known.classes.root, bucket)))
+                roots = list(dict.fromkeys(map(self.buckets.classes.root, bucket)))
                 asked += [roots] if len(roots) > 1 else []
         return asked
 
@@ -125,7 +125,7 @@ class _Work:
             free = [s for s in bucket if self._is_free(profiles[bucket[0]], profiles[s])]
             for s in free:
                 self.unite(bucket[0], s, FREE_CHOICE.name)
-            for first, s in self.known.renamed([s for s in bucket if s not in free]):
+            for first, s in self.buckets.renamed([s for s in bucket if s not in free]):
                 self.unite(first, s, RENAMING.name)
 
     @staticmethod
@@ -152,7 +152,9 @@ class _Work:
                     (self.apart if finding.outcome is Outcome.FAILS else self.open).add((a, b))
                 if finding.certainty is Certainty.BOUNDED:
                     self.safeties.append(finding.safety)
-            rest = [[s for s in bucket[1:] if self.known.classes.root(s) == s] for bucket in rounds]
+            rest = [
+                [s for s in bucket[1:] if self.buckets.classes.root(s) == s] for bucket in rounds
+            ]
             rounds = [b for b in rest if len({s // self.n_masses for s in self._members(b)}) > 1]
 
     def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
@@ -162,17 +164,17 @@ class _Work:
 
     def _members(self, roots: Iterable[int]) -> list[int]:
         chosen = set(roots)
-        return [s for s in range(len(self.sides)) if self.known.classes.root(s) in chosen]
+        return [s for s in range(len(self.sides)) if self.buckets.classes.root(s) in chosen]
 
     def unite(self, first: int, s: int, rule: str = "") -> None:
         """One class of two, for this reason; by the exact decision where none is named."""
-        self.known.classes.unite(first, s)
+        self.buckets.classes.unite(first, s)
         if rule:
             self.links[first] = self.links[s] = f"{rule}/{first}"
 
     def finished(self) -> Placed:
         """What was found; classes are numbered as they come."""
-        root = self.known.classes.root
+        root = self.buckets.classes.root
         roots = [root(s) for s in range(len(self.sides))]
         number = {r: k for k, r in enumerate(dict.fromkeys(roots))}
         kept, apart = (
@@ -184,7 +186,7 @@ class _Work:
             self.kind,
             self.n_masses,
             tuple(self.gains),
-            tuple(map(tuple, self.known.columns)),
+            tuple(map(tuple, self.buckets.columns)),
             tuple(number[r] for r in roots),
             tuple(self.links),
             frozenset((a, b) for a, b in kept - apart if a != b),

@@ -37,17 +37,17 @@ def models_named(
     beside = next((m.sensor for m in (left, right) if isinstance(m, Chain)), Sensor.ACCELERATION)
     quantity = beside if sensor is None else as_sensor(sensor)
     read = [model_of(m, quantity) for m in (left, right)]
-    given = [m for m in read if isinstance(m, Chain | str)]
-    chains = iter(chains_named(given, damped=damped, sensor=sensor))
+    names = [m for m in read if isinstance(m, Chain | str)]
+    chains = iter(chains_named(names, damped=damped, sensor=sensor))
     a, b = (next(chains) if isinstance(m, Chain | str) else m for m in read)
     return a, b
 
 
-def model_of(given: Given, quantity: Sensor) -> Chain | AnyModel | str:
+def model_of(source: Given, quantity: Sensor) -> Chain | AnyModel | str:
     """A network as its transfer functions; chains, models and names as they are."""
-    if isinstance(given, str) and notations_of(given):
-        given = network_of(given, quantity=quantity)
-    return of_network(given) if isinstance(given, Network) else given
+    if isinstance(source, str) and notations_of(source):
+        source = network_of(source, quantity=quantity)
+    return of_network(source) if isinstance(source, Network) else source
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,8 +133,8 @@ def plain_sides(
         return engine.subject(left_name, a), engine.subject(right_name, b)
     models = [_model(left), _model(right)]
     refuse_ports(models)
-    one, other = engine.general_subjects(models, (left_name, right_name))
-    return one, other
+    first, second = engine.general_subjects(models, (left_name, right_name))
+    return first, second
 
 
 def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, str]:
@@ -173,9 +173,9 @@ def refuse_ports(models: Sequence[AnyModel]) -> None:
     """Raises InputError for models of which not all have the same inputs and outputs."""
     shapes = {m.shape: m.name for m in models}
     if len(shapes) > 1:
-        told = [f"{name} has {p} x {m}" for (p, m), name in list(shapes.items())[:2]]
+        sizes = [f"{name} has {p} x {m}" for (p, m), name in list(shapes.items())[:2]]
         raise InputError(
-            f"models are compared that have the same outputs and inputs: {' and '.join(told)}"
+            f"models are compared that have the same outputs and inputs: {' and '.join(sizes)}"
         )
 
 

@@ -125,8 +125,8 @@ def _compared(verdict: Verdict) -> Verdict:
 
 def has_more(verdict: Verdict) -> bool:
     """Whether equality over complex parameters belongs to what a verdict over others says."""
-    told = verdict.closure is Inclusion.EQUAL or verdict.relation is not Relation.DISTINGUISHABLE
-    return verdict.domain is not Domain.COMPLEX and told
+    is_open = verdict.closure is Inclusion.EQUAL or verdict.relation is not Relation.DISTINGUISHABLE
+    return verdict.domain is not Domain.COMPLEX and is_open
 
 
 def exact(query: Query) -> Query:
@@ -167,10 +167,10 @@ def differing(data: dict[str, Any], stored: Stored, sides: Sides) -> str:
         for name in again
         if name != "program" and not same_plain(data.get(name, missing), again[name])
     ]
-    told = [v for v in (stored.verdict, stored.over_complex) if v is not None]
-    if any((v.left, v.right) != (sides.left.name, sides.right.name) for v in told):
+    verdicts = [v for v in (stored.verdict, stored.over_complex) if v is not None]
+    if any((v.left, v.right) != (sides.left.name, sides.right.name) for v in verdicts):
         fields.append("names")
-    if any(v.premises != (sides.left.premise, sides.right.premise) for v in told):
+    if any(v.premises != (sides.left.premise, sides.right.premise) for v in verdicts):
         fields.append("damping, quantity and experiments")
     return ", ".join(fields)
 
@@ -194,21 +194,21 @@ def _plain_field(value: object) -> object:
     return str(value) if isinstance(value, Fraction | Sensor) else value
 
 
-def same_plain(given: object, again: object) -> bool:
+def same_plain(stored: object, again: object) -> bool:
     """Whether both are the same plain data: tuples are lists, names of enumerations texts."""
     if isinstance(again, dict):
         return (
-            isinstance(given, dict)
-            and given.keys() == again.keys()
-            and all(same_plain(given[name], value) for name, value in again.items())
+            isinstance(stored, dict)
+            and stored.keys() == again.keys()
+            and all(same_plain(stored[name], value) for name, value in again.items())
         )
     if isinstance(again, list | tuple):
         return (
-            isinstance(given, list | tuple)
-            and len(given) == len(again)
-            and all(map(same_plain, given, again))
+            isinstance(stored, list | tuple)
+            and len(stored) == len(again)
+            and all(map(same_plain, stored, again))
         )
-    return given == again and isinstance(given, bool) == isinstance(again, bool)
+    return stored == again and isinstance(stored, bool) == isinstance(again, bool)
 
 
 def _stored(data: dict[str, Any]) -> Stored:

@@ -89,7 +89,7 @@ class Verification:
         return "\n".join(lines)
 
 
-def verify(given: dict[str, Any] | str | Path) -> Verification:
+def verify(verdict: dict[str, Any] | str | Path) -> Verification:
     """Whether a verdict holds: plain data of `verdict_file` or of `everywhere_file`, or the file
     with it as JSON.
 
@@ -102,7 +102,7 @@ def verify(given: dict[str, Any] | str | Path) -> Verification:
     >>> verify(data | {"relation": "indistinguishable"}).standing.value
     'does not hold'
     """
-    data = given if isinstance(given, dict) else read_json(as_path(given), WANTED)
+    data = verdict if isinstance(verdict, dict) else read_json(as_path(verdict), WANTED)
     if not isinstance(data, dict) or data.get("format") != EVERYWHERE:
         return _verified(data, read_file(data))
     stored = read_everywhere(data)

@@ -21,7 +21,7 @@ from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task
 from disting.fit.search.neighbours import neighbours
-from disting.fit.search.starts import Scale, Values, merged, scale, split, stacked
+from disting.fit.search.starts import Parameters, Scale, merged, scale, split, stacked
 from disting.model.chain import Chain
 from tests.fit.drives import bench
 
@@ -29,7 +29,7 @@ FILE = Path(__file__).with_name("best_known_bench.json")
 SEARCHES, RANDOM, SPLITS = 20, 6, 6
 ITERATIONS = 40
 GAIN = 1e-4  # relative: what a search calls better
-Found = dict[Chain, tuple[float, Values]]
+Found = dict[Chain, tuple[float, Parameters]]
 
 
 def name(chain: Chain) -> str:
@@ -43,7 +43,7 @@ def best_known() -> dict[str, tuple[float, dict[str, float]]]:
     return {key: (j, values) for key, (j, values) in json.loads(FILE.read_text()).items()}
 
 
-def drawn(names: tuple[str, ...], size: Scale, source: np.random.Generator) -> Values:
+def drawn(names: tuple[str, ...], size: Scale, source: np.random.Generator) -> Parameters:
     """A chain with masses, resonances and damping over wide ranges."""
     n = sum(x[0] == "m" for x in names)
     masses = size.mass * source.dirichlet(np.full(n, 0.7)) * np.exp(0.2 * source.normal())
@@ -71,7 +71,7 @@ def drawn(names: tuple[str, ...], size: Scale, source: np.random.Generator) -> V
     return values
 
 
-def stepped(chain: Chain, fit: Values, size: Scale, source: np.random.Generator) -> Values:
+def stepped(chain: Chain, fit: Parameters, size: Scale, source: np.random.Generator) -> Parameters:
     """A neighbour's fit, what it lacks drawn anew, every other time shaken."""
     shake = 0.3 * source.integers(2)
     fresh = drawn(chain.parameters, size, source)
@@ -82,7 +82,7 @@ def stepped(chain: Chain, fit: Values, size: Scale, source: np.random.Generator)
 
 def splits(
     chain: Chain, found: Found, size: Scale, source: np.random.Generator
-) -> Iterator[Values]:
+) -> Iterator[Parameters]:
     """Random masses of smaller fits split, the part from a ten-thousandth on, tuned to a random
     frequency.
     """
@@ -100,7 +100,7 @@ def splits(
         yield start
 
 
-def descended(chain: Chain, task: Task, starts: list[Values], found: Found) -> bool:
+def descended(chain: Chain, task: Task, starts: list[Parameters], found: Found) -> bool:
     """Whether the best of the starts is better than what is known; then it is known."""
     at = stacked(starts, chain.parameters)
     points, costs = rough(task.plant(chain), task.cost, task.box(chain.parameters), at, ITERATIONS)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from disting.fibres.ideals.fibre_ideal import FibreIdeal, Polynomial
+from disting.fibres.ideals.fibre_ideal import FibreIdeal, Sparse
 from tests.oracles.rational import Emptiness
 
 PROGRAM_BITS = 31
@@ -136,7 +136,7 @@ def _names(ideal: FibreIdeal) -> list[str]:
     return [f"x{i}" for i in range(len(ideal.unknowns))]
 
 
-def _written(polynomial: Polynomial, names: Sequence[str]) -> str:
+def _written(polynomial: Sparse, names: Sequence[str]) -> str:
     terms = []
     for exponents, number in polynomial.items():
         powers = [f"{n}^{e}" if e > 1 else n for n, e in zip(names, exponents, strict=True) if e]

@@ -11,8 +11,9 @@ from enum import StrEnum
 
 from flint import Ordering, fmpq_mat, fmpz_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
+from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.own_process import run_limited
-from disting.fibres.ideals.fibre_ideal import Polynomial, derivative
+from disting.fibres.ideals.fibre_ideal import derivative
 from disting.fibres.ideals.system import CoefficientMap, Terms, matched
 
 
@@ -50,13 +51,13 @@ def fibre_over_rationals(
 
 def integer_fibre(
     given: CoefficientMap, other: CoefficientMap, point: Sequence[int], tangent: bool
-) -> list[Polynomial]:
+) -> list[Sparse]:
     """Equations with integer coefficients in the parameters of `other`; of two maps that can be
     compared.
     """
     zero = (0,) * len(other.parameters)
     targets = [_value(c, point) for c in given.coordinates]
-    equations: list[Polynomial] = []
+    equations: list[Sparse] = []
     for c, y in zip(other.coordinates, targets, strict=True):
         terms = dict(c)
         equations.append(terms | {zero: terms.get(zero, 0) - y})
@@ -92,8 +93,8 @@ def _normals(given: CoefficientMap, point: Sequence[int]) -> list[list[int]]:
     return [[int(cleared[i, j]) for j in range(size)] for i in range(nullity)]
 
 
-def _combined(weights: list[int], model: CoefficientMap, at: int) -> Polynomial:
-    total: Polynomial = {}
+def _combined(weights: list[int], model: CoefficientMap, at: int) -> Sparse:
+    total: Sparse = {}
     for weight, terms in zip(weights, model.coordinates, strict=True):
         for exponents, number in derivative(terms, at) if weight else ():
             total[exponents] = total.get(exponents, 0) + weight * number

@@ -16,16 +16,15 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import SupportsInt
 
-from disting.algebra.groebner.modular import MAX_DEGREE, Order, matrix as modular_matrix
+from disting.algebra.groebner.modular import MAX_DEGREE, Order, Sparse, matrix as modular_matrix
 
-Sparse = Mapping[tuple[int, ...], int]  # exponents -> coefficient
 Multiple = tuple[list[int], tuple[int, ...]]  # codes and coefficients of a row of the matrix
 Pivots = dict[int, Multiple]  # by leading monomial
 MAX_PAIRS = 400  # of one step: larger matrices cost more than they save
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class MatrixRow:
     """A polynomial with leading coefficient 1: codes in falling order, and coefficients."""
 
     codes: tuple[int, ...]
@@ -38,7 +37,7 @@ class Basis:
 
     order: Order
     modulus: int
-    rows: tuple[Row, ...]
+    rows: tuple[MatrixRow, ...]
     degree: int
 
     @property
@@ -55,8 +54,8 @@ class TooLarge(Exception):
 class _Work:
     order: Order
     modulus: int
-    waiting: list[Row]
-    rows: list[Row] = field(default_factory=list)
+    waiting: list[MatrixRow]
+    rows: list[MatrixRow] = field(default_factory=list)
     # exponents of their leading monomials
     leads: list[tuple[int, ...]] = field(default_factory=list)
     # elements whose leading monomial no other one divides
@@ -102,15 +101,15 @@ def _limit(degree: int) -> None:
         raise TooLarge(f"degree {degree}")
 
 
-def _row(polynomial: Mapping[int, int], modulus: int) -> Row:
+def _row(polynomial: Mapping[int, int], modulus: int) -> MatrixRow:
     items = sorted(((m, c % modulus) for m, c in polynomial.items() if c % modulus), reverse=True)
     if not items:
-        return Row((), ())
+        return MatrixRow((), ())
     inverse = pow(items[0][1], -1, modulus)
-    return Row(tuple(m for m, _ in items), tuple(c * inverse % modulus for _, c in items))
+    return MatrixRow(tuple(m for m, _ in items), tuple(c * inverse % modulus for _, c in items))
 
 
-def _selected(work: _Work) -> tuple[list[Row], set[tuple[int, int]]]:
+def _selected(work: _Work) -> tuple[list[MatrixRow], set[tuple[int, int]]]:
     """Generators and multiples (factor, element) of the smallest degree, taken out of what
     waits.
     """
@@ -129,7 +128,7 @@ def _selected(work: _Work) -> tuple[list[Row], set[tuple[int, int]]]:
 
 
 def _matrix(
-    work: _Work, fresh: list[Row], multiples: set[tuple[int, int]]
+    work: _Work, fresh: list[MatrixRow], multiples: set[tuple[int, int]]
 ) -> tuple[Pivots, list[Multiple], set[int]]:
     """One multiple for each leading monomial that is known, the shortest; all other rows; all
     monomials.
@@ -169,7 +168,9 @@ def _reducer(work: _Work, code: int) -> int | None:
     return None
 
 
-def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus: int) -> list[Row]:
+def _echelon(
+    pivots: Pivots, others: list[Multiple], columns: list[int], modulus: int
+) -> list[MatrixRow]:
     """Rows with new leading monomials: the other rows, freed of the known leading monomials, in
     echelon form; 1 alone, if it is among those of a part of them.
     """
@@ -178,7 +179,7 @@ def _echelon(pivots: Pivots, others: list[Multiple], columns: list[int], modulus
     free = [j for j in range(len(columns)) if j not in placed]
     steps = [(j, *placed[j]) for j in sorted(placed)]
     monomials, kept = [columns[j] for j in free], list[list[int]]()
-    found = list[Row]()
+    found = list[MatrixRow]()
     for part in _parts(others, len(free)):
         reduced = (
             _freed([at[c] for c in codes], numbers, steps, free, modulus) for codes, numbers in part
@@ -196,7 +197,7 @@ def _parts(rows: list[Multiple], width: int) -> list[list[Multiple]]:
     return [part for part in (rows[:first], rows[first:]) if part]
 
 
-def _independent(rows: list[list[int]], monomials: list[int], modulus: int) -> list[Row]:
+def _independent(rows: list[list[int]], monomials: list[int], modulus: int) -> list[MatrixRow]:
     """Their echelon form."""
     if not rows:
         return []
@@ -228,12 +229,12 @@ def _freed(
     return [row[j] % modulus for j in free]
 
 
-def _new_row(entries: Sequence[SupportsInt], columns: list[int]) -> Row:
+def _new_row(entries: Sequence[SupportsInt], columns: list[int]) -> MatrixRow:
     kept = [(m, int(c)) for m, c in zip(columns, entries, strict=True) if c]
-    return Row(tuple(m for m, _ in kept), tuple(c for _, c in kept))
+    return MatrixRow(tuple(m for m, _ in kept), tuple(c for _, c in kept))
 
 
-def _insert(work: _Work, new: Row) -> None:
+def _insert(work: _Work, new: MatrixRow) -> None:
     """Add an element, its pairs that the criteria leave, and drop the old pairs that it makes
     superfluous.
     """

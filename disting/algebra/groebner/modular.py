@@ -14,11 +14,12 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate
 
-from flint import fmpz_mod_ctx, fmpz_mod_mat, fmpz_mod_poly, fmpz_mod_poly_ctx, nmod_mat, nmod_poly
+from flint import fmpz_mod_ctx, fmpz_mod_mat, fmpz_mod_poly, fmpz_mod_poly_ctx, nmod_mat
 
 WORD = 64  # bits
 Matrix = nmod_mat | fmpz_mod_mat
-Polynomial = nmod_poly | fmpz_mod_poly
+Sparse = dict[tuple[int, ...], int]
+"""A polynomial: exponents and coefficients."""
 
 
 def matrix(rows: int, columns: int, entries: Sequence[int], modulus: int) -> Matrix:

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Generic, TypeVar
 
 COMMAND = "from disting.algebra.groebner.own_process import serve; serve()"
 
@@ -29,14 +29,17 @@ class End(StrEnum):
     FAILED = "failed"
 
 
+Value = TypeVar("Value")
+
+
 @dataclass(frozen=True, slots=True)
-class Ended:
-    """`value` is the task's result where `end` is DONE, and nothing otherwise; `detail` says
+class Ended(Generic[Value]):
+    """`value` is the task's result where `end` is DONE, and None otherwise; `detail` says
     more, if there is more.
     """
 
     end: End
-    value: Any = None
+    value: Value | None = None
     detail: str = ""
 
     @property
@@ -48,8 +51,11 @@ class Ended:
 
 
 def run_limited(
-    task: Callable[..., Any], arguments: tuple[Any, ...], seconds: float, megabytes: int = 4096
-) -> Ended:
+    task: Callable[..., Value],
+    arguments: tuple[object, ...],
+    seconds: float,
+    megabytes: int = 4096,
+) -> Ended[Value]:
     """Result of task(*arguments) in a fresh process, killed after so many seconds; both must be
     picklable.
 
@@ -76,7 +82,7 @@ def run_limited(
         return Ended(End.FAILED, detail=f"no process can be started: {reason.strerror}")
     if done.returncode or not done.stdout:
         return Ended(End.DIED, detail=f"exit status {done.returncode}")
-    ended: Ended = pickle.loads(done.stdout)
+    ended: Ended[Value] = pickle.loads(done.stdout)
     return ended
 
 
@@ -89,7 +95,7 @@ def serve() -> None:
         answer.write(pickle.dumps(_ended(megabytes)))
 
 
-def _ended(megabytes: int) -> Ended:
+def _ended(megabytes: int) -> Ended[object]:
     try:
         task, arguments = pickle.load(sys.stdin.buffer)
         return Ended(End.DONE, task(*arguments))

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from flint import nmod_mat
 
 from disting.algebra.certainty import residues
-from disting.algebra.groebner.elimination import Basis, Row
+from disting.algebra.groebner.elimination import Basis, MatrixRow
 
 MAX_SOLUTIONS = 600
 
@@ -113,7 +113,7 @@ def _normal_form(basis: Basis, code: int, forms: dict[int, dict[int, int]]) -> d
     return forms[code]
 
 
-def _reducer(basis: Basis, code: int) -> Row:
+def _reducer(basis: Basis, code: int) -> MatrixRow:
     return next(row for row in basis.rows if basis.order.divides(row.codes[0], code))
 
 

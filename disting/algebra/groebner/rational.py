@@ -11,15 +11,15 @@ is seen and drawn again.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from disting.algebra.certainty import residues
+from disting.algebra.groebner.modular import Sparse
 
 FORMS = 5  # linear forms that are tried
 Vector = dict[tuple[int, ...], fmpq]
-Polynomial = dict[tuple[int, ...], int]
 """Exponents of the unknowns and integer coefficient of each term."""
 
 
@@ -75,19 +75,19 @@ class Basis:
         return [i for i in range(self.size) if i not in powers]
 
 
-def basis(generators: Sequence[Polynomial], size: int, bounds: Bounds) -> Basis:
+def basis(generators: Sequence[Sparse], size: int, bounds: Bounds) -> Basis:
     """Groebner basis of the ideal of the generators; raises TooLarge."""
     context = fmpz_mpoly_ctx.get(tuple(f"x{i}" for i in range(size)), Ordering.degrevlex)
     given = fmpz_mpoly_vec([context.from_dict(p) for p in generators], context)
-    found: Any
-    found, done = given.buchberger_naive(limits=(bounds.polynomials, bounds.terms, bounds.bits))
+    limits = (bounds.polynomials, bounds.terms, bounds.bits)
+    grown, done = cast("Any", given).buchberger_naive(limits=limits)
     if not done:
         raise TooLarge("the Groebner basis grows beyond its bounds")
-    reduced = found.autoreduction(groebner=True)
+    reduced = grown.autoreduction(groebner=True)
     return Basis(tuple(p for p in reduced if not p.is_zero()), size)
 
 
-def shape(generators: Sequence[Polynomial], size: int, bounds: Bounds, seed: str) -> Shape | None:
+def shape(generators: Sequence[Sparse], size: int, bounds: Bounds, seed: str) -> Shape | None:
     """The shape of an ideal with finitely many zeros, or None if no linear form that was tried
     shows it; raises TooLarge.
     """
@@ -124,7 +124,7 @@ class Algebra:
                 return found
         return None
 
-    def squarefree(self) -> list[Polynomial]:
+    def squarefree(self) -> list[Sparse]:
         """Squarefree parts of the minimal polynomials of the unknowns."""
         found = []
         for i in range(self.ideal.size):

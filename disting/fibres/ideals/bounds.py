@@ -182,16 +182,16 @@ class _Shape:
 
 
 def safety_of_empty(
-    given: PolynomialMap, other: PolynomialMap, equal_rank: bool, bits: int = BITS
+    model: PolynomialMap, other: PolynomialMap, equal_rank: bool, bits: int = BITS
 ) -> int:
-    """Bits of error probability of "generic models of `given` are no models of `other`" from one
+    """Bits of error probability of "generic models of `model` are no models of `other`" from one
     empty fibre.
 
     As many equations as there are unknowns are counted, which is the worst case: a free q is of
     degree 1 and norm 1.
     """
-    shape = _shape([a + b for a, b in zip(given.coordinates, other.coordinates, strict=True)])
-    n, variables = len(other.parameters), len(given.parameters) + len(other.parameters)
+    shape = _shape([a + b for a, b in zip(model.coordinates, other.coordinates, strict=True)])
+    n, variables = len(other.parameters), len(model.parameters) + len(other.parameters)
     size = _related(shape, n, not equal_rank, variables)
     minor = sum(shape.degrees[:n])  # of at most n rows, each a row of derivatives
     minor_bits = n * (shape.norm + log2(shape.degrees[0] * max(n, 1)))
@@ -201,19 +201,19 @@ def safety_of_empty(
     )
 
 
-def bits_of(given: PolynomialMap, other: PolynomialMap, equal_rank: bool) -> int:
+def bits_of(model: PolynomialMap, other: PolynomialMap, equal_rank: bool) -> int:
     """Of the primes modulo which a fibre is looked at: words, unless one run says nothing then."""
-    return BITS if safety_of_empty(given, other, equal_rank) >= LEAST else LONG_BITS
+    return BITS if safety_of_empty(model, other, equal_rank) >= LEAST else LONG_BITS
 
 
-def safety_of_member(given: PolynomialMap, other: PolynomialMap, bits: int = BITS) -> int:
-    """Bits of error probability of "the models of `given` lie in the closure of those of `other`"
+def safety_of_member(model: PolynomialMap, other: PolynomialMap, bits: int = BITS) -> int:
+    """Bits of error probability of "the models of `model` lie in the closure of those of `other`"
     from one solution.
 
     A monomial of F has at most delta factors, each a form in the coordinates of Phi1, and there
     are at most (delta + 1)^(r + 1) of them.
     """
-    shape, first = _shape(other.coordinates), _shape(given.coordinates)
+    shape, first = _shape(other.coordinates), _shape(model.coordinates)
     n = len(other.parameters)
     size = _related(shape, n + 1, True, n)
     delta, forms = size.weight, min(n + 1, len(shape.degrees))
@@ -230,10 +230,12 @@ def safety_of_one_value(model: PolynomialMap) -> int:
     degrees = shape.degrees[:n]
     difference = Bounded(1, 1.0)
     others = [difference] + [VARIABLE] * (2 * n - len(degrees))
-    found = relation([*(Bounded(d, shape.norm) for d in degrees), *others])
+    bounds = relation([*(Bounded(d, shape.norm) for d in degrees), *others])
     minor = sum(degrees)
     minor_bits = n * (shape.norm + log2(shape.degrees[0] * max(n, 1)))
-    size = Size((n + 1) * found.weight + 2 * minor, int((n + 1) * found.bits + 2 * minor_bits) + 1)
+    size = Size(
+        (n + 1) * bounds.weight + 2 * minor, int((n + 1) * bounds.bits + 2 * minor_bits) + 1
+    )
     return _safety(size, BITS)
 
 
@@ -247,9 +249,9 @@ def safety_of_other_values(model: PolynomialMap) -> int:
     shape, n = _shape(model.coordinates), len(model.parameters)
     forms = sorted((*shape.degrees[: n + 1], 2), reverse=True)[: n + 1]
     norm = shape.norm + _mixing(prod(forms) ** 2, len(shape.degrees) + 1)
-    found = relation([Bounded(d, norm) for d in forms] + [VARIABLE] * (n + 2 - len(forms)))
-    put_in = found.weight * norm + (len(forms) + 1) * log2(found.weight + 1)
-    return _safety(Size(found.weight, int(found.bits + put_in) + 1), BITS)
+    bounds = relation([Bounded(d, norm) for d in forms] + [VARIABLE] * (n + 2 - len(forms)))
+    put_in = bounds.weight * norm + (len(forms) + 1) * log2(bounds.weight + 1)
+    return _safety(Size(bounds.weight, int(bounds.bits + put_in) + 1), BITS)
 
 
 def _related(shape: _Shape, equations: int, combined: bool, variables: int) -> Relation:

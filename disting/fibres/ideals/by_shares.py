@@ -43,14 +43,14 @@ def chains_told_apart(
         return None
     pairs = zip(rows_of(a), rows_of(b), strict=True)
     maps = [(row, factored(row), factored(other)) for row, other in pairs]
-    unequal = [found for found in maps if found[1].name != found[2].name]
+    unequal = [m for m in maps if m[1].name != m[2].name]
     if len(unequal) != 1:
         return None
-    row, here, there = unequal[0]
+    row, mine, theirs = unequal[0]
     if row.is_whole:
-        return told_apart(here, there, seed, tries)
-    found = told_apart(here, there, seed, tries) if _stay_together(a, b, seed) else None
-    return found and (replace(found[0], part=row.name), found[1])
+        return told_apart(mine, theirs, seed, tries)
+    shared = told_apart(mine, theirs, seed, tries) if _stay_together(a, b, seed) else None
+    return shared and (replace(shared[0], part=row.name), shared[1])
 
 
 def _comparable(a: Structure, b: Structure) -> bool:

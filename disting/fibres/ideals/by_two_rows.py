@@ -42,29 +42,29 @@ from disting.model.structure import Structure
 
 # for up to eight statements: at most two rows in three splits, and the ranks that they rest on
 SPARE_BITS = 3
-Pair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there
+RowPair = tuple[str, CoefficientMap, CoefficientMap]  # a row's name, what is wanted, what is there
 RANK_POINTS = 3  # one misses a rank with less than 2^-50, so that three are surer than the ideals
 
 
-def refuted_by_rows(given: Structure, other: Structure, seed: str) -> ByRows | None:
-    """A proof, without any chance, that generic models of `given` have no equivalent in
+def refuted_by_rows(structure: Structure, other: Structure, seed: str) -> ByRows | None:
+    """A proof, without any chance, that generic models of `structure` have no equivalent in
     `other`; None if there is none.
     """
-    if not_covered(given, other, f"{seed}:poles"):
+    if not_covered(structure, other, f"{seed}:poles"):
         return None
-    steps = [vanishing_step(split, receptances(other)) for split in splits(given, gap(other))]
+    steps = [vanishing_step(split, receptances(other)) for split in splits(structure, gap(other))]
     differing = tuple(step for step in steps if step is not None)
     return ByRows(True, differing) if len(differing) == len(steps) else None
 
 
 def included_by_rows(
-    given: Structure, other: Structure, seed: str, limits: Limits
+    structure: Structure, other: Structure, seed: str, limits: Limits
 ) -> Decision[ByRows]:
     """Whether, in some split, both rows have the receptances wanted in their closures;
     elements may be zero. Else UNKNOWN.
     """
     wanted = replace(limits, safety=limits.safety + SPARE_BITS)
-    for split in splits(given, gap(other)) if _are_alike(given, other) else ():
+    for split in splits(structure, gap(other)) if _are_alike(structure, other) else ():
         steps = _members(split, receptances(other), seed, wanted)
         if steps is not None:
             return Decision(Membership.MEMBER, limits.safety, ByRows(True, steps))
@@ -91,22 +91,22 @@ def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> boo
     """Whether the evidence holds: poles and splits are found again, each step is checked
     without the search that found it.
     """
-    given, other = (left, right) if evidence.left_given else (right, left)
-    if not _are_alike(given, other) or (
-        not evidence.is_member and not_covered(given, other, "verify:poles")
+    structure, other = (left, right) if evidence.left_given else (right, left)
+    if not _are_alike(structure, other) or (
+        not evidence.is_member and not_covered(structure, other, "verify:poles")
     ):
         return False
     searched, possible = (
         dict(receptances(other).named),
-        {s.name: dict(s.receptances.named) for s in splits(given, gap(other))},
+        {s.name: dict(s.receptances.named) for s in splits(structure, gap(other))},
     )
     if any(s.split not in possible or s.part not in possible[s.split] for s in evidence.steps):
         return False
-    told = {s.split for s in evidence.steps}
+    covered_splits = {s.split for s in evidence.steps}
     if evidence.is_member:
-        complete = len(told) == 1 and {s.part for s in evidence.steps} == set(searched)
+        complete = len(covered_splits) == 1 and {s.part for s in evidence.steps} == set(searched)
     else:
-        complete = told == set(possible) and not any(
+        complete = covered_splits == set(possible) and not any(
             isinstance(s.shown, Solved) for s in evidence.steps
         )
     return complete and all(
@@ -114,9 +114,9 @@ def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> boo
     )
 
 
-def not_covered(given: Structure, other: Structure, label: str) -> str:
+def not_covered(structure: Structure, other: Structure, label: str) -> str:
     """Why the theorem does not apply; empty if it does."""
-    if not _are_alike(given, other):
+    if not _are_alike(structure, other):
         return (
             "chains of one size and sensor are taken apart, without ground dampers and lag, and the"
             " searched one has a gap"
@@ -125,17 +125,17 @@ def not_covered(given: Structure, other: Structure, label: str) -> str:
         return "force and sensor at one place in both rows leave all sets of poles possible"
     return (
         ""
-        if poles_are_inseparable(given, label)
+        if poles_are_inseparable(structure, label)
         else "the poles of a row were not proven to be inseparable"
     )
 
 
-def _are_alike(given: Structure, other: Structure) -> bool:
+def _are_alike(structure: Structure, other: Structure) -> bool:
     """Whether both are plain, of one size, sensor and damping, and the one that is searched has
     a gap.
     """
-    kinds = [(s.n_masses, s.sensor_order, power(s)) for s in (given, other)]
-    return is_plain(given) and is_plain(other) and kinds[0] == kinds[1] and gap(other) > 0
+    kinds = [(s.n_masses, s.sensor_order, power(s)) for s in (structure, other)]
+    return is_plain(structure) and is_plain(other) and kinds[0] == kinds[1] and gap(other) > 0
 
 
 def _ranks(wanted: CoefficientMap, reached: CoefficientMap, label: str) -> tuple[int, int]:
@@ -145,7 +145,7 @@ def _ranks(wanted: CoefficientMap, reached: CoefficientMap, label: str) -> tuple
     return rank, most
 
 
-def _pairs(split: Split, searched: Receptances) -> list[Pair]:
+def _pairs(split: Split, searched: Receptances) -> list[RowPair]:
     """Name of a row, the receptance wanted and the map that is there."""
     return [
         (name, wanted, reached)

@@ -11,24 +11,23 @@ of degree up to D is new, elements whose degree fell included. If 1 lies in the 
 common zeros.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from math import comb
 
 from flint import fmpz_mpoly, nmod_poly
 
-from disting.algebra.groebner.modular import matrix as modular_matrix
+from disting.algebra.groebner.modular import Sparse, matrix as modular_matrix
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
 
-Polynomial = Mapping[tuple[int, ...], int]
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
 
 
-def reaches_one(generators: Iterable[Polynomial], size: int, modulus: int, degree: int) -> bool:
+def reaches_one(generators: Iterable[Sparse], size: int, modulus: int, degree: int) -> bool:
     """Whether 1 is found in that degree.
 
     >>> reaches_one([{(1, 1): 1, (0, 0): -1}, {(1, 0): 1}], 2, 101, 2)
@@ -47,7 +46,7 @@ def reaches_one(generators: Iterable[Polynomial], size: int, modulus: int, degre
         rows += [{_times(e, i): c for e, c in row.items()} for row in fresh for i in range(size)]
 
 
-def _lead(row: Polynomial) -> tuple[int, ...]:
+def _lead(row: Sparse) -> tuple[int, ...]:
     return max(row, key=_rank)
 
 
@@ -105,9 +104,9 @@ def refuted_at(
     """Whether the fibre is empty at all of these labels, in the direction of the evidence; raises
     NotSeenError where that is not found within the limits.
     """
-    given, other = (left, right) if evidence.left_given else (right, left)
+    model, other = (left, right) if evidence.left_given else (right, left)
     return all(
-        is_empty(given, other, equal_rank=evidence.tangent, label=label, limits=limits)
+        is_empty(model, other, equal_rank=evidence.tangent, label=label, limits=limits)
         for label in labels
     )
 
@@ -125,22 +124,22 @@ def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: Coefficien
     """
     if isinstance(evidence, Refuted):
         return bool(evidence.labels) and confirms_matched(evidence, *matched(left, right))
-    given, other = (left, right) if evidence.left_given else (right, left)
+    model, other = (left, right) if evidence.left_given else (right, left)
     runs = zip(evidence.labels, evidence.solutions, strict=True)
-    return bool(evidence.labels) and all(_agree(given, other, label, q) for label, q in runs)
+    return bool(evidence.labels) and all(_agree(model, other, label, q) for label, q in runs)
 
 
 def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap) -> bool:
     """The same for maps whose coordinates can be compared, of whatever they are."""
-    given, other = (left, right) if evidence.left_given else (right, left)
+    model, other = (left, right) if evidence.left_given else (right, left)
     if isinstance(evidence, Solved):
         runs = zip(evidence.labels, evidence.solutions, strict=True)
         return bool(evidence.labels) and all(
-            len(q) == len(other.parameters) and agree(given, point, other, q, modulus)
-            for (modulus, point), q in ((drawn(given, label), q) for label, q in runs)
+            len(q) == len(other.parameters) and agree(model, point, other, q, modulus)
+            for (modulus, point), q in ((drawn(model, label), q) for label, q in runs)
         )
-    bits = bits_of(given, other, evidence.tangent)
-    ideals = (fibre_ideal(given, other, label, evidence.tangent, bits) for label in evidence.labels)
+    bits = bits_of(model, other, evidence.tangent)
+    ideals = (fibre_ideal(model, other, label, evidence.tangent, bits) for label in evidence.labels)
     return bool(evidence.labels) and all(
         reaches_one(i.generators, len(i.unknowns), i.modulus, evidence.degree) for i in ideals
     )
@@ -155,26 +154,26 @@ def safety_of(
     Refutations have the first labels that are drawn, solutions those at which there is one.
     """
     count = len(evidence.labels)
-    given, other = (left, right) if evidence.left_given else (right, left)
+    model, other = (left, right) if evidence.left_given else (right, left)
     most = SPARE * count if isinstance(evidence, Solved) else count
     drawn_ones = labels_of(seed, left, right, most)
     named = [label for label in drawn_ones if label in set(evidence.labels)]
     if not count or tuple(named) != evidence.labels:
         return 0
     if isinstance(evidence, Solved):
-        return safety_of_member(given, other) * count - 1
+        return safety_of_member(model, other) * count - 1
     if not evidence.tangent:
         return 0
-    return safety_of_empty(given, other, True, bits_of(given, other, True)) * count - 1
+    return safety_of_empty(model, other, True, bits_of(model, other, True)) * count - 1
 
 
 def _agree(
-    given: CoefficientMap, other: CoefficientMap, label: str, solution: Sequence[int]
+    model: CoefficientMap, other: CoefficientMap, label: str, solution: Sequence[int]
 ) -> bool:
     if not len(other.parameters) <= len(solution) <= len(other.parameters) + 1:
         return False
-    modulus, point = drawn(given, label)
-    num1, den1 = _at(given, point, modulus)
+    modulus, point = drawn(model, label)
+    num1, den1 = _at(model, point, modulus)
     num2, den2 = _at(other, solution[: len(other.parameters)], modulus)
     return den2.degree() == den1.degree() >= 0 and num1 * den2 == num2 * den1
 

@@ -43,9 +43,9 @@ from operator import mul
 
 from flint import fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mpoly
 
-from disting.algebra.groebner.modular import long_polynomial, null_space
+from disting.algebra.groebner.modular import Sparse, long_polynomial, null_space
 from disting.algebra.symbols import coefficients, symbols
-from disting.fibres.ideals.fibre_ideal import Polynomial, derivative, evaluated
+from disting.fibres.ideals.fibre_ideal import derivative, evaluated
 from disting.fibres.ideals.system import CoefficientMap, Terms, determinants, separated
 from disting.model.row import Row
 
@@ -80,7 +80,7 @@ class FactoredMap:
 
 
 @dataclass(frozen=True, slots=True)
-class Values:
+class FactoredValues:
     """A point of a map: roots of the joints, theta, phi, D modulo the prime, and the derivatives
     (dN, dD) by each parameter.
 
@@ -123,7 +123,7 @@ def factored(row: Row) -> FactoredMap:
     )
 
 
-def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
+def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> FactoredValues:
     """The map and its derivatives at a point."""
 
     def at(coordinates: Sequence[Terms], lead: int) -> fmpz_mod_poly:
@@ -150,26 +150,26 @@ def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> Values:
             (change, tuple(evaluated(derivative(c, by), point, modulus) for c in chain.poles))
         )
     poles = tuple(evaluated(c, point, modulus) for c in chain.poles)
-    return Values(
+    return FactoredValues(
         joints=roots, left=left, right=right, numerator=numerator, poles=poles, slopes=tuple(slopes)
     )
 
 
 def shared_fibre(
-    given: Values, other: FactoredMap, share: Share, modulus: int
-) -> tuple[int, list[Polynomial]]:
+    at: FactoredValues, other: FactoredMap, share: Share, modulus: int
+) -> tuple[int, list[Sparse]]:
     """Number of unknowns, and equations, of the parameters of `other` over these values with
     this share; linear ones solved.
     """
     field = fmpz_mod_mpoly_ctx.get(other.parameters, modulus=modulus)
     shares = [_product(share.left, modulus), _product(share.right, modulus)]
-    wanted = [*(int(f[i]) for f in shares for i in range(f.degree())), *given.poles]
+    wanted = [*(int(f[i]) for f in shares for i in range(f.degree())), *at.poles]
     lifted = [
         field.from_dict({e: x % modulus for e, x in c})
         for c in (*other.left, *other.right, *other.poles)
     ]
     equations = [p - y for p, y in zip(lifted, wanted, strict=True)]
-    for normal in _normals(given, share, modulus):
+    for normal in _normals(at, share, modulus):
         height = sum(
             (p * w for p, w in zip(lifted, normal[len(other.joints) :], strict=True)),
             field.constant(0),
@@ -206,19 +206,19 @@ def _entries(joint: int, row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mp
     if a <= joint < b:
         same = s + ring[f"h{joint}"]
         return ring[f"e{joint}"] * same, ring[f"x{joint}"] * same
-    one = ring.get(f"u{joint}", zero) + ring.get(f"e{joint}", zero) * s
+    impedance = ring.get(f"u{joint}", zero) + ring.get(f"e{joint}", zero) * s
     if joint == row.before:
-        return zero, one
+        return zero, impedance
     ratio = ring[f"r{joint}"]
-    return (one, ratio * one) if joint < a else (ratio * one, one)
+    return (impedance, ratio * impedance) if joint < a else (ratio * impedance, impedance)
 
 
 def _by_power(polynomial: fmpz_mpoly) -> tuple[Terms, ...]:
     """Coefficients of s^0, s^1, .. but the leading one, in the unknowns: between s, the first
     symbol, and the gain.
     """
-    found = (c.to_dict() for c in coefficients(polynomial, "s")[:-1])
-    return tuple(tuple((tuple(map(int, e[1:-1])), int(x)) for e, x in c.items()) for c in found)
+    powers = (c.to_dict() for c in coefficients(polynomial, "s")[:-1])
+    return tuple(tuple((tuple(map(int, e[1:-1])), int(x)) for e, x in c.items()) for c in powers)
 
 
 def _product(roots: Sequence[int], modulus: int) -> fmpz_mod_poly:
@@ -227,16 +227,16 @@ def _product(roots: Sequence[int], modulus: int) -> fmpz_mod_poly:
     )
 
 
-def _normals(given: Values, share: Share, modulus: int) -> list[list[int]]:
+def _normals(at: FactoredValues, share: Share, modulus: int) -> list[list[int]]:
     """W: the relations between the rows of the Jacobian matrix, in the order joints, theta,
     phi, D, in echelon form.
     """
     factors = [f for f in (*((z,) for z in share.joints), share.left, share.right) if f]
     parts = [
-        (f, (given.numerator // f).inverse_mod(f)) for f in (_product(x, modulus) for x in factors)
+        (f, (at.numerator // f).inverse_mod(f)) for f in (_product(x, modulus) for x in factors)
     ]
     columns = []
-    for change, poles in given.slopes:
+    for change, poles in at.slopes:
         moved = [(change * inverse % f, f.degree()) for f, inverse in parts]
         columns.append([*(int(d[i]) for d, size in moved for i in range(size)), *poles])
     return [normal[::-1] for normal in null_space([column[::-1] for column in columns], modulus)]
@@ -254,7 +254,7 @@ def _tangents(
 
 def _solved(
     equations: list[fmpz_mod_mpoly], field: fmpz_mod_mpoly_ctx, gone: set[int]
-) -> tuple[int, list[Polynomial]]:
+) -> tuple[int, list[Sparse]]:
     """The equations without the unknowns that are gone already, or that linear equations give."""
     gone = set(gone)
     while True:

@@ -19,10 +19,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from disting.algebra.certainty import about, prime, residues
-from disting.algebra.groebner.modular import Matrix, matrix, null_space
+from disting.algebra.groebner.modular import Matrix, Sparse, matrix, null_space
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, Terms
 
-Polynomial = dict[tuple[int, ...], int]  # exponents -> residue
 REMEMBERED = 512  # ranks: a row is asked for in many pairs
 # of the primes: the longest that fit into a machine word, which is what FLINT's fast matrices take
 BITS = 64
@@ -39,28 +38,28 @@ class FibreIdeal:
     point: tuple[int, ...]
     unknowns: tuple[str, ...]
     fixed: dict[str, int]
-    generators: tuple[Polynomial, ...]
+    generators: tuple[Sparse, ...]
 
 
 def fibre_ideal(
-    given: PolynomialMap, other: PolynomialMap, label: str, equal_rank: bool, bits: int = BITS
+    model: PolynomialMap, other: PolynomialMap, label: str, equal_rank: bool, bits: int = BITS
 ) -> FibreIdeal:
-    """The fibre of `other` over a random point of `given`, modulo a random prime, both determined
+    """The fibre of `other` over a random point of `model`, modulo a random prime, both determined
     by the label.
 
     Both maps have coordinates that can be compared (see `system.matched`).
     """
-    modulus, point = drawn(given, label, bits)
-    there = residues(f"slice:{label}", len(other.parameters), modulus)
-    fixed = _slice(other, there, modulus) if equal_rank else {}
-    targets = [evaluated(c, point, modulus) for c in given.coordinates]
+    modulus, point = drawn(model, label, bits)
+    origin = residues(f"slice:{label}", len(other.parameters), modulus)
+    fixed = _slice(other, origin, modulus) if equal_rank else {}
+    targets = [evaluated(c, point, modulus) for c in model.coordinates]
     zero = (0,) * len(other.parameters)
     equations = [
         dict(c) | {zero: dict(c).get(zero, 0) - y}
         for c, y in zip(other.coordinates, targets, strict=True)
     ]
     if equal_rank:
-        equations += _tangents(given, other, point, modulus)
+        equations += _tangents(model, other, point, modulus)
     kept = [i for i, name in enumerate(other.parameters) if name not in fixed]
     values = [fixed.get(name, 0) for name in other.parameters]
     reduced = (restricted(e, kept, values, modulus) for e in equations)
@@ -73,14 +72,14 @@ def fibre_ideal(
     )
 
 
-def drawn(given: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
+def drawn(model: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
     """The random prime and point that a label stands for; values are drawn by name, so a scale
     factor changes no other.
 
     Those who choose labels make them depend on the models (`sampling.about`).
     """
     modulus = prime(label, bits)
-    return modulus, tuple(residues(f"{name}:{label}", 1, modulus)[0] for name in given.parameters)
+    return modulus, tuple(residues(f"{name}:{label}", 1, modulus)[0] for name in model.parameters)
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -113,7 +112,7 @@ def sides_at(
 
 
 def agree(
-    given: PolynomialMap,
+    model: PolynomialMap,
     point: Sequence[int],
     other: PolynomialMap,
     values: Sequence[int],
@@ -122,7 +121,7 @@ def agree(
     """Whether two maps that can be compared have the same coefficients at these parameters
     modulo a prime.
     """
-    pairs = zip(given.coordinates, other.coordinates, strict=True)
+    pairs = zip(model.coordinates, other.coordinates, strict=True)
     return all(evaluated(a, point, modulus) == evaluated(b, values, modulus) for a, b in pairs)
 
 
@@ -160,20 +159,20 @@ def pivots(echelon: Matrix, rank: int) -> list[int]:
     return [next(j for j in range(echelon.ncols()) if int(echelon[i, j])) for i in range(rank)]
 
 
-def _slice(model: PolynomialMap, there: Sequence[int], modulus: int) -> dict[str, int]:
-    free = pivots(*jacobian(model, there, modulus).rref())
+def _slice(model: PolynomialMap, origin: Sequence[int], modulus: int) -> dict[str, int]:
+    free = pivots(*jacobian(model, origin, modulus).rref())
     return {
         name: x
-        for j, (name, x) in enumerate(zip(model.parameters, there, strict=True))
+        for j, (name, x) in enumerate(zip(model.parameters, origin, strict=True))
         if j not in free
     }
 
 
 def _tangents(
-    given: PolynomialMap, other: PolynomialMap, point: Sequence[int], modulus: int
-) -> list[Polynomial]:
+    model: PolynomialMap, other: PolynomialMap, point: Sequence[int], modulus: int
+) -> list[Sparse]:
     order = sorted(range(len(other.coordinates)), key=lambda i: -_degree(other.coordinates[i]))
-    normals, rank = _left_null_space(jacobian(given, point, modulus), order, modulus)
+    normals, rank = _left_null_space(jacobian(model, point, modulus), order, modulus)
     gradients = [
         [derivative(c, j) for j in range(len(other.parameters))] for c in other.coordinates
     ]
@@ -198,21 +197,17 @@ def _left_null_space(of: Matrix, order: list[int], modulus: int) -> tuple[Matrix
     return echelon
 
 
-def _combined(
-    row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int
-) -> Polynomial:
-    total: Polynomial = {}
+def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int) -> Sparse:
+    total: Sparse = {}
     for i, weight in row.items():
         for exponents, number in gradients[i][at]:
             total[exponents] = (total.get(exponents, 0) + weight * number) % modulus
     return {e: c for e, c in total.items() if c}
 
 
-def restricted(
-    polynomial: Polynomial, kept: list[int], values: list[int], modulus: int
-) -> Polynomial:
+def restricted(polynomial: Sparse, kept: list[int], values: list[int], modulus: int) -> Sparse:
     """The fixed parameters replaced by their values."""
-    total: Polynomial = {}
+    total: Sparse = {}
     for exponents, number in polynomial.items():
         for i, e in enumerate(exponents):
             if e and values[i]:

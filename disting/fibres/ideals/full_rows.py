@@ -62,8 +62,8 @@ def _shared(row: Row, other: Row, label: str) -> int | None:
     """
     if row == other:
         return SAME
-    here, there = (_full(r, label) for r in (row, other))
-    return len(here.free) if here is not None and here == there else None
+    mine, theirs = (_full(r, label) for r in (row, other))
+    return len(mine.free) if mine is not None and mine == theirs else None
 
 
 @dataclass(frozen=True, slots=True)

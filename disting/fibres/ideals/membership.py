@@ -21,7 +21,8 @@ from math import ceil
 from time import process_time
 
 from disting.algebra.certainty import about, residues
-from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
+from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
+from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.points import free_variable, solution
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refuted, Solved
@@ -112,7 +113,7 @@ class _Question:
 
 
 def decide(
-    given: CoefficientMap,
+    model: CoefficientMap,
     other: CoefficientMap,
     *,
     equal_rank: bool,
@@ -120,7 +121,7 @@ def decide(
     limits: Limits = Limits(),
     members: bool = True,
 ) -> Told:
-    """Whether generic models of `given` are models of `other`; `equal_rank` lets the other
+    """Whether generic models of `model` are models of `other`; `equal_rank` lets the other
     direction decide as well. Without `members` it is UNKNOWN that they are: only what refutes is
     looked for.
 
@@ -128,10 +129,10 @@ def decide(
     InputError if the ranks at random points are not as told, or the given model has the larger
     one.
     """
-    if given.degrees[1] != other.degrees[1]:
+    if model.degrees[1] != other.degrees[1]:
         return _unknown("the numbers of poles differ")
     return decide_matched(
-        *matched(given, other), equal_rank=equal_rank, seed=seed, limits=limits, members=members
+        *matched(model, other), equal_rank=equal_rank, seed=seed, limits=limits, members=members
     )
 
 
@@ -167,14 +168,14 @@ def decide_matched(
 
 
 def is_empty(
-    given: PolynomialMap, other: PolynomialMap, *, equal_rank: bool, label: str, limits: Limits
+    model: PolynomialMap, other: PolynomialMap, *, equal_rank: bool, label: str, limits: Limits
 ) -> bool:
-    """Whether the fibre of `other` over the point of `given` that the label stands for is empty:
+    """Whether the fibre of `other` over the point of `model` that the label stands for is empty:
     one run, in this direction. Raises NotSeenError where the limits end it.
     """
-    _refuse(given, other, equal_rank, "verify")
-    question = _Question(given, other, equal_rank, limits, process_time() + limits.seconds)
-    if safety_of_empty(given, other, equal_rank, bits_of(given, other, equal_rank)) < LEAST:
+    _refuse(model, other, equal_rank, "verify")
+    question = _Question(model, other, equal_rank, limits, process_time() + limits.seconds)
+    if safety_of_empty(model, other, equal_rank, bits_of(model, other, equal_rank)) < LEAST:
         raise NotSeenError(NO_BOUND)
     try:
         return _race(question, [question.run(True, label)])[1].is_one
@@ -230,13 +231,12 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     labels, degree, reason = [run.label], basis.degree, ""
     try:
         while len(labels) < _needed(question, each):
-            again, found = _race(
-                question, [question.run(run.left_given, _label(seed, len(labels)))]
-            )
-            if not found.is_one:
+            label = _label(seed, len(labels))
+            again, next_basis = _race(question, [question.run(run.left_given, label)])
+            if not next_basis.is_one:
                 return _unknown(TWO_ANSWERS)
             labels.append(again.label)
-            degree = max(degree, found.degree)
+            degree = max(degree, next_basis.degree)
     except GivenUp as why:
         reason = str(why)
     evidence = Refuted(run.left_given, tuple(labels), degree, question.equal_rank)
@@ -245,22 +245,22 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
 
 def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
     each = safety_of_member(*question.sides(run.left_given))
-    found, reason, wanted = dict[str, tuple[int, ...]](), "", _needed(question, each)
+    solutions, reason, wanted = dict[str, tuple[int, ...]](), "", _needed(question, each)
     try:
         for number in range(1, SPARE * wanted + 1):
             if basis.is_one:
                 return _unknown(TWO_ANSWERS)
             solved = _solution(question, run, basis)
-            found |= {run.label: solved} if solved else {}
-            if len(found) == wanted:
+            solutions |= {run.label: solved} if solved else {}
+            if len(solutions) == wanted:
                 break
             run, basis = _race(question, [question.run(run.left_given, _label(seed, number))])
     except GivenUp as why:
         reason = str(why)
-    if not found:
+    if not solutions:
         return _unknown(reason or "no solution with coordinates modulo the prime was found")
-    evidence = Solved(run.left_given, tuple(found), tuple(found.values()))
-    return Decision(Membership.MEMBER, each * len(found) - question.price, evidence, reason)
+    evidence = Solved(run.left_given, tuple(solutions), tuple(solutions.values()))
+    return Decision(Membership.MEMBER, each * len(solutions) - question.price, evidence, reason)
 
 
 def _needed(question: _Question, each: int) -> int:
@@ -284,12 +284,12 @@ def _solution(question: _Question, run: _Run, basis: Basis) -> tuple[int, ...] |
         _, basis = _race(question, [_Run(run.left_given, run.label, ideal, steps)])
         if basis.is_one:
             return None
-    if (found := solution(basis, run.label)) is None:
+    if (unknowns := solution(basis, run.label)) is None:
         return None
-    given, other = question.sides(run.left_given)
-    named = ideal.fixed | dict(zip(ideal.unknowns, found, strict=True))
+    model, other = question.sides(run.left_given)
+    named = ideal.fixed | dict(zip(ideal.unknowns, unknowns, strict=True))
     solved = tuple(named[name] for name in other.parameters)
-    if not agree(given, ideal.point, other, solved, ideal.modulus):
+    if not agree(model, ideal.point, other, solved, ideal.modulus):
         raise ContradictionError(
             "a solution of the fibre's equations is none of the coefficient maps"
         )

@@ -40,7 +40,8 @@ from math import ceil, log2
 from time import process_time
 
 from disting.algebra.certainty import LEAST_SAFETY, about
-from disting.algebra.groebner.elimination import Basis, Sparse, TooLarge, basis_steps
+from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
+from disting.algebra.groebner.modular import Sparse
 from disting.errors import ContradictionError
 from disting.fibres.ideals.bounds import LEAST, safety_of_one_value, safety_of_other_values
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
@@ -51,47 +52,47 @@ LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
 
 
 @dataclass(frozen=True, slots=True)
-class Values:
-    """Parameters with `one` value in a generic fibre and with `several`; for the others `reason`
-    says why nothing is known. Any of it is wrong with a probability of at most 2**-safety.
+class ValueCounts:
+    """Parameters with one value (`unique`) in a generic fibre and with `several`; for the others
+    `reason` says why nothing is known. Any of it is wrong with a probability of at most 2**-safety.
     """
 
-    one: tuple[str, ...] = ()
+    unique: tuple[str, ...] = ()
     several: tuple[str, ...] = ()
     safety: int = 0
     reason: str = ""
 
 
-def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Values:
+def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> ValueCounts:
     """Which of these parameters, each locally identifiable, have one value.
 
     >>> from disting.fibres.ideals.system import coefficient_map
     >>> from disting.model.chain import Chain
     >>> chain = Chain(3, act_plus=2, meas_plus=2, damped=False)
     >>> found = one_value(coefficient_map(chain.structure), chain.parameters, seed="doc")
-    >>> found.one, found.several
+    >>> found.unique, found.several
     (('m2',), ('m1', 'm3', 'k12', 'k23'))
     """
     wanted = [name for name in model.parameters if name in set(names)]
     if not wanted:
-        return Values()
+        return ValueCounts()
     each = min(safety_of_one_value(model), safety_of_other_values(model))
     if each < LEAST:
-        return Values(reason=NO_BOUND)
+        return ValueCounts(reason=NO_BOUND)
     runs = ceil((LIMITS.safety + ceil(log2(len(wanted) + 1))) / each)
     deadline = process_time() + LIMITS.seconds
     label = about(f"one value:{seed}", model.content)
-    found: dict[str, bool] = {}
+    single: dict[str, bool] = {}
     try:
         for run in range(runs):
-            asked = wanted if not run else list(found)
+            asked = wanted if not run else list(single)
             for name, is_one in _at_point(model, asked, f"{label}:{run}", deadline):
-                if found.setdefault(name, is_one) != is_one:
-                    return Values(reason="one random point contradicts another")
+                if single.setdefault(name, is_one) != is_one:
+                    return ValueCounts(reason="one random point contradicts another")
     except GivenUp as why:
-        return Values(reason=str(why))
-    one, several = (tuple(n for n in wanted if found[n] is kind) for kind in (True, False))
-    return Values(one, several, each * runs - ceil(log2(len(wanted) + 1)))
+        return ValueCounts(reason=str(why))
+    unique, several = (tuple(n for n in wanted if single[n] is kind) for kind in (True, False))
+    return ValueCounts(unique, several, each * runs - ceil(log2(len(wanted) + 1)))
 
 
 def _at_point(
@@ -102,15 +103,15 @@ def _at_point(
     basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, deadline)
     if basis.is_one:
         raise ContradictionError("a point does not lie in its own fibre")
-    known = dict(zip(model.parameters, ideal.point, strict=True))
+    origin = dict(zip(model.parameters, ideal.point, strict=True))
     rows: list[Sparse] = [
         {basis.order.decode(c): x for c, x in zip(row.codes, row.numbers, strict=True)}
         for row in basis.rows
     ]
     for name in names:
-        at, value = ideal.unknowns.index(name), known[name]
-        given = _is_given(rows, at, value, ideal.modulus)
-        yield name, given or _has_no_other(ideal, rows, at, value, deadline)
+        at, value = ideal.unknowns.index(name), origin[name]
+        is_single = _is_given(rows, at, value, ideal.modulus)
+        yield name, is_single or _has_no_other(ideal, rows, at, value, deadline)
 
 
 def _is_given(rows: Iterable[Sparse], at: int, value: int, modulus: int) -> bool:

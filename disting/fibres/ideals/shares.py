@@ -33,11 +33,11 @@ from flint import fmpz, fmpz_mod_poly
 
 from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
-from disting.algebra.groebner.modular import long_polynomial
+from disting.algebra.groebner.modular import Sparse, long_polynomial
 from disting.evidence.ideals import Shared
 from disting.fibres.ideals.bounds import safety_of_empty
-from disting.fibres.ideals.factored import FactoredMap, Share, Values, shared_fibre, values
-from disting.fibres.ideals.fibre_ideal import Polynomial, evaluated
+from disting.fibres.ideals.factored import FactoredMap, FactoredValues, Share, shared_fibre, values
+from disting.fibres.ideals.fibre_ideal import evaluated
 from disting.fibres.ideals.system import Terms, matched
 
 BITS = 192  # of the prime: one point gives more than 100 bits
@@ -67,34 +67,34 @@ def told_apart(
         return None
     ways = dict[bool, _Way | None]()
     for left_given, most in tries:
-        given, other = (left, right) if left_given else (right, left)
+        model, other = (left, right) if left_given else (right, left)
         if left_given not in ways:
-            ways[left_given] = _way(given, other, f"shares:{seed}:{given.name}:{other.name}")
+            ways[left_given] = _way(model, other, f"shares:{seed}:{model.name}:{other.name}")
         way = ways[left_given]
         try:
             is_refuted = way is not None and way.is_refuted(most)
         except _SolvableError:
             return None
         if way is not None and is_refuted:
-            bits = safety_of_empty(*matched(given.whole, other.whole), True, BITS)
-            found = Shared(
+            bits = safety_of_empty(*matched(model.whole, other.whole), True, BITS)
+            shared = Shared(
                 left_given=left_given,
                 part="",
                 label=way.label,
                 shares=len(way.degrees),
                 degree=max(way.degrees),
             )
-            return found, bits - ceil(log2(DRAWS)) - 1
+            return shared, bits - ceil(log2(DRAWS)) - 1
     return None
 
 
 def may_share(left: FactoredMap, right: FactoredMap) -> bool:
     """Whether both have as many zeros, poles other than zero, and parameters."""
-    one, other = (
+    counts, other_counts = (
         (len(x.joints) + len(x.left) + len(x.right), len(x.poles), len(x.parameters))
         for x in (left, right)
     )
-    return one == other
+    return counts == other_counts
 
 
 @dataclass(slots=True)
@@ -104,7 +104,7 @@ class _Way:
     """
 
     label: str
-    fibres: Iterator[tuple[int, list[Polynomial]]]
+    fibres: Iterator[tuple[int, list[Sparse]]]
     modulus: int
     degrees: list[int] = field(default_factory=list)
     steps: Iterator[Basis | int] | None = None
@@ -145,12 +145,12 @@ class _Way:
             raise _SolvableError
 
 
-def _way(given: FactoredMap, other: FactoredMap, label: str) -> _Way | None:
+def _way(model: FactoredMap, other: FactoredMap, label: str) -> _Way | None:
     """A direction; None if no point is found, or the groups of roots are not seen to be
     symmetric.
     """
     modulus = prime(label, BITS)
-    drawn = next(_points(given, label, modulus), None) if is_symmetric(given, label) else None
+    drawn = next(_points(model, label, modulus), None) if is_symmetric(model, label) else None
     if drawn is None:
         return None
     at, types = drawn
@@ -159,16 +159,16 @@ def _way(given: FactoredMap, other: FactoredMap, label: str) -> _Way | None:
 
 
 def _points(
-    given: FactoredMap, label: str, modulus: int
-) -> Iterator[tuple[Values, list[tuple[int, str]]]]:
+    model: FactoredMap, label: str, modulus: int
+) -> Iterator[tuple[FactoredValues, list[tuple[int, str]]]]:
     """Points with all roots of N in the field and distinct, with the roots and their types."""
     for draw in range(DRAWS):
-        point = residues(f"{label}:{draw}", len(given.parameters), modulus)
-        factors = [_monic(f, point, modulus) for f in (given.left, given.right)]
+        point = residues(f"{label}:{draw}", len(model.parameters), modulus)
+        factors = [_monic(f, point, modulus) for f in (model.left, model.right)]
         # the cheap test of both first
         if not all(test(f, modulus) for test in (_may_split, _splits) for f in factors):
             continue
-        at = values(given, point, modulus)
+        at = values(model, point, modulus)
         types = [(z, f"joint {i}") for i, z in enumerate(at.joints)]
         types += [
             (z, kind)

@@ -129,21 +129,24 @@ def relative_degree(model: CoefficientMap) -> int:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def splits(given: Structure, h: int) -> tuple[Split, ...]:
-    """The splits of a generic receptance of `given` for a chain of as many masses with a gap h
+def splits(structure: Structure, h: int) -> tuple[Split, ...]:
+    """The splits of a generic receptance of `structure` for a chain of as many masses with a gap h
     > 0, if the theorem applies.
     """
-    n, g = given.n_masses, gap(given)
+    n, g = structure.n_masses, gap(structure)
     every = list[Split]()
     if h == g:
-        every.append(Split(SAME, receptances(given)))
+        every.append(Split(SAME, receptances(structure)))
     if g and h == n - 1 - g:
         every.append(
-            Split("exchanged", Receptances(_without_rigid_body(given), _with_rigid_body(given)))
+            Split(
+                "exchanged",
+                Receptances(_without_rigid_body(structure), _with_rigid_body(structure)),
+            )
         )
     if h == n - 1 and h != g:
         every.append(
-            Split("rigid", Receptances(_without_rigid_body(given, whole=True), _rigid_body()))
+            Split("rigid", Receptances(_without_rigid_body(structure, whole=True), _rigid_body()))
         )
     return tuple(every)
 

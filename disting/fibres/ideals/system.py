@@ -165,23 +165,23 @@ def normalised(structure: Structure) -> CoefficientMap:
     return separated(names, num // ring["s"] ** power, den // ring["s"] ** power)
 
 
-def matched(given: CoefficientMap, other: CoefficientMap) -> tuple[CoefficientMap, CoefficientMap]:
+def matched(model: CoefficientMap, other: CoefficientMap) -> tuple[CoefficientMap, CoefficientMap]:
     """Both maps in a form in which equal transfer functions are equal coefficients, as many in
     both, zeros included.
 
     Of equally many poles all functions have their coefficients in one space, whatever the degrees
     of the numerators. Raises InputError for denominators of unequal degrees.
     """
-    if given.degrees[1] != other.degrees[1]:
+    if model.degrees[1] != other.degrees[1]:
         raise InputError(
-            f"transfer functions of equally many poles are compared, not {given.degrees} and"
+            f"transfer functions of equally many poles are compared, not {model.degrees} and"
             f" {other.degrees}"
         )
-    top = max(given.degrees[0], other.degrees[0]) + 1
-    given, other = _padded(given, top), _padded(other, top)
-    if given.is_monic and other.is_monic:
-        return given, other
-    return given.with_scale(), other.with_scale()
+    top = max(model.degrees[0], other.degrees[0]) + 1
+    model, other = _padded(model, top), _padded(other, top)
+    if model.is_monic and other.is_monic:
+        return model, other
+    return model.with_scale(), other.with_scale()
 
 
 def _padded(model: CoefficientMap, count: int) -> CoefficientMap:
@@ -242,8 +242,8 @@ def with_ratios(
     """What the joints 0, 1, .. left of each mass add to the masses on their left and right: c_i and
     r_i c_i.
     """
-    one = ring["s"] ** 0
-    ratios = [ring.get(f"r{i + row.before}", one) for i in range(row.n_masses)]
+    unit = ring["s"] ** 0
+    ratios = [ring.get(f"r{i + row.before}", unit) for i in range(row.n_masses)]
     return [(c, ratio * c) for c, ratio in zip(joints, ratios, strict=True)]
 
 
@@ -273,10 +273,10 @@ def receptance_map(row: Row) -> CoefficientMap:
 
 
 def _minors(
-    diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], one: fmpz_mpoly
+    diagonal: list[fmpz_mpoly], squares: list[fmpz_mpoly], unit: fmpz_mpoly
 ) -> list[fmpz_mpoly]:
     """1, d_1, d_1 d_2 - q_1, ..: the leading principal minors of a tridiagonal matrix."""
-    found = [one, diagonal[0]]
+    minors = [unit, diagonal[0]]
     for d, q in zip(diagonal[1:], squares, strict=True):
-        found.append(d * found[-1] - q * found[-2])
-    return found
+        minors.append(d * minors[-1] - q * minors[-2])
+    return minors

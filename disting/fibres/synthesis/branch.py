@@ -9,18 +9,19 @@ The receptance of a row that is to be realised, as balls.
 """
 
 import itertools
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
-from typing import Any
+from typing import TypeVar
 
-from flint import acb, acb_poly, arb, ctx, fmpq
+from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_poly
 
 from disting.model.row import Row
 
-Ball = Any  # acb; lists of coefficients and of points hold integers beside balls
-Poly = Any  # acb_poly
+Ball = acb
+Poly = acb_poly
+Item = TypeVar("Item")
 
 # widest relative radius of a test ball that may pass as "consistent with zero"
 TOLERANCE = 2.0**-40
@@ -34,7 +35,7 @@ class Imprecise(Exception):
     """A ball too wide to say anything: work again with more bits."""
 
 
-def vanishes(value: Ball, scale: Ball) -> bool:
+def vanishes(value: Ball, scale: Ball | arb) -> bool:
     """False: proven non-zero. True: consistent with zero to TOLERANCE relative to |scale|. Raises
     Imprecise in between.
 
@@ -55,9 +56,9 @@ def is_boundary(value: Ball) -> bool:
     return bool(value.contains(0))
 
 
-def poly(coefficients: list[Ball]) -> Poly:
+def poly(coefficients: Sequence[Ball | int]) -> Poly:
     """Polynomial from its coefficients, lowest first."""
-    return acb_poly(coefficients)
+    return acb_poly(list(coefficients))
 
 
 def cut(p: Poly, degree: int) -> Poly:
@@ -74,7 +75,7 @@ def shifted(p: Poly, power: int) -> Poly:
     dropped.
     """
     if power >= 0:
-        return acb_poly([0] * power + p.coeffs())
+        return acb_poly([acb(0)] * power + p.coeffs())
     return acb_poly(p.coeffs()[-power:])
 
 
@@ -150,7 +151,7 @@ def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
     return step if proven else None
 
 
-def splits(items: list[Ball], size: int) -> Iterator[tuple[list[Ball], list[Ball]]]:
+def splits(items: list[Item], size: int) -> Iterator[tuple[list[Item], list[Item]]]:
     """Every choice of `size` items, with the rest."""
     for chosen in combinations(range(len(items)), size):
         yield [items[i] for i in chosen], [z for i, z in enumerate(items) if i not in chosen]
@@ -165,7 +166,7 @@ class Receptance:
 
     numerator: Poly
     denominator: Poly
-    exact: Poly | None = None
+    exact: fmpq_poly | None = None
 
     def gain(self, row: Row) -> Ball:
         """Leading coefficient of the numerator, in the row's own variable."""

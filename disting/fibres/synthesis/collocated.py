@@ -14,6 +14,8 @@ from beta; if more are not, the slopes of the sides are left open, and `friction
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from flint import arb
+
 from disting.fibres.synthesis.branch import (
     BOUNDARY,
     NONZERO,
@@ -111,7 +113,7 @@ class _Port:
     mass: Ball
     beta: Ball
     damper: bool
-    scale: Ball
+    scale: Ball | arb
 
 
 def driving_point(row: Row, data: Receptance) -> Iterator[Leaf]:
@@ -151,11 +153,11 @@ def _side(row: Row, residues: list[Residue], constant: Ball, left: bool) -> Side
         wall=row.grounded and left,
         elastic=not row.damped,
     )
-    known = side.is_loose and row.damped
-    growth = sum((r.value / r.at**2 for r in residues), NOTHING) if known else NOTHING
-    numerator = cut(over(residues, [constant, growth]), 2 * len(dampers) + known)
+    is_known = side.is_loose and row.damped
+    growth = sum((r.value / r.at**2 for r in residues), NOTHING) if is_known else NOTHING
+    numerator = cut(over(residues, [constant, growth]), 2 * len(dampers) + is_known)
     return replace(
-        side, numerator=without_low(numerator, side), slope_open=row.damped and not known
+        side, numerator=without_low(numerator, side), slope_open=row.damped and not is_known
     )
 
 

@@ -17,7 +17,7 @@ as balls; and the solutions that they are: which are real, which are positive.
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from flint import acb, acb_mat, acb_poly, arb, ctx
+from flint import acb, acb_mat, acb_poly, arb, ctx, fmpq
 
 from disting.behaviour.transfer import Rational, plain_receptance, receptance
 from disting.fibres.synthesis.branch import NONZERO, TOLERANCE, Ball, Dead, Imprecise
@@ -26,7 +26,7 @@ from disting.model.chain import Chain
 from disting.model.question import Answer
 
 Matrix = list[list[Ball]]
-Values = dict[str, Ball]
+Balls = dict[str, Ball]
 
 
 def confirmation(chain: Chain, values: dict[str, Ball], target: Target) -> Confirmation:
@@ -53,9 +53,9 @@ def _krawczyk(
     except ZeroDivisionError:
         return Confirmation.BALLS
     size = len(rows)
-    one = acb_mat([[int(i == j) for j in range(size)] for i in range(size)])
+    identity = acb_mat([[int(i == j) for j in range(size)] for i in range(size)])
     offset = acb_mat([[box[name] - mid[name]] for name in mid])
-    step = (one - inverse * wide) * offset - inverse * acb_mat([[r] for r in residual])
+    step = (identity - inverse * wide) * offset - inverse * acb_mat([[r] for r in residual])
     inside = all(offset[i, 0].contains_interior(step[i, 0]) for i in range(size))
     return Confirmation.SUBSYSTEM if inside else Confirmation.BALLS
 
@@ -81,20 +81,20 @@ def _system(chain: Chain, values: dict[str, Ball], target: Target) -> tuple[list
         (raw.num, raw.num_gradient, target.numerator),
         (raw.den, raw.den_gradient, target.denominator),
     )
-    for ours, gradient, given in pairs:
-        for i in range(given.degree() + 1):
-            if given[i] and not (ours is raw.den and i == top):
+    for ours, gradient, wanted in pairs:
+        for i in range(wanted.degree() + 1):
+            if wanted[i] and not (ours is raw.den and i == top):
                 value = ours[i] / raw.den[top]
-                residual.append(value / acb(given[i]) - 1)
+                residual.append(value / acb(wanted[i]) - 1)
                 slopes = (
                     (gradient[n][i] - value * raw.den_gradient[n][top]) / raw.den[top]
                     for n in values
                 )
-                jacobian.append([slope / acb(given[i]) for slope in slopes])
+                jacobian.append([slope / acb(wanted[i]) for slope in slopes])
     return residual, jacobian
 
 
-def _independent(jacobian: Matrix, scales: Iterable[Ball]) -> list[int]:
+def _independent(jacobian: Matrix, scales: Iterable[arb]) -> list[int]:
     """Rows chosen by elimination with complete pivoting on midpoints, parameters scaled to one:
     no proof, a good choice.
     """
@@ -129,7 +129,7 @@ class Checked:
     width: float
 
 
-def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational:
+def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational[acb_poly]:
     """Receptance and gradients over balls."""
     return receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
 
@@ -141,9 +141,9 @@ def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) 
     num, den = plain_receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
     lead = den[den.degree()]
     width = 0.0
-    for ours, given in ((num, target.numerator), (den, target.denominator)):
-        largest = max(abs(c) for c in given.coeffs())
-        for i, coefficient in enumerate(_padded(given, ours.degree())):
+    for ours, wanted in ((num, target.numerator), (den, target.denominator)):
+        largest = max(abs(c) for c in wanted.coeffs())
+        for i, coefficient in enumerate(_padded(wanted, ours.degree())):
             gap = ours[i] / lead - acb(coefficient)
             if not gap.is_finite():
                 raise Imprecise("a coefficient is not finite")
@@ -155,8 +155,8 @@ def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) 
     return Checked(values, gauges, width)
 
 
-def _padded(given: Exact, degree: int) -> list[Exact]:
-    return [given[i] for i in range(max(degree, given.degree()) + 1)]
+def _padded(polynomial: Exact, degree: int) -> list[fmpq]:
+    return [polynomial[i] for i in range(max(degree, polynomial.degree()) + 1)]
 
 
 def _lifted(values: dict[str, Ball]) -> dict[str, acb_poly]:
@@ -184,7 +184,7 @@ def listed(
     )
 
 
-def _solution(c: Checked, others: list[Values]) -> Solution:
+def _solution(c: Checked, others: list[Balls]) -> Solution:
     """`others` are the candidates for its conjugate; with itself among them nothing is proven."""
     real = _real(c.values, others)
     return Solution(
@@ -196,7 +196,7 @@ def _solution(c: Checked, others: list[Values]) -> Solution:
     )
 
 
-def _real(values: Values, others: list[Values]) -> Answer:
+def _real(values: Balls, others: list[Balls]) -> Answer:
     """NO if an imaginary part leaves zero out; YES if the conjugate, a solution too, can be
     none of the others.
     """
@@ -206,11 +206,11 @@ def _real(values: Values, others: list[Values]) -> Answer:
     return Answer.UNKNOWN if any(_meets(conjugate, other) for other in others) else Answer.YES
 
 
-def _meets(left: Values, right: Values) -> bool:
+def _meets(left: Balls, right: Balls) -> bool:
     return all(left[name].overlaps(right[name]) for name in left)
 
 
-def _positive(values: Values, real: Answer) -> Answer:
+def _positive(values: Balls, real: Answer) -> Answer:
     if real is Answer.NO or any(bool(v.real < arb(0)) for v in values.values()):
         return Answer.NO
     return real if all(bool(v.real > arb(0)) for v in values.values()) else Answer.UNKNOWN

@@ -168,9 +168,9 @@ def _seen(branch: Branch, d: Ball) -> Seen:
     nodes, size = branch.row.n_masses, 2 * (branch.row.n_masses - branch.row.a)
     whole = branch.grounded(d)
     loose = not branch.row.grounded and not branch.row.ground_dampers
-    known = comb(2 * nodes - 1, size - 1) - comb(2 * nodes - 2, size - 1) if loose else 0
+    power = comb(2 * nodes - 1, size - 1) - comb(2 * nodes - 2, size - 1) if loose else 0
     sums = subset_sums([1 / z for z in roots(whole, 2 * nodes)], size)
-    return Seen(whole[0] ** comb(2 * nodes - 1, size - 1) / d**known, sums)
+    return Seen(whole[0] ** comb(2 * nodes - 1, size - 1) / d**power, sums)
 
 
 def subset_sums(items: list[Ball], size: int) -> list[Ball]:
@@ -220,8 +220,8 @@ def _with_damper(
         2 * (branch.row.n_masses - branch.row.a),
         branch.sigma,
     )
-    found = found_by(branch.grounded(d), 2 * nodes)
-    inverse, wanted = [1 / z for z in found], -sigma
+    zeros = found_by(branch.grounded(d), 2 * nodes)
+    inverse, wanted = [1 / z for z in zeros], -sigma
     sums = subset_sums(inverse, size)
     met = [k for k, total in enumerate(sums) if total.overlaps(wanted)]
     if len(met) < len(sums):
@@ -229,8 +229,8 @@ def _with_damper(
     for k in met:
         chosen = _subsets(2 * nodes, size)[k]
         if vanishes(sigma + sums[k], sum((abs(inverse[i]) for i in chosen), abs(sigma))):
-            left = [z for i, z in enumerate(found) if i not in chosen]
-            yield from _sides(branch, d, product(left), product([found[i] for i in chosen]))
+            left = [z for i, z in enumerate(zeros) if i not in chosen]
+            yield from _sides(branch, d, product(left), product([zeros[i] for i in chosen]))
         else:
             yield NONZERO
 
@@ -282,10 +282,10 @@ def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, row: Row | None) -> Sti
     """W = (whole - m s^2 zeros)/zeros of degree 2 nu + 1 over 2 nu; `row` for its left
     side, with its dampers in W.
     """
-    wall, known = (row.grounded, row.poles_at_zero(2)) if row else (False, 2)
+    wall, poles_at_zero = (row.grounded, row.poles_at_zero(2)) if row else (False, 2)
     numerator = cut(whole - mass * shifted(zeros, 2), 2 * nu + 1)
     return Stiffness(
-        numerator=numerator if wall else grounded_at_zero(numerator, known),
+        numerator=numerator if wall else grounded_at_zero(numerator, poles_at_zero),
         denominator=zeros,
         masses=nu,
         wall=wall,

@@ -183,13 +183,17 @@ def _left(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
     """W_L + b_a s = (m_a (D - m_b s (s + beta) N)/q_t - m_a s^2 A)/A; without remainder by the
     choice of t and m_b.
     """
-    nu, wall, known = branch.row.n_masses - 2, branch.row.grounded, branch.row.poles_at_zero(2)
+    nu, wall, poles_at_zero = (
+        branch.row.n_masses - 2,
+        branch.row.grounded,
+        branch.row.poles_at_zero(2),
+    )
     denominator = product(branch.others)
     driven = shifted(poly([branch.beta, 1]) * branch.data.numerator, 1)
     quotient = (branch.data.denominator - m_b * driven) // branch.swing(t)
     numerator = cut(m_a * (quotient - shifted(denominator, 2)), 2 * nu + 1)
     return Stiffness(
-        numerator=numerator if wall else grounded_at_zero(numerator, known),
+        numerator=numerator if wall else grounded_at_zero(numerator, poles_at_zero),
         denominator=denominator,
         masses=nu,
         wall=wall,

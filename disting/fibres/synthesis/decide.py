@@ -124,16 +124,16 @@ def member(
     left: Chain, right: Chain, seed: str = "disting", way: Direction = Direction.LEFT_IN_RIGHT
 ) -> Exact:
     """Finding for one direction: for chains of unequal rank it tells one-sided inclusion."""
-    given, other = (left, right) if way is Direction.LEFT_IN_RIGHT else (right, left)
-    _refuse(given, other)
+    chain, other = (left, right) if way is Direction.LEFT_IN_RIGHT else (right, left)
+    _refuse(chain, other)
     for draw in range(DRAWS):
         point = rational_point(
-            given, about(f"synthesis:{seed}:{draw}", given, other), point_bits(other)
+            chain, about(f"synthesis:{seed}:{draw}", chain, other), point_bits(other)
         )
-        found = fibre(other, target(given.structure, point), confirm=not is_untested(other))
-        if found.status is not Status.DEGENERATE:
+        whole = fibre(other, target(chain.structure, point), confirm=not is_untested(other))
+        if whole.status is not Status.DEGENERATE:
             break
-    return _finding(found, way, point, _grounds(given, other, point, found))
+    return _finding(whole, way, point, _grounds(chain, other, point, whole))
 
 
 def rational_point(chain: Chain, label: str, bits: int = 3 * LENGTH) -> dict[str, fmpq]:
@@ -183,13 +183,13 @@ def _loss(searched: Chain) -> int:
     return ceil((n + 1) * log2(max(3 * searched.n_masses + 2, n + 1)) + log2(2 * DRAWS)) + 1
 
 
-def _refuse(given: Chain, other: Chain) -> None:
-    if given.n_masses != other.n_masses:
+def _refuse(chain: Chain, other: Chain) -> None:
+    if chain.n_masses != other.n_masses:
         raise InputError(
-            f"chains of equal size are compared, not of {given.n_masses} and {other.n_masses}"
+            f"chains of equal size are compared, not of {chain.n_masses} and {other.n_masses}"
             " masses"
         )
-    if given.sensor != other.sensor or given.dead_time:
+    if chain.sensor != other.sensor or chain.dead_time:
         raise InputError("chains with the same sensor quantity and without dead time are compared")
 
 
@@ -224,22 +224,22 @@ def _finding(whole: Fibre, way: Direction, point: dict[str, fmpq], grounds: Grou
     )
 
 
-def _grounds(given: Chain, other: Chain, point: dict[str, fmpq], whole: Fibre) -> Grounds:
+def _grounds(chain: Chain, other: Chain, point: dict[str, fmpq], whole: Fibre) -> Grounds:
     """The strongest grounds there are; raises ContradictionError where an identity and an empty
     fibre meet.
     """
-    same, dual = canonical(given).chain == canonical(other).chain, are_dual(given, other)
+    same, dual = canonical(chain).chain == canonical(other).chain, are_dual(chain, other)
     if whole.status is Status.EMPTY:
         if same or dual:
             raise ContradictionError(
-                f"an empty fibre between chains that are the same: {given} and {other}"
+                f"an empty fibre between chains that are the same: {chain} and {other}"
             )
         return Grounds.REFUTED
     if same or dual:
         return Grounds.RENAMING if same else Grounds.THEOREM
     if not whole.solutions:
         return Grounds.NONE
-    if is_untested(other) or is_constructed(given, point, other):
+    if is_untested(other) or is_constructed(chain, point, other):
         return Grounds.CONSTRUCTION
     confirmed = all(s.confirmation is Confirmation.SUBSYSTEM for s in whole.solutions)
     return Grounds.SUBSYSTEM if confirmed else Grounds.BALLS

@@ -75,9 +75,12 @@ def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
     if chain.dead_time:
         return Fibre(Status.NOT_COVERED, reason="a dead time is no rational function; leave it out")
     form = canonical(chain)
-    found = _canonical_fibre(form.chain, target, confirm)
-    back = {here: given for given, here in form.renaming.items()}
-    return replace(found, solutions=tuple(_renamed(s, back, chain) for s in found.solutions))
+    canonical_fibre = _canonical_fibre(form.chain, target, confirm)
+    back = {image: name for name, image in form.renaming.items()}
+    return replace(
+        canonical_fibre,
+        solutions=tuple(_renamed(s, back, chain) for s in canonical_fibre.solutions),
+    )
 
 
 def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
@@ -85,11 +88,11 @@ def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
         single = replace(chain, ground_dampers=chain.ground_dampers[1:])
         return shared(chain, _canonical_fibre(single, target, confirm))
     if chain.lag and not chain.damped and not chain.ground_dampers:
-        found = without_lag(target)
-        if found is None:
+        factors = without_lag(target)
+        if factors is None:
             return _without_lag_pole(chain, target)
         return lagged(
-            chain, _canonical_fibre(replace(chain, lag=False), found[0], confirm), found[1]
+            chain, _canonical_fibre(replace(chain, lag=False), factors[0], confirm), factors[1]
         )
     ruled_out = _ruled_out(chain, target)
     return _searched(chain, target, confirm) if ruled_out is None else ruled_out
@@ -203,8 +206,8 @@ def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], confirm:
     """Status from what the branches ended in."""
     count = Counter(leaf.reason for leaf in leaves if isinstance(leaf, Dead))
     tests = Exclusions(count[Reason.NONZERO], count[Reason.BOUNDARY], count[Reason.OPEN])
-    found = [leaf for leaf in leaves if isinstance(leaf, Checked)]
-    solutions = listed(chain, found, target, complete=not tests.uncovered, confirm=confirm)
+    solved = [leaf for leaf in leaves if isinstance(leaf, Checked)]
+    solutions = listed(chain, solved, target, complete=not tests.uncovered, confirm=confirm)
     status, reason = _status(solutions, tests)
     return Fibre(status, solutions, tests=tests, reason=reason)
 
@@ -248,8 +251,8 @@ def shared(chain: Chain, whole: Fibre) -> Fibre:
 
 def _halved(chain: Chain, solution: Solution) -> Solution:
     half = solution.values["d01"] / 2
-    known = solution.values | {"d01": half, "b1": half}
-    values = {name: known[name] for name in chain.parameters}
+    shared_values = solution.values | {"d01": half, "b1": half}
+    values = {name: shared_values[name] for name in chain.parameters}
     return replace(
         solution, values=values, gauges=solution.gauges + 1, confirmation=Confirmation.BALLS
     )

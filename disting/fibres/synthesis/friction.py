@@ -18,7 +18,7 @@ is bounded, k = W at infinity, and b is the coefficient of s of Z.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from flint import acb
+from flint import acb, arb
 
 from disting.algebra.certainty import residues
 from disting.fibres.synthesis.branch import (
@@ -253,5 +253,5 @@ def without_low(p: Poly, side: Side) -> Poly:
     return shifted(shifted(p, -low), low)
 
 
-def _size(p: Poly) -> Ball:
+def _size(p: Poly) -> Ball | arb:
     return sum((abs(c) for c in p.coeffs()), NOTHING)

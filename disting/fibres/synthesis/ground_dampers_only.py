@@ -105,7 +105,7 @@ def _joined(
         return left
     if row.a in row.ground_dampers and is_boundary(dampers[0]):
         return BOUNDARY
-    here = tuple(
+    at_ports = tuple(
         b if i in row.ground_dampers else friction.NOTHING
         for i, b in zip((row.a, row.b), dampers, strict=True)
     )
@@ -114,5 +114,5 @@ def _joined(
         (*left.masses[::-1], *masses),
         (*left.springs[::-1], spring),
         gauges,
-        (*left.all_dampers[::-1], *here),
+        (*left.all_dampers[::-1], *at_ports),
     )

@@ -3,9 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
 
-from flint import acb_poly, fmpq, fmpq_poly
+from flint import acb, acb_poly, fmpq, fmpq_poly
 
 from disting.behaviour.transfer import plain_receptance
 from disting.fibres.synthesis.branch import Receptance
@@ -13,8 +12,11 @@ from disting.model.question import Answer
 from disting.model.row import Row
 from disting.model.structure import Structure
 
-Ball = Any  # acb or arb
-Exact = Any  # fmpq_poly; what its stub says of complex_roots is not so
+Ball = acb
+Exact = fmpq_poly
+Point = Mapping[str, fmpq]
+Values = Mapping[str, fmpq | acb]
+"""Parameters by name, exact where that is possible."""
 
 
 class Status(StrEnum):
@@ -122,7 +124,7 @@ class Target:
         return Receptance(acb_poly(self.numerator), acb_poly(self.denominator))
 
 
-def target(structure: Structure, point: Mapping[str, fmpq]) -> Target:
+def target(structure: Structure, point: Point) -> Target:
     """Receptance of a structure at a rational point.
 
     >>> from disting.model.chain import Chain
@@ -130,9 +132,9 @@ def target(structure: Structure, point: Mapping[str, fmpq]) -> Target:
     >>> str(t.numerator), str(t.denominator)
     ('1/2', 'x^2')
     """
-    one = fmpq_poly([1])
+    unit = fmpq_poly([1])
     values = {name: fmpq_poly([value]) for name, value in point.items()}
-    num, den = plain_receptance(structure, values, fmpq_poly([0, 1]), one)
+    num, den = plain_receptance(structure, values, fmpq_poly([0, 1]), unit)
     common = num.gcd(den)
     num, den = num // common, den // common
     return Target(num / den[den.degree()], den / den[den.degree()])

@@ -52,22 +52,23 @@ its gap (or the other chain has no gap): then its own grounded or free poles are
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
 
-from flint import ctx, fmpq
+from flint import ctx
 
+from disting.algebra.symbols import Number
 from disting.fibres.synthesis.branch import Imprecise, RowValues
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.methods import is_covered, synthesise
-from disting.fibres.synthesis.task import Exact, Target, target
+from disting.fibres.synthesis.task import Exact, Point, Target, target
 from disting.model.chain import Chain
 from disting.model.row import Row, grounded_and_free, rows_of
 from disting.model.structure import Ports
 from disting.model.symmetry import canonical
 
-Number = Any  # an element of a field
 Law = tuple[Number, ...]  # (c, d) of a spring and its damper, (c,) undamped
-Outwards = tuple[list[Number], list[Law]]  # masses and springs from the port outwards
+Outwards = tuple[
+    list[Number], list[tuple[Number, ...]]
+]  # masses and springs from the port outwards
 
 
 def is_plain(chain: Chain) -> bool:
@@ -85,43 +86,43 @@ def is_untested(chain: Chain) -> bool:
     return is_plain(chain) and (grounded is None or grounded.distance == free.distance == 0)
 
 
-def is_constructed(given: Chain, point: Mapping[str, fmpq], other: Chain) -> bool:
+def is_constructed(chain: Chain, point: Point, other: Chain) -> bool:
     """Whether a solution of `other` for the given model is proven to exist; False says nothing."""
     grounded, free = grounded_and_free(canonical(other).chain.structure)
     if (
-        not is_plain(given)
+        not is_plain(chain)
         or not is_plain(other)
         or not all(is_covered(s) for s in (grounded, free) if s)
     ):
         return False
-    whole = target(given.structure, point).folded(1)
+    whole = target(chain.structure, point).folded(1)
     if grounded is None:
         return whole.numerator.degree() == free.numerator_degree and _exists(free, whole)
     return any(
         all(_exists(*pair) for pair in pairs)
-        for pairs in exact_rows(given, point, whole, grounded, free)
+        for pairs in exact_rows(chain, point, whole, grounded, free)
     )
 
 
 def exact_rows(
-    given: Chain, point: Mapping[str, fmpq], whole: Target, grounded: Row, free: Row
+    chain: Chain, point: Point, whole: Target, grounded: Row, free: Row
 ) -> Iterator[list[tuple[Row, Target]]]:
     """Yield the receptances of both rows, of the right degrees, where the given chain's own
     poles are the ones to take.
     """
-    for poles in _poles(given, point, whole):
-        found = _summands(whole, poles) if poles.degree() == grounded.n_masses else None
-        pairs = list(zip((grounded, free), found, strict=True)) if found else []
+    for poles in _poles(chain, point, whole):
+        summands = _summands(whole, poles) if poles.degree() == grounded.n_masses else None
+        pairs = list(zip((grounded, free), summands, strict=True)) if summands else []
         if pairs and all(t.numerator.degree() == row.numerator_degree for row, t in pairs):
             yield pairs
 
 
-def _poles(given: Chain, point: Mapping[str, fmpq], whole: Target) -> tuple[Exact, Exact]:
+def _poles(chain: Chain, point: Point, whole: Target) -> tuple[Exact, Exact]:
     """Denominator of the given chain's grounded row, and of its free row without the motion
     of the whole.
     """
-    ports = Ports(0, given.act_plus, 0, given.meas_plus)
-    free = target(replace(given.structure, ports=ports), point).folded(1).denominator
+    ports = Ports(0, chain.act_plus, 0, chain.meas_plus)
+    free = target(replace(chain.structure, ports=ports), point).folded(1).denominator
     return whole.denominator // free, free // type(free)([0, 1])
 
 
@@ -191,7 +192,9 @@ def dual(chain: Chain, values: Mapping[str, Number]) -> dict[str, Number]:
     n, g = chain.n_masses, chain.gap
     masses = [values[f"m{i}"] for i in range(1, n + 1)]
     names = [name for name in chain.parameters if name[0] == "k"]
-    laws = [(values[k], values[f"d{k[1:]}"]) if chain.damped else (values[k],) for k in names]
+    laws: list[Law[Number]] = [
+        (values[k], values[f"d{k[1:]}"]) if chain.damped else (values[k],) for k in names
+    ]
     total = sum(masses[g + 1 :], masses[g])
     inner, springs = _grounded(masses[g:], laws[g:], total)
     outer, others = _free(masses[:g][::-1], laws[:g][::-1], total)
@@ -219,7 +222,7 @@ def _mirror_gap(chain: Chain) -> Chain:
     return Chain(chain.n_masses, h, h, h + 1, h, h + 1, sensor=chain.sensor, damped=chain.damped)
 
 
-def _grounded(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
+def _grounded(masses: list[Number], springs: list[Law[Number]], total: Number) -> Outwards[Number]:
     """The row of F - 1/(M s^2)."""
     if not springs:
         return [], []
@@ -231,7 +234,7 @@ def _grounded(masses: list[Number], springs: list[Law], total: Number) -> Outwar
     ]
 
 
-def _free(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
+def _free(masses: list[Number], springs: list[Law[Number]], total: Number) -> Outwards[Number]:
     """The row of R + 1/(M s^2), the inverse: M1 = M^2/(M + mu)."""
     if not masses:
         return [total], []
@@ -243,10 +246,10 @@ def _free(masses: list[Number], springs: list[Law], total: Number) -> Outwards:
     return [total - rest, *inner], [_scaled(springs[0], factor), *laws]
 
 
-def _scaled(law: Law, factor: Number) -> Law:
+def _scaled(law: Law[Number], factor: Number) -> Law[Number]:
     return tuple(factor * x for x in law)
 
 
-def _in_order(chain: Chain, masses: list[Number], laws: list[Law]) -> list[Number]:
+def _in_order(chain: Chain, masses: list[Number], laws: list[Law[Number]]) -> list[Number]:
     """Masses, springs, dampers: the order of a chain's parameters."""
     return [*masses, *(law[0] for law in laws), *(law[1] for law in laws if chain.damped)]

@@ -9,13 +9,15 @@ prescribed. No test occurs: every receptance of this form has solutions, up to v
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+
+from flint import fmpq
 
 from disting.algebra.certainty import residues
 from disting.fibres.synthesis.branch import (
     BOUNDARY,
     Ball,
     Leaf,
+    Poly,
     Receptance,
     RowValues,
     combined,
@@ -39,7 +41,7 @@ def neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
     yield from neighbours_at(row, data, _random(1)[0])
 
 
-def neighbours_at(row: Row, data: Receptance, spring: Any) -> Iterator[Leaf]:
+def neighbours_at(row: Row, data: Receptance, spring: float | fmpq) -> Iterator[Leaf]:
     """The same for a given spring, a number or a fraction."""
     kappa, gain = spring + 0 * data.denominator[0], data.gain(row)
     poles = roots(data.denominator + kappa * data.numerator, row.n_masses)
@@ -56,7 +58,7 @@ def neighbours_at(row: Row, data: Receptance, spring: Any) -> Iterator[Leaf]:
 
 
 def _sides(
-    row: Row, left: tuple[Ball, Ball], right: tuple[Ball, Ball], kappa: Ball, gain: Ball
+    row: Row, left: tuple[Poly, Poly], right: tuple[Poly, Poly], kappa: Ball, gain: Ball
 ) -> Iterator[Leaf]:
     """Both sides from (Theta, A) and (Phi, B): m_b Phi(0)/B(0) = kappa (free end), m_a m_b =
     kappa/nu.
@@ -78,7 +80,7 @@ def _sides(
     yield from combined(peel(w_left), lambda: peel(w_right), join)
 
 
-def _side(pair: tuple[Ball, Ball], mass: Ball, kappa: Ball, nu: int, wall: bool) -> Stiffness:
+def _side(pair: tuple[Poly, Poly], mass: Ball, kappa: Ball, nu: int, wall: bool) -> Stiffness:
     """W = (m Theta - kappa A - m x A)/A of degree nu over nu."""
     theta, zeros = pair
     numerator = cut(mass * theta - kappa * zeros - mass * shifted(zeros, 1), nu)
@@ -98,11 +100,11 @@ def to_end(row: Row, data: Receptance) -> Iterator[Leaf]:
     numerator = data.numerator
     for tau in taus:
         numerator = numerator * poly([1, 1 / (0 * data.denominator[0] + tau)])
-    drive, known = (
+    drive, own_zeros = (
         Receptance(numerator, data.denominator),
         roots(data.numerator, row.numerator_degree),
     )
-    left, right = (inverse_residues(drive, zeros) for zeros in (known, prescribed))
+    left, right = (inverse_residues(drive, zeros) for zeros in (own_zeros, prescribed))
     for leaf in between(replace(row, b=row.a), drive.denominator // numerator, left, right):
         yield replace(leaf, gauges=row.distance) if isinstance(leaf, RowValues) else leaf
 

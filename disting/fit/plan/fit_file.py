@@ -17,6 +17,7 @@ from disting.files import Format, read_json
 from disting.fit.results.model_file import FIT_FILE, chain_from_dict, model_from_dict, number_of
 from disting.fit.results.networks import BAR
 from disting.fit.search.candidates import as_listed, reference
+from disting.fit.search.starts import Parameters
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
@@ -24,7 +25,6 @@ from disting.network.network import Network
 from disting.network.notation.entries import network_of_entry
 from disting.verdict.result import Relation
 
-Values = dict[str, float]
 MOST_COUNTED = 10**7  # such as the lines of a response
 REASON = "the same responses for all positive values"
 
@@ -38,7 +38,7 @@ class Left:
 
     chain: Chain
     fitted: bool
-    values: tuple[Values, ...]
+    values: tuple[Parameters, ...]
     like: tuple[Chain, ...] = ()
     free: int = 0
 
@@ -60,9 +60,9 @@ class Named:
     """
 
     model: Chain
-    values: dict[str, float]
+    values: Parameters
     explained: bool
-    rivals: dict[Chain, dict[str, float]]
+    rivals: dict[Chain, Parameters]
     same: dict[str, str]
     left: tuple[Left, ...]
     scatter: float
@@ -111,7 +111,7 @@ def named_by(path: Path) -> Named:
         ) from None
 
 
-def _errors(selected: dict[str, Any], values: Values) -> Iterator[tuple[str, float]]:
+def _errors(selected: dict[str, Any], values: Parameters) -> Iterator[tuple[str, float]]:
     for name, error in selected.get("standard_errors", {}).items():
         yield name, inf if error is None else number_of(error, 0.0) / values[name]
 
@@ -120,7 +120,7 @@ def _count(value: Any) -> int:
     return int(number_of(value, 0, MOST_COUNTED))
 
 
-def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, dict[str, float]]]:
+def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, Parameters]]:
     """In the order of the file, those with values last, which stand."""
     for found in plain["alternatives"]:
         if found["relation"] != Relation.INDISTINGUISHABLE:
@@ -129,7 +129,7 @@ def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, dict[str, float]]]:
     yield from map(model_from_dict, members)
 
 
-def _left(plain: dict[str, Any], model: Chain, values: Values) -> Iterator[Left]:
+def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[Left]:
     """The selected structure, the others that were fitted, then what behaves as one of these;
     each once.
     """
@@ -167,7 +167,7 @@ def _listed(name: str, chain: Chain) -> Chain:
     return chain_of(name, Family(chain.n_masses, chain.damped, chain.sensor))
 
 
-def _whole(given: Values, chain: Chain) -> Iterator[Values]:
+def _whole(given: Parameters, chain: Chain) -> Iterator[Parameters]:
     """Values under the names of the listed form, under those of the chain; nothing where some are
     missing.
     """
@@ -193,7 +193,7 @@ class LeftNetwork:
     """
 
     network: Network
-    values: Values
+    values: Parameters
     same: tuple[Network, ...]
 
 
@@ -204,8 +204,8 @@ class NamedNetworks:
     """
 
     model: Network
-    values: Values
-    rivals: dict[Network, Values]
+    values: Parameters
+    rivals: dict[Network, Parameters]
     same: dict[str, str]
     scatter: float
     low: float

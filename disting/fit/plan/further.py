@@ -32,9 +32,10 @@ import numpy as np
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.menu import Costs, Gain, Item, gain
 from disting.fit.judge.exclusion import LEVEL, surplus, trials
-from disting.fit.plan.fit_file import Left, Named, Values
+from disting.fit.plan.fit_file import Left, Named
 from disting.fit.plan.power import power
 from disting.fit.search.plant import Plant
+from disting.fit.search.starts import Parameters
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
@@ -189,7 +190,7 @@ def bench_of(named: Named) -> Bench | None:
     return Bench(omega, np.full(count, named.scatter), float(np.mean(masses)))
 
 
-def shown(chain: Chain, values: Values, item: Item, bench: Bench) -> Complex | None:
+def shown(chain: Chain, values: Parameters, item: Item, bench: Bench) -> Complex | None:
     """Response of a chain under an item of the menu, shape (n_f,); None where the sensor does not
     move.
     """

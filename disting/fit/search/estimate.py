@@ -23,7 +23,7 @@ from disting.fit.search.neighbours import carried, conspicuous, neighbours, pair
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import (
     UNFELT,
-    Values,
+    Parameters,
     extended,
     from_extrema,
     merged,
@@ -241,7 +241,7 @@ def _nested(
     return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda found: found[1])
 
 
-def _stacked(starts: Sequence[Values], chain: Chain, task: Task) -> Real:
+def _stacked(starts: Sequence[Parameters], chain: Chain, task: Task) -> Real:
     """Starts as an array; a dead time of a single response is that of all where a start has
     none.
     """
@@ -250,7 +250,7 @@ def _stacked(starts: Sequence[Values], chain: Chain, task: Task) -> Real:
     return stacked(whole, task.names(chain))
 
 
-def _common(found: Estimate) -> Values:
+def _common(found: Estimate) -> Parameters:
     """The parameters of the chain alone."""
     return {name: found.parameters[name] for name in found.chain.parameters}
 
@@ -270,7 +270,7 @@ def different(costs: Real, most: int) -> list[int]:
     return chosen
 
 
-def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterator[Values]:
+def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterator[Parameters]:
     """All starts of one candidate."""
     size = scale(task.cost.measured)
     seen = list(from_extrema(chain, task.cost.measured))

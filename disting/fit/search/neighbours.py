@@ -23,8 +23,8 @@ from scipy.linalg import eigvalsh_tridiagonal
 
 from disting.fit.search.starts import (
     GRID,
+    Parameters,
     Scale,
-    Values,
     cauer,
     extended,
     is_seen_at_one_end,
@@ -65,7 +65,7 @@ def neighbours(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, lag=chain.dead_time, dead_time=chain.lag)
 
 
-def carried(chain: Chain, fit: Values, size: Scale) -> Iterator[Values]:
+def carried(chain: Chain, fit: Parameters, size: Scale) -> Iterator[Parameters]:
     """Starts from the fit of another candidate: what it has too much hands its value over to an
     element of its kind that is missing, or is left out; what is missing then is added.
     """
@@ -82,8 +82,8 @@ def carried(chain: Chain, fit: Values, size: Scale) -> Iterator[Values]:
 
 
 def paired(
-    chain: Chain, joint: int, fewer: Values, size: Scale, missed: Sequence[float]
-) -> Iterator[Values]:
+    chain: Chain, joint: int, fewer: Parameters, size: Scale, missed: Sequence[float]
+) -> Iterator[Parameters]:
     """Starts of a chain from the fit `fewer`, which has masses `joint` and `joint` + 1 as one;
     `missed` [rad/s].
     """
@@ -118,8 +118,12 @@ def paired(
 
 
 def _named(
-    chain: Chain, rest: Values, masses: Sequence[float], springs: Sequence[float], softness: float
-) -> Values:
+    chain: Chain,
+    rest: Parameters,
+    masses: Sequence[float],
+    springs: Sequence[float],
+    softness: float,
+) -> Parameters:
     """Masses, springs and dampers beside them: to the springs as in the smaller fit, or as in
     `rest` where that has none.
     """

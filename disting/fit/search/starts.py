@@ -22,7 +22,7 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 
-Values = Mapping[str, float]
+Parameters = Mapping[str, float]
 DAMPING_RATIO = 0.02  # of a spring's damper in a start
 SHARES = (0.5, 0.15, 0.85)  # of the mass that is split off
 GRID = 12  # frequencies of the ladder and of resonances that the data do not show
@@ -70,7 +70,7 @@ def scale(measured: FrequencyResponse) -> Scale:
     )
 
 
-def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Values]:
+def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Parameters]:
     """Starts (a): N - 1 pairs of antiresonance and resonance, seen or supposed; none where the
     ports are elsewhere.
     """
@@ -166,7 +166,7 @@ def merged(chain: Chain) -> Iterator[tuple[int, Chain]]:
             yield joint, other
 
 
-def split(chain: Chain, joint: int, fewer: Values, size: Scale) -> Iterator[Values]:
+def split(chain: Chain, joint: int, fewer: Parameters, size: Scale) -> Iterator[Parameters]:
     """Starts (b): mass `joint` of the fit `fewer` split by a spring tuned to each frequency of
     a grid.
     """
@@ -204,8 +204,8 @@ def _left(name: str) -> int:
 
 
 def extended(
-    chain: Chain, fewer: Values, size: Scale, factors: Iterable[float] = EXTRA
-) -> Iterator[Values]:
+    chain: Chain, fewer: Parameters, size: Scale, factors: Iterable[float] = EXTRA
+) -> Iterator[Parameters]:
     """Starts (c): the fit of a candidate with elements fewer, the missing ones at several
     shares of their natural sizes.
     """
@@ -225,7 +225,7 @@ def shortened(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, dead_time=False)
 
 
-def random(chain: Chain, size: Scale, seed: str, count: int) -> Iterator[Values]:
+def random(chain: Chain, size: Scale, seed: str, count: int) -> Iterator[Parameters]:
     """Starts (d): logarithms spread around natural sizes; determined by the seed and the chain."""
     source = np.random.default_rng(
         int.from_bytes(blake2b(f"{seed}:{chain}".encode(), digest_size=8).digest())
@@ -244,7 +244,7 @@ def random(chain: Chain, size: Scale, seed: str, count: int) -> Iterator[Values]
 
 def _filled(
     chain: Chain, size: Scale, masses: Sequence[float] | Real, springs: Sequence[float] | Real
-) -> Values:
+) -> Parameters:
     """A start from masses and springs in their order, the rest at natural sizes."""
     kinds = {kind: [n for n in chain.parameters if n[0] == kind] for kind in "mk"}
     known = dict(zip(kinds["m"], map(float, masses), strict=True)) | dict(
@@ -253,7 +253,7 @@ def _filled(
     return _completed(chain.parameters, known, size)
 
 
-def _completed(names: Sequence[str], known: Values, size: Scale) -> dict[str, float]:
+def _completed(names: Sequence[str], known: Parameters, size: Scale) -> dict[str, float]:
     """All parameters; dampers beside springs follow the springs."""
     values = dict(known)
     for name in names:
@@ -262,14 +262,14 @@ def _completed(names: Sequence[str], known: Values, size: Scale) -> dict[str, fl
     return {name: values[name] for name in names}
 
 
-def stacked(starts: Sequence[Values], names: Sequence[str]) -> Real:
+def stacked(starts: Sequence[Parameters], names: Sequence[str]) -> Real:
     """Array of shape (n_s, n_p)."""
     return np.array([[start[name] for name in names] for start in starts]).reshape(
         len(starts), len(names)
     )
 
 
-def natural(chain: Chain, size: Scale) -> Values:
+def natural(chain: Chain, size: Scale) -> Parameters:
     """Natural sizes of all parameters: equal masses, resonances in the middle of the band."""
     share = size.mass / chain.n_masses
     return _filled(

@@ -25,9 +25,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 from math import ceil, log2
-from typing import Any
 
-from flint import fmpz_mat, nmod_mat
+from flint import fmpz, fmpz_mat, nmod_mat
 
 from disting.algebra.certainty import Size, safety
 from disting.algebra.quotient import matrix
@@ -45,7 +44,7 @@ from disting.questions.identifiability.tangent import (
 )
 
 POINTS = 4
-Terms = dict[tuple[int, ...], Any]  # integer coefficients by exponents
+Terms = dict[tuple[int, ...], fmpz]  # coefficients by exponents
 _ORDER = "kdbmT"  # numerators first
 
 

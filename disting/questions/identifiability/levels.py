@@ -89,9 +89,9 @@ class ParameterIdentifiability:
             "locally, perhaps globally": self.named(Level.UNKNOWN),
             "not": self.named(Level.NOT),
         }
-        told = [f"; {what}: {', '.join(names)}" for what, names in groups.items() if names]
+        lists = [f"; {what}: {', '.join(names)}" for what, names in groups.items() if names]
         why = f" ({self.reason})" if self.reason else ""
-        return f"{head}, {many}{''.join(told)}{free}{why}."
+        return f"{head}, {many}{''.join(lists)}{free}{why}."
 
     @property
     def _count(self) -> str:
@@ -173,7 +173,9 @@ def by_parameter(
     asked = [name for name in local.names if name not in sure]
     values = one_value(model, asked, seed=settings.seed)
     levels = dict.fromkeys(asked, Level.UNKNOWN) | dict.fromkeys(sure, Level.GLOBAL)
-    levels |= dict.fromkeys(values.one, Level.GLOBAL) | dict.fromkeys(values.several, Level.LOCAL)
+    levels |= dict.fromkeys(values.unique, Level.GLOBAL) | dict.fromkeys(
+        values.several, Level.LOCAL
+    )
     full = local.rank == len(parameters)
     unique = full and set(levels.values()) <= {Level.GLOBAL}
     certainty, bits = joint([local.safety, values.safety])

@@ -7,14 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from math import ceil, log2
-from typing import Any
+from typing import cast
 
 from disting.algebra.certainty import Certainty, Size
 from disting.algebra.notation import latex, text
-from disting.algebra.symbols import Term
+from disting.algebra.symbols import Number, Term
 from disting.model.question import Answer
 
-Number = Any  # an element of a field
 Exponents = tuple[tuple[str, int], ...]
 """Parameter names with non-zero exponents, in the chain's order."""
 MOST_TERMS = 6  # of a coefficient that is written out; longer ones are named
@@ -88,7 +87,7 @@ def monomial(**exponents: int) -> Formula:
 
 
 def _power(at: Mapping[str, Number], exponents: Exponents) -> Number:
-    value: Number = 1
+    value = cast("Number", 1)  # whole numbers are in every field
     for name, exponent in exponents:
         value = value * at[name] ** exponent if exponent > 0 else value / at[name] ** -exponent
     return value

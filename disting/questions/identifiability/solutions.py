@@ -19,7 +19,6 @@ tests.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import comb
-from typing import Any
 
 from flint import acb, fmpq
 
@@ -27,7 +26,7 @@ from disting.algebra.certainty import Certainty, Grade, about
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.decide import DRAWS, point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Confirmation, Fibre, Solution, Status, target
+from disting.fibres.synthesis.task import Confirmation, Fibre, Solution, Status, Values, target
 from disting.fibres.synthesis.theorems import are_dual, dual, is_untested
 from disting.model.chain import Chain
 from disting.model.question import Answer
@@ -36,7 +35,6 @@ from disting.model.symmetry import forms
 from disting.questions.identifiability.parts import Alternative, Origin, Renaming
 
 MOST_LISTED = 100  # solutions of an undamped chain whose number a theorem tells
-Values = Mapping[str, Any]  # fmpq where exact, acb otherwise
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,9 +93,11 @@ def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     if finding is not None:
         inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
         return InclusionFinding(inside, Certainty.PROVEN, evidence=finding)
-    told = by_elements(first, second, not left_is_larger)
-    if told is not None and (told.inclusion is not Inclusion.NEITHER or fewer_poles(first, second)):
-        return told
+    by_element = by_elements(first, second, not left_is_larger)
+    if by_element is not None and (
+        by_element.inclusion is not Inclusion.NEITHER or fewer_poles(first, second)
+    ):
+        return by_element
     if not fewer_poles(first, second):
         return InclusionFinding(
             Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles"
@@ -171,10 +173,10 @@ def row_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple[
     """
     if small.lag != large.lag:
         return
-    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
-    for chosen in permutations(given, len(wanted)):
+    wanted, rows = canonical_rows(small.structure), canonical_rows(large.structure)
+    for chosen in permutations(rows, len(wanted)):
         pairs = list(zip(chosen, wanted, strict=True))
-        limits = [_row_limit(a, given[a], b, wanted[b], counting) for a, b in pairs]
+        limits = [_row_limit(a, rows[a], b, wanted[b], counting) for a, b in pairs]
         if all(limit is not None for limit in limits):
             yield tuple(limit for limit in limits if limit is not None)
 
@@ -209,15 +211,15 @@ def degrees_of(chain: Chain) -> tuple[int, int]:
     return degrees(rational_part(chain))
 
 
-def _row_limit(given: str, row: Row, wanted: str, target: Row, counting: bool) -> RowLimit | None:
+def _row_limit(name: str, row: Row, wanted: str, target: Row, counting: bool) -> RowLimit | None:
     """A way from one row to the other, each of its limits an identity; limits of elements alone
     first.
     """
     ways = reached(row)
     if target in ways and target in follows(row, ways[target]):
-        return RowLimit(given, wanted, ways[target])
+        return RowLimit(name, wanted, ways[target])
     for below, steps in ways.items() if counting else ():
         space = room(target.structure, below.structure)
         if space.suffices and below in follows(row, steps):
-            return RowLimit(given, wanted, steps, tuple(map(int, astuple(space))))
+            return RowLimit(name, wanted, steps, tuple(map(int, astuple(space))))
     return None

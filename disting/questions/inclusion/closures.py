@@ -64,27 +64,27 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
     >>> of_closure(end, next_to_end, "doc")[0].steps[0].why
     <Why.MOMENTUM: 'momentum'>
     """
-    given, other = (
+    structure, other = (
         replace(c, sensor=Sensor.POSITION, dead_time=False).structure for c in (small, large)
     )
-    if not _alike(given, other):
+    if not _alike(structure, other):
         return None
     label = about(seed, small)
     splits = [
         [(wanted, shown(wanted, label)) for wanted in some]
-        for some in _by_split(given, other, large).values()
+        for some in _by_split(structure, other, large).values()
     ]
     for rows in splits:
-        steps = [one.step for _, one in rows if one is not None]
+        steps = [proof.step for _, proof in rows if proof is not None]
         if steps and len(steps) == len(rows) and all(step.why in SUPPORTS for step in steps):
             return RowsInside(True, tuple(steps)), 0
-    if not _covered(given, other, f"{seed}:{small}:poles"):
+    if not _covered(structure, other, f"{seed}:{small}:poles"):
         return None
     against = _against(splits, seed)
     if against is None:
         return None
-    bits = joint_safety(one.safety for one in against if one.safety)
-    return Outside(True, tuple(one.step for one in against)), bits
+    bits = joint_safety(proof.safety for proof in against if proof.safety)
+    return Outside(True, tuple(proof.step for proof in against)), bits
 
 
 def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Shown] | None:
@@ -92,43 +92,48 @@ def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Shown] | None:
     has no such row.
     """
     refuted = [
-        next((one for _, one in rows if one is not None and one.step.why not in SUPPORTS), None)
+        next(
+            (proof for _, proof in rows if proof is not None and proof.step.why not in SUPPORTS),
+            None,
+        )
         for rows in splits
     ]
-    open_rows = [[wanted for wanted, one in rows if one is None] for rows in splits]
-    missing = [rows for one, rows in zip(refuted, open_rows, strict=True) if one is None]
+    open_rows = [[wanted for wanted, proof in rows if proof is None] for rows in splits]
+    missing = [rows for proof, rows in zip(refuted, open_rows, strict=True) if proof is None]
     if not all(any(map(as_large, rows)) for rows in missing):
         return None  # of one split nothing will be found
     dear = []
     for rows in missing:
-        one = next(filter(None, (by_dimension(wanted, seed) for wanted in rows)), None)
-        if one is None:
+        proof = next(filter(None, (by_dimension(wanted, seed) for wanted in rows)), None)
+        if proof is None:
             return None
-        dear.append(one)
+        dear.append(proof)
     rest = iter(dear)
-    return [next(rest) if one is None else one for one in refuted]
+    return [next(rest) if proof is None else proof for proof in refuted]
 
 
 def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) -> bool:
     """Whether the steps are those of all rows of one split, or of one row of every split, and
     each of them holds again.
     """
-    given, other = (
+    structure, other = (
         replace(c, sensor=Sensor.POSITION, dead_time=False).structure for c in (small, large)
     )
-    if not _alike(given, other):
+    if not _alike(structure, other):
         return False
     possible = {
-        (w.split, w.name): w for some in _by_split(given, other, large).values() for w in some
+        (w.split, w.name): w for some in _by_split(structure, other, large).values() for w in some
     }
     named = [(step.split, step.part) for step in evidence.steps]
     if len(set(named)) < len(named) or not set(named) <= possible.keys():
         return False
-    told, ways = {split for split, _ in named}, [split for split, _ in possible]
+    named_splits, ways = {split for split, _ in named}, [split for split, _ in possible]
     if isinstance(evidence, RowsInside):
-        complete = len(told) == 1 and len(named) == sum(split in told for split in ways)
+        complete = len(named_splits) == 1 and len(named) == sum(
+            split in named_splits for split in ways
+        )
     else:
-        complete = told == set(ways) and _covered(given, other, "verify:poles")
+        complete = named_splits == set(ways) and _covered(structure, other, "verify:poles")
     sides = all(
         (step.why in SUPPORTS) == isinstance(evidence, RowsInside) for step in evidence.steps
     )
@@ -139,43 +144,51 @@ def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) ->
     )
 
 
-def _alike(given: Structure, other: Structure) -> bool:
+def _alike(structure: Structure, other: Structure) -> bool:
     """Whether both are plain, of one size and damping."""
-    kinds = [(s.n_masses, power(s)) for s in (given, other)]
-    return is_plain(given) and is_plain(other) and kinds[0] == kinds[1]
+    kinds = [(s.n_masses, power(s)) for s in (structure, other)]
+    return is_plain(structure) and is_plain(other) and kinds[0] == kinds[1]
 
 
-def _covered(given: Structure, other: Structure, label: str) -> bool:
+def _covered(structure: Structure, other: Structure, label: str) -> bool:
     """Whether no other splits are possible: the theorem of `splits` applies, or the larger chain
     is one row.
     """
     return gap(other) == 0 or (
-        has_relation(receptances(other), power(other)) and poles_are_inseparable(given, label)
+        has_relation(receptances(other), power(other)) and poles_are_inseparable(structure, label)
     )
 
 
-def _by_split(given: Structure, other: Structure, large: Chain) -> dict[str, list[Wanted]]:
-    rows, own = canonical_rows(large.structure), canonical_rows(given)
+def _by_split(structure: Structure, other: Structure, large: Chain) -> dict[str, list[Wanted]]:
+    rows, own_rows = canonical_rows(large.structure), canonical_rows(structure)
     if gap(other) == 0:
-        wanted, searched = normalised(given), normalised(other)
+        wanted, searched = normalised(structure), normalised(other)
         return {
             WHOLE: (
-                [Wanted(split=WHOLE, name=WHOLE, receptance=wanted, there=searched, row=rows[FREE])]
+                [
+                    Wanted(
+                        split=WHOLE,
+                        name=WHOLE,
+                        receptance=wanted,
+                        searched=searched,
+                        row=rows[FREE],
+                    )
+                ]
                 if wanted.degrees[1] == searched.degrees[1]
                 else []
             )
         }
     ways = {}
-    for split in splits(given, gap(other)):
+    for split in splits(structure, gap(other)):
         pairs = zip(split.receptances.named, receptances(other).named, strict=True)
         ways[split.name] = [
             Wanted(
                 split=split.name,
                 name=name,
                 receptance=wanted,
-                there=searched,
+                searched=searched,
                 row=rows[name],
-                given=own[name] if split.name == SAME else None,
+                own=own_rows[name] if split.name == SAME else None,
             )
             for (name, wanted), (_, searched) in pairs
         ]

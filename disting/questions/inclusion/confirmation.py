@@ -83,8 +83,8 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
         case RelativeDegrees():
             larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
             degrees = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
-            told = evidence.left_is_larger != left_is_smaller
-            return told and _fall_apart(smaller, larger, *degrees)
+            is_turned = evidence.left_is_larger != left_is_smaller
+            return is_turned and _fall_apart(smaller, larger, *degrees)
         case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():
             return evidence.left_given == left_is_smaller and _found_again(evidence, a, b)
 
@@ -115,31 +115,31 @@ def _across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainS
     """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
-    one, other = small.canonical.chain, large.canonical.chain
+    smaller, larger = small.canonical.chain, large.canonical.chain
     match evidence:
         case Counts():
             same = (evidence.left, evidence.right) == ordered(
-                degrees_of(one), degrees_of(other), not left_is_larger
+                degrees_of(smaller), degrees_of(larger), not left_is_larger
             )
-            return same and exceeds(one, other) and fewer_poles(one, other)
+            return same and exceeds(smaller, larger) and fewer_poles(smaller, larger)
         case TooLarge():
             same = (evidence.left, evidence.right) == (left.rank, right.rank)
-            return same and small.rank >= large.rank and fewer_poles(one, other)
+            return same and small.rank >= large.rank and fewer_poles(smaller, larger)
         case Limit():
-            a, b = _twin(one, evidence.smaller), _twin(other, evidence.larger)
+            a, b = _twin(smaller, evidence.smaller), _twin(larger, evidence.larger)
             followed = a is not None and b is not None and _follow(evidence.parts, a, b)
             return evidence.left_is_larger == left_is_larger and followed
         case Meeting():
-            told = Room(evidence.rank, evidence.coordinates, evidence.factors, evidence.same_mass)
-            again = room(rational_part(one), rational_part(other), "verify")
-            return evidence.left_is_larger == left_is_larger and again == told and told.suffices
+            stated = Room(evidence.rank, evidence.coordinates, evidence.factors, evidence.same_mass)
+            again = room(rational_part(smaller), rational_part(larger), "verify")
+            return evidence.left_is_larger == left_is_larger and again == stated and stated.suffices
         case PoleSharing():
-            fewer = evidence.left_is_larger == left_is_larger and fewer_poles(one, other)
-            return fewer and excludes(one, other, evidence.label, evidence.points)
+            fewer = evidence.left_is_larger == left_is_larger and fewer_poles(smaller, larger)
+            return fewer and excludes(smaller, larger, evidence.label, evidence.points)
         case LimitFibre():
             solved = Solved(evidence.small_given, evidence.labels, evidence.solutions)
             return evidence.left_is_larger == left_is_larger and contains(
-                one, other, evidence.steps, solved
+                smaller, larger, evidence.steps, solved
             )
 
 
@@ -154,15 +154,15 @@ def _follow(limits: tuple[RowLimit, ...], small: Chain, large: Chain) -> bool:
     """Whether these are all rows of the smaller chain, made from different rows of the
     larger one.
     """
-    wanted, given = canonical_rows(small.structure), canonical_rows(large.structure)
+    wanted, rows = canonical_rows(small.structure), canonical_rows(large.structure)
     names = sorted(p.wanted for p in limits), {p.given for p in limits}
     complete = (
-        names[0] == sorted(wanted) and len(names[1]) == len(limits) and names[1] <= given.keys()
+        names[0] == sorted(wanted) and len(names[1]) == len(limits) and names[1] <= rows.keys()
     )
     return (
         small.lag == large.lag
         and complete
-        and all(_leads(p, given[p.given], wanted[p.wanted]) for p in limits)
+        and all(_leads(p, rows[p.given], wanted[p.wanted]) for p in limits)
     )
 
 
@@ -183,11 +183,11 @@ def _is_large(evidence: Refuted, a: Chain, b: Chain) -> bool:
 def _refuted_again(a: Chain, b: Chain, evidence: Refuted) -> bool:
     """Whether the decision is the same at fresh points and primes."""
     coordinates = normalised if evidence.is_normalised else coefficient_map
-    given, other = (
+    chain, other = (
         coordinates(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a))
     )
     again = decide(
-        given,
+        chain,
         other,
         equal_rank=False,
         seed="verify",

@@ -148,9 +148,9 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
     """
     if small.n_masses != large.n_masses:
         return by_computing(small, large, settings)
-    told = of_closure(small, large, settings.seed)
-    if told is not None:
-        evidence, safety = told
+    proof = of_closure(small, large, settings.seed)
+    if proof is not None:
+        evidence, safety = proof
         inclusion = (
             Inclusion.LEFT_IN_RIGHT if isinstance(evidence, RowsInside) else Inclusion.NEITHER
         )

@@ -58,13 +58,13 @@ def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFi
         return unknown
     equivalent = member(small, large, settings.seed)
     if equivalent.membership is Membership.EXCLUDED:
-        told, inclusion = equivalent.decision(safety_of_point(large)), Inclusion.NEITHER
+        decision, inclusion = equivalent.decision(safety_of_point(large)), Inclusion.NEITHER
     else:
-        told = equivalent.decision(safety_of_equivalent(small, large))
+        decision = equivalent.decision(safety_of_equivalent(small, large))
         inclusion = Inclusion.LEFT_IN_RIGHT
-    if told.membership is Membership.UNKNOWN:
+    if decision.membership is Membership.UNKNOWN:
         return unknown
-    return InclusionFinding(inclusion, Certainty.BOUNDED, told.safety, equivalent.evidence)
+    return InclusionFinding(inclusion, Certainty.BOUNDED, decision.safety, equivalent.evidence)
 
 
 def _by_ideal(

@@ -70,11 +70,11 @@ def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solved) -> boo
     """Whether the limits hold and the solutions are solutions, for models of the smaller chain
     or for ranks proven equal.
     """
-    target, given = position(small), canonical_rows(large.structure)
+    target, rows_of_large = position(small), canonical_rows(large.structure)
     names = {name for name, _ in steps}
-    if not names or len(names) < len(steps) or not names <= given.keys():
+    if not names or len(names) < len(steps) or not names <= rows_of_large.keys():
         return False
-    ends = product(*(follows(given[name], path) for name, path in steps))
+    ends = product(*(follows(rows_of_large[name], path) for name, path in steps))
     return any(_holds(target, joined(rows), solved) for rows in ends if _fit(rows))
 
 
@@ -134,8 +134,8 @@ def _decided(target: Structure, result: Structure, seed: str) -> Decision[Solved
 
 
 def _holds(target: Structure, result: Structure, solved: Solved) -> bool:
-    told = tells(solved, target, result, "verify") and not solved.is_normalised
-    return told and confirms(solved, coefficient_map(target), coefficient_map(result))
+    is_solved = tells(solved, target, result, "verify") and not solved.is_normalised
+    return is_solved and confirms(solved, coefficient_map(target), coefficient_map(result))
 
 
 def tells(solved: Solved, target: Structure, result: Structure, seed: str) -> bool:
@@ -145,8 +145,9 @@ def tells(solved: Solved, target: Structure, result: Structure, seed: str) -> bo
     return solved.left_given or most_rank(target) <= least_rank(result, seed)
 
 
-def _follow(steps: RowSteps, rows: Sequence[Row], given: dict[str, Row]) -> bool:
+def _follow(steps: RowSteps, rows: Sequence[Row], rows_by_name: dict[str, Row]) -> bool:
     """Whether each of the limits is an identity."""
     return all(
-        row in follows(given[name], path) for row, (name, path) in zip(rows, steps, strict=True)
+        row in follows(rows_by_name[name], path)
+        for row, (name, path) in zip(rows, steps, strict=True)
     )

@@ -40,9 +40,8 @@ equations a_0 = m b_0 and a_1 = m b_1. So one dimension less is needed.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
-from disting.algebra.symbols import coefficients, symbols
+from disting.algebra.symbols import Polynomial, coefficients, symbols
 from disting.behaviour.chain_model import ChainModel, Powers, powers
 from disting.behaviour.sample import Representation, drawn, seen_at
 from disting.behaviour.transfer import plain_receptance
@@ -78,14 +77,14 @@ def room(small: Structure, large: Structure, seed: str = "meeting") -> Room:
     """The numbers for two structures with the same sensor, without dead time; the rank is seen
     at points of the seed.
     """
-    wanted, given = powers(small), powers(large)
-    factors = sum(_fits(c, wanted, given) for c in range(max(given[1]) + 1))
-    return Room(least_rank(large, seed), sum(map(len, given)), factors, _same_mass(small, large))
+    wanted, searched = powers(small), powers(large)
+    factors = sum(_fits(c, wanted, searched) for c in range(max(searched[1]) + 1))
+    return Room(least_rank(large, seed), sum(map(len, searched)), factors, _same_mass(small, large))
 
 
-def _fits(c: int, wanted: Powers, given: Powers) -> bool:
+def _fits(c: int, wanted: Powers, searched: Powers) -> bool:
     """Whether s^c times the one has no other powers than the other."""
-    return all({c + i for i in w} <= g for w, g in zip(wanted, given, strict=True))
+    return all({c + i for i in w} <= g for w, g in zip(wanted, searched, strict=True))
 
 
 @lru_cache(maxsize=COUNTS)
@@ -233,12 +232,12 @@ def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> It
     )
 
 
-def _written(row: Row, values: dict[str, Any]) -> tuple[Any, Any]:
+def _written(row: Row, values: dict[str, Polynomial]) -> tuple[Polynomial, Polynomial]:
     """Numerator and denominator of the receptance for these elements and s of a ring."""
     return plain_receptance(row.structure, values, values["s"], values["s"] ** 0)
 
 
-def _part(polynomial: Any, name: str, limit: str) -> Any:
+def _part(polynomial: Polynomial, name: str, limit: str) -> Polynomial:
     """P_1 (for INFINITE) or P_0 of P_0 + w P_1, w the parameter of this name."""
     parts = coefficients(polynomial, name)
     if limit == ZERO:

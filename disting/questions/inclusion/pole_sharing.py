@@ -34,6 +34,7 @@ from dataclasses import dataclass
 from itertools import islice, product
 
 from disting.algebra.certainty import prime
+from disting.algebra.determinants import Modular
 from disting.algebra.quotient import constant, matrix, variable
 from disting.behaviour.chain_model import powers
 from disting.model.chain import Chain
@@ -41,7 +42,6 @@ from disting.model.row import GROUNDED, canonical_rows
 from disting.questions.inclusion.profiles import row_falls
 from disting.questions.inclusion.row_equations import RowEquation, equation_safety, row_equation
 from disting.questions.inclusion.split_poles import (
-    Polynomial,
     Split,
     accelerated,
     model_at,
@@ -55,7 +55,7 @@ TRIALS = 3  # points and primes, where an equation of the grounded row is used
 MOST_POLES = 8  # other than 0, of the smaller model: there are 3 to this power distributions
 COMMON, FIRST, SECOND = range(3)
 Points = tuple[tuple[int, ...], ...]
-Solution = tuple[Polynomial, Polynomial] | None
+Solution = tuple[Modular, Modular] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,9 +85,9 @@ class Bounds:
 class Sharing:
     """One choice of e, f_1 and f_2, and how often 0 is a root of f_1."""
 
-    common: Polynomial
-    first: Polynomial
-    second: Polynomial
+    common: Modular
+    first: Modular
+    second: Modular
     lacking: int
 
 
@@ -97,11 +97,13 @@ def excluding_points(small: Chain, large: Chain, label: str) -> Points:
 
     Each is taken modulo the prime of a label of its own, see `labels`. () if none are found.
     """
-    found = (split_model(small, one) if _covered(small, large) else None for one in labels(label))
-    points = tuple(split.point for split in islice(found, 1) if split is not None)
+    models = (
+        split_model(small, trial) if _covered(small, large) else None for trial in labels(label)
+    )
+    points = tuple(split.point for split in islice(models, 1) if split is not None)
     if points and excludes(small, large, label, points):
         return points
-    points += tuple(split.point for split in found if split is not None)
+    points += tuple(split.point for split in models if split is not None)
     return points if len(points) == TRIALS and excludes(small, large, label, points) else ()
 
 
@@ -118,7 +120,8 @@ def excludes(small: Chain, large: Chain, label: str, points: Points) -> bool:
         return False
     trials = zip(labels(label), points, strict=False)
     return all(
-        _excludes(small, large, one, point, by_equation=len(points) > 1) for one, point in trials
+        _excludes(small, large, trial, point, by_equation=len(points) > 1)
+        for trial, point in trials
     )
 
 
@@ -185,7 +188,7 @@ def _sharings(split: Split, b: Bounds, modulus: int) -> Iterator[Sharing]:
                 yield Sharing(shared, first, second, at_first)
 
 
-def _solutions(n: Polynomial, s: Sharing, b: Bounds, modulus: int) -> Iterator[Solution]:
+def _solutions(n: Modular, s: Sharing, b: Bounds, modulus: int) -> Iterator[Solution]:
     """Yield what solves v n = l_1 f_2 + l_2 f_1 with v other than 0: y takes t^i, v the rest of
     what t^z lacks in D_2.
     """
@@ -204,9 +207,9 @@ def _solutions(n: Polynomial, s: Sharing, b: Bounds, modulus: int) -> Iterator[S
 
 
 def _solution(
-    left: list[Polynomial],
-    first: list[Polynomial],
-    second: list[Polynomial],
+    left: list[Modular],
+    first: list[Modular],
+    second: list[Modular],
     s: Sharing,
     low: int,
     modulus: int,
@@ -242,7 +245,7 @@ def _stands(
     )
 
 
-def _rank(polynomials: list[Polynomial], modulus: int) -> int:
+def _rank(polynomials: list[Modular], modulus: int) -> int:
     width = max((p.degree() for p in polynomials), default=-1) + 1
     return int(
         matrix([[int(p[j]) for j in range(width)] for p in polynomials], width, modulus).rank()

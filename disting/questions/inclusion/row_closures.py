@@ -50,15 +50,15 @@ Support = tuple[frozenset[int], frozenset[int]]
 @dataclass(frozen=True, slots=True)
 class Wanted:
     """A receptance wanted of a row of the larger chain in one split, with the map and the row that
-    are there; `name`: "grounded", "free", "whole". `given`: the row whose receptance it is, if any.
+    are there; `name`: "grounded", "free", "whole". `own`: the row whose receptance it is, if any.
     """
 
     split: str
     name: str
     receptance: CoefficientMap
-    there: CoefficientMap
+    searched: CoefficientMap
     row: Row
-    given: Row | None = None
+    own: Row | None = None
 
 
 class Shown(NamedTuple):
@@ -88,8 +88,8 @@ def by_dimension(wanted: Wanted, seed: str) -> Shown | None:
 
 def as_large(wanted: Wanted) -> bool:
     """Whether what is wanted has the largest rank that the row could have, and the row has it."""
-    most = _most_rank(wanted.there)
-    return most == generic_rank(wanted.there, RANKS) and most == _rank_of_function(
+    most = _most_rank(wanted.searched)
+    return most == generic_rank(wanted.searched, RANKS) and most == _rank_of_function(
         wanted.receptance
     )
 
@@ -97,7 +97,7 @@ def as_large(wanted: Wanted) -> bool:
 def holds(step: RowLimits, wanted: Wanted) -> bool:
     """Whether a step holds at fresh points; an equation, or that rows differ, is found again."""
     if step.why is Why.COEFFICIENT:
-        pairs = zip("ba", _support(wanted.receptance), _support(wanted.there), strict=True)
+        pairs = zip("ba", _support(wanted.receptance), _support(wanted.searched), strict=True)
         return any(
             step.detail == f"{letter}{i}" for letter, own, others in pairs for i in own - others
         )
@@ -109,11 +109,11 @@ def holds(step: RowLimits, wanted: Wanted) -> bool:
 
 
 def _inside(wanted: Wanted, label: str) -> tuple[Why, str] | None:
-    return (Why.INSIDE, "") if wanted.receptance == wanted.there else None
+    return (Why.INSIDE, "") if wanted.receptance == wanted.searched else None
 
 
 def _coefficient(wanted: Wanted, label: str) -> tuple[Why, str] | None:
-    pairs = zip("ba", _support(wanted.receptance), _support(wanted.there), strict=True)
+    pairs = zip("ba", _support(wanted.receptance), _support(wanted.searched), strict=True)
     more = [f"{letter}{i}" for letter, own, others in pairs for i in sorted(own - others)]
     return (Why.COEFFICIENT, more[-1]) if more else None
 
@@ -121,7 +121,7 @@ def _coefficient(wanted: Wanted, label: str) -> tuple[Why, str] | None:
 def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     if _coefficient(wanted, label) is not None:
         return None
-    missing = _coordinates(wanted.there) - generic_rank(wanted.there, RANKS)
+    missing = _coordinates(wanted.searched) - generic_rank(wanted.searched, RANKS)
     if missing == 0:
         return Why.FULL, ""
     return (Why.MOMENTUM, "") if missing == 1 and _keeps_momentum(wanted) else None
@@ -130,26 +130,28 @@ def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
 def _dimension(wanted: Wanted, seed: str, bits: int = SAFETY) -> tuple[Why, str] | None:
     if not as_large(wanted):
         return None
-    given, most = wanted.given, _most_rank(wanted.there)
-    if given is not None and given.damped and may_share(factored(given), factored(wanted.row)):
-        differ = _differ_by_shares(given, wanted.row, seed, bits)
+    own, most = wanted.own, _most_rank(wanted.searched)
+    if own is not None and own.damped and may_share(factored(own), factored(wanted.row)):
+        differ = _differ_by_shares(own, wanted.row, seed, bits)
     else:
-        differ = _differ_by_ideals(wanted.receptance, wanted.there, seed, bits)
+        differ = _differ_by_ideals(wanted.receptance, wanted.searched, seed, bits)
     return (Why.DIMENSION, f"{most} = {most}") if differ else None
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _differ_by_shares(given: Row, there: Row, seed: str, bits: int) -> bool:
+def _differ_by_shares(row: Row, searched: Row, seed: str, bits: int) -> bool:
     """Whether two rows of one dimension differ; many pairs of chains ask about the same two."""
-    apart = told_apart(factored(given), factored(there), seed)
+    apart = told_apart(factored(row), factored(searched), seed)
     return apart is not None and apart[1] >= bits
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _differ_by_ideals(wanted: CoefficientMap, there: CoefficientMap, seed: str, bits: int) -> bool:
+def _differ_by_ideals(
+    wanted: CoefficientMap, searched: CoefficientMap, seed: str, bits: int
+) -> bool:
     """The same of what is wanted of a row."""
     limits = replace(DIMENSION_LIMITS, safety=bits)
-    decided = decide(wanted, there, equal_rank=True, seed=seed, limits=limits, members=False)
+    decided = decide(wanted, searched, equal_rank=True, seed=seed, limits=limits, members=False)
     return decided.membership is Membership.EXCLUDED and decided.safety >= bits
 
 
@@ -201,13 +203,13 @@ def _keeps_momentum(wanted: Wanted) -> bool:
     """Whether a_0 = a_1 = 0 and a_2 b_1 = a_3 b_0 hold in both identically, none of the four
     being zero in what is there.
     """
-    for m in (wanted.receptance, wanted.there):
+    for m in (wanted.receptance, wanted.searched):
         a, b = (*m.denominator, *m.denominator[:1] * 4), (*m.numerator, m.denominator[0])
         if len(m.denominator) < 4 or not (
             a[0].is_zero() and a[1].is_zero() and a[2] * b[1] == a[3] * b[0]
         ):
             return False
-    num, den = _support(wanted.there)
+    num, den = _support(wanted.searched)
     return {0, 1} <= num and {2, 3} <= den
 
 

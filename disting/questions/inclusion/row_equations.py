@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations_with_replacement
 from math import ceil, comb, log2
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,9 +108,11 @@ def _block(row: Row) -> Block:
     small = (
         block for degree in degrees for block in _blocks(weights, degree) if len(block) <= MONOMIALS
     )
-    return next(
-        (block for block in small if _nullspace(_values(block, models, modulus), modulus)[1]), ()
+    kernels = (
+        (block, matrix(_values(block, models, modulus), len(block), modulus).nullspace())
+        for block in small
     )
+    return next((block for block, (_, nullity) in kernels if nullity), ())
 
 
 def _values(block: Block, models: NDArray[np.uint64], modulus: int) -> list[list[int]]:
@@ -140,16 +141,9 @@ def _kernel_vector(
     block: Block, models: list[tuple[int, ...]], modulus: int
 ) -> tuple[int, ...] | None:
     """Numbers with which the monomials sum to zero in all models; None if there are none."""
-    basis, nullity = _nullspace(
-        [[_product(m, model, modulus) for m in block] for model in models], modulus
-    )
+    rows = [[_product(m, model, modulus) for m in block] for model in models]
+    basis, nullity = matrix(rows, len(block), modulus).nullspace()
     return tuple(int(basis[i, 0]) for i in range(len(block))) if nullity else None
-
-
-def _nullspace(rows: list[list[int]], modulus: int) -> tuple[Any, int]:
-    """Columns that span the kernel of a matrix modulo a prime, and how many they are."""
-    kernel: tuple[Any, int] = matrix(rows, len(rows[0]), modulus).nullspace()
-    return kernel
 
 
 def _models(row: Row, count: int, label: str, modulus: int) -> list[tuple[int, ...]]:

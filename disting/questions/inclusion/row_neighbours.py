@@ -106,10 +106,10 @@ def _forms(rest: Modular, energy: Modular, t: int, r: int) -> tuple[int, int]:
     modulus, e = rest.modulus(), rest.degree()
     joint, g = polynomial([-t, 1], modulus), polynomial([-t, 1, r], modulus)
     size, top = resultant(rest, g, e, 2), int(energy[e + 2])
-    there = int(energy(t)) * pow(int(rest(t)), -1, modulus)
+    energy_at = int(energy(t)) * pow(int(rest(t)), -1, modulus)
     # the residues of F/N_R sum to the coefficient of s^(e-1) in F modulo N_R
     total = int((energy * _inverse(joint * g, rest) % rest)[e - 1])
-    first = size * (there + t * t * (r * total - top)) % modulus
+    first = size * (energy_at + t * t * (r * total - top)) % modulus
     return first, end_equation(
         rest, (top * rest + r * (energy * _inverse(g, rest) % rest)) * size, e
     )

@@ -172,9 +172,9 @@ def _product_of_sums(r: list[int], size: int, modulus: int) -> int:
             rest = chosen[:at] + chosen[at + 1 :]
             for to, c in [(i + 1, 1)] if i + 1 < e else last:
                 if to not in rest:
-                    there = sum(x < to for x in rest)
-                    line = place[(*rest[:there], to, *rest[there:])]
-                    whole[line][column] += (-1) ** (at + there) * c
+                    position = sum(x < to for x in rest)
+                    line = place[(*rest[:position], to, *rest[position:])]
+                    whole[line][column] += (-1) ** (at + position) * c
     return int(matrix(len(whole), len(whole), [x for y in whole for x in y], modulus).det())
 
 

@@ -13,7 +13,6 @@ from disting.model.chain import Chain, Sensor
 
 ATTEMPTS = 1000  # points tried until one is found
 REMEMBERED = 256
-Polynomial = Modular
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,8 +21,8 @@ class Split:
     their order.
     """
 
-    n: Polynomial
-    factors: tuple[Polynomial, ...]
+    n: Modular
+    factors: tuple[Modular, ...]
     point: tuple[int, ...]
 
 
@@ -53,12 +52,12 @@ def accelerated(chain: Chain) -> Chain:
     return replace(chain, sensor=Sensor.ACCELERATION, dead_time=False)
 
 
-def _in_steps(polynomial: Polynomial, step: int, modulus: int) -> Polynomial:
+def _in_steps(polynomial: Modular, step: int, modulus: int) -> Modular:
     """The polynomial in s as one in s^step."""
     return polynomial_of([int(c) for c in polynomial.coeffs()[::step]], modulus)
 
 
-def polynomial_of(coefficients: list[int], modulus: int) -> Polynomial:
+def polynomial_of(coefficients: list[int], modulus: int) -> Modular:
     """The polynomial in t with these coefficients, the constant first."""
     t = variable(modulus)
     return sum((t**i * c for i, c in enumerate(coefficients)), constant(0, modulus))

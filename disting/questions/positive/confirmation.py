@@ -2,6 +2,7 @@
 
 from disting.algebra.certainty import Certainty
 from disting.evidence.decision import Excluded, Theorem
+from disting.evidence.kind import PointText
 from disting.evidence.positive import (
     BoxMap,
     EmptyFibre,
@@ -11,7 +12,6 @@ from disting.evidence.positive import (
     PositiveEvidence,
     PositiveFinding,
     Share,
-    Values,
 )
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.fibre import fibre
@@ -28,30 +28,30 @@ from disting.questions.positive.points import equivalent, read
 from disting.questions.positive.shares import refuse, row_words, theorem, without_dead_time
 
 
-def confirms(evidence: PositiveEvidence, given: Chain, other: Chain) -> bool:
+def confirms(evidence: PositiveEvidence, chain: Chain, other: Chain) -> bool:
     """Whether the evidence is true of the two chains; statements about ranges are confirmed by
     `confirms_within`.
     """
-    refuse(given, other)
-    given, other = without_dead_time(given), without_dead_time(other)
+    refuse(chain, other)
+    chain, other = without_dead_time(chain), without_dead_time(other)
     match evidence:
         case Theorem():
-            return evidence.name != "" and theorem(given, other) == evidence.name
+            return evidence.name != "" and theorem(chain, other) == evidence.name
         case Excluded():
-            return _excluded(evidence, given, other)
+            return _excluded(evidence, chain, other)
         case EmptyFibre():
-            return _is_of(evidence.point, given) and _is_empty(evidence.point, given, other)
+            return _is_of(evidence.point, chain) and _is_empty(evidence.point, chain, other)
         case Interlacing():
-            return _interlaced(evidence, given, other)
+            return _interlaced(evidence, chain, other)
         case Points():
-            return _answers(evidence.with_one, given, other, Answer.YES) and _answers(
-                evidence.without, given, other, Answer.NO
+            return _answers(evidence.with_one, chain, other, Answer.YES) and _answers(
+                evidence.without, chain, other, Answer.NO
             )
         case BoxMap() | OnlyOne():
             return False  # of ranges, and of chains under several experiments
 
 
-def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
+def proves(finding: PositiveFinding, chain: Chain, other: Chain) -> bool:
     """Whether the finding's evidence is true of the two chains and shows its share, as surely
     as it says.
     """
@@ -59,7 +59,7 @@ def proves(finding: PositiveFinding, given: Chain, other: Chain) -> bool:
     if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
         return False
     bounded = finding.safety <= safety_of_point(without_dead_time(other))
-    return bounded and confirms(evidence, given, other)
+    return bounded and confirms(evidence, chain, other)
 
 
 def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
@@ -81,32 +81,32 @@ def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
             return Share.ALWAYS, Certainty.BOUNDED
 
 
-def _excluded(evidence: Excluded, given: Chain, other: Chain) -> bool:
+def _excluded(evidence: Excluded, chain: Chain, other: Chain) -> bool:
     if evidence.name != Obstacle.SWAPPED:
-        return obstacle(given, other) == evidence.name
-    fails = _is_of(evidence.point, given) and swap_fails(given, other)
-    return fails and only_rows_sum_to_zero(given, read(evidence.point), 2 * other.gap)
+        return obstacle(chain, other) == evidence.name
+    fails = _is_of(evidence.point, chain) and swap_fails(chain, other)
+    return fails and only_rows_sum_to_zero(chain, read(evidence.point), 2 * other.gap)
 
 
-def _is_empty(point: Values, given: Chain, other: Chain) -> bool:
-    return fibre(other, target(given.structure, read(point))).status is Status.EMPTY
+def _is_empty(point: PointText, chain: Chain, other: Chain) -> bool:
+    return fibre(other, target(chain.structure, read(point))).status is Status.EMPTY
 
 
-def _interlaced(evidence: Interlacing, given: Chain, other: Chain) -> bool:
+def _interlaced(evidence: Interlacing, chain: Chain, other: Chain) -> bool:
     """The rows again; points, where there are any, are looked at again."""
-    same = not given.damped and evidence.parts == row_words(given, other) != ()
+    same = not chain.damped and evidence.parts == row_words(chain, other) != ()
     points = ((evidence.with_one, Answer.YES), (evidence.without, Answer.NO))
     return same and all(
-        not values or _answers(values, given, other, answer) for values, answer in points
+        not values or _answers(values, chain, other, answer) for values, answer in points
     )
 
 
-def _answers(values: Values, given: Chain, other: Chain, answer: Answer) -> bool:
-    return _is_of(values, given) and equivalent(given, read(values), other) is answer
+def _answers(values: PointText, chain: Chain, other: Chain, answer: Answer) -> bool:
+    return _is_of(values, chain) and equivalent(chain, read(values), other) is answer
 
 
-def _is_of(values: Values, given: Chain) -> bool:
+def _is_of(values: PointText, chain: Chain) -> bool:
     """Whether these are all parameters, positive."""
-    return sorted(name for name, _ in values) == sorted(given.parameters) and all(
+    return sorted(name for name, _ in values) == sorted(chain.parameters) and all(
         v > 0 for v in read(values).values()
     )

@@ -2,7 +2,7 @@
 chains: NEVER, or row by row.
 
 H = R + F, R of the grounded row (g masses), F of the free row; d_R, d_F = springs between the
-ports of each. Statements are about all positive parameters of `given` but for a proper algebraic
+ports of each. Statements are about all positive parameters of `chain` but for a proper algebraic
 subset (poles of R and F coincide, a mode has a node at a port). M is the mass of the free row.
 
 Decay. R ~ c s^(-2-d_R) damped, c x^(-1-d_R) undamped, with c > 0, F likewise. So H falls off by 1
@@ -13,11 +13,11 @@ are negative. The residues of a row with d = 0 are squares of modes, positive. S
 0 in one row never equals one with d = 0 in both.
 
 Own poles (undamped, the other chain has d > 0 in a row). The residues of that row sum to zero:
-which subsets of the residues r_j of `given` do that for all parameters? A factor of all masses and
-springs of one row of `given` divides its residues alone, so the sum over the subset is zero for
+which subsets of the residues r_j of `chain` do that for all parameters? A factor of all masses and
+springs of one row of `chain` divides its residues alone, so the sum over the subset is zero for
 each row by itself. Poles and zeros of a row can be chosen freely within a word (see `words`); r_j =
 nu N/D' at a pole grows without bound as the pole nears another of the same row. So no proper subset
-of a row's sums to zero for all parameters: it is all of a row of `given`, with d > 0.
+of a row's sums to zero for all parameters: it is all of a row of `chain`, with d > 0.
 The free row is the one with the pole 0. Hence R and F are the same functions in both chains, with
 the same gap and decay; otherwise there is no equivalent.
 
@@ -46,17 +46,15 @@ from enum import StrEnum
 from itertools import combinations
 from math import inf
 
-from flint import acb, ctx, fmpq
+from flint import acb, ctx
 
 from disting.fibres.synthesis.branch import Ball, Imprecise, roots, shifted
 from disting.fibres.synthesis.fibre import PRECISIONS
-from disting.fibres.synthesis.task import Target, target
+from disting.fibres.synthesis.task import Point, Target, target
 from disting.model.chain import Chain
 from disting.model.row import Row, rows_of
 from disting.model.structure import Ports
 from disting.model.symmetry import canonical
-
-Point = dict[str, fmpq]
 
 
 class Obstacle(StrEnum):
@@ -80,20 +78,20 @@ def distances(chain: Chain) -> tuple[float, int]:
     return grounded[0].distance if grounded else inf, free.distance
 
 
-def obstacle(given: Chain, other: Chain) -> Obstacle | None:
+def obstacle(chain: Chain, other: Chain) -> Obstacle | None:
     """The statement that excludes positive equivalents for all generic positive parameters
     without looking at a point.
     """
-    here, there = distances(given), distances(other)
-    if min(here) != min(there):
+    mine, theirs = distances(chain), distances(other)
+    if min(mine) != min(theirs):
         return Obstacle.DECAY
-    if given.damped:
+    if chain.damped:
         return None
     if is_collocated(other):
-        return None if is_collocated(given) else Obstacle.RESIDUES
+        return None if is_collocated(chain) else Obstacle.RESIDUES
     if other.gap:
-        return Obstacle.OWN_POLES if (given.gap, here) != (other.gap, there) else None
-    more = given.gap and max(here) > _most_sign_changes(*rows(other))
+        return Obstacle.OWN_POLES if (chain.gap, mine) != (other.gap, theirs) else None
+    more = chain.gap and max(mine) > _most_sign_changes(*rows(other))
     return Obstacle.SIGNS if more else None
 
 
@@ -102,33 +100,33 @@ def _most_sign_changes(row: Row) -> int:
     return row.distance + 2 * min(row.a - 1, row.n_masses - row.b)
 
 
-def receptances(given: Chain, point: Point) -> list[Target]:
+def receptances(chain: Chain, point: Point) -> list[Target]:
     """Receptances of the grounded row (if there is one) and of the free row, in x undamped
     and in s damped; exact.
     """
-    ports = [Ports(0, given.act_minus, 0, given.meas_minus)] if given.gap else []
-    ports.append(Ports(0, given.act_plus, 0, given.meas_plus))
-    q = 2 if given.damped else 1
-    return [target(replace(given.structure, ports=p), point).folded(q) for p in ports]
+    ports = [Ports(0, chain.act_minus, 0, chain.meas_minus)] if chain.gap else []
+    ports.append(Ports(0, chain.act_plus, 0, chain.meas_plus))
+    q = 2 if chain.damped else 1
+    return [target(replace(chain.structure, ports=p), point).folded(q) for p in ports]
 
 
-def swap_fails(given: Chain, other: Chain) -> bool:
+def swap_fails(chain: Chain, other: Chain) -> bool:
     """Whether neither equal nor swapped rows can give a positive equivalent; damped chains
     with a gap.
     """
-    if not (given.damped and other.damped and given.gap and other.gap):
+    if not (chain.damped and other.damped and chain.gap and other.gap):
         return False
-    here, there = distances(given), distances(other)
-    own = given.gap == other.gap and here == there
-    swapped = other.gap == given.n_masses - 1 - given.gap and max(here) == max(there) == 0
+    mine, theirs = distances(chain), distances(other)
+    own = chain.gap == other.gap and mine == theirs
+    swapped = other.gap == chain.n_masses - 1 - chain.gap and max(mine) == max(theirs) == 0
     return not (own or swapped)
 
 
-def only_rows_sum_to_zero(given: Chain, point: Point, count: int) -> bool:
+def only_rows_sum_to_zero(chain: Chain, point: Point, count: int) -> bool:
     """Proof at a point: no `count` non-zero poles but a row's own have residues that sum to
     zero. False says nothing.
     """
-    grounded, free = receptances(given, point)
+    grounded, free = receptances(chain, point)
     if grounded.denominator.gcd(free.denominator).degree() > 0:
         return False
     for bits in PRECISIONS:

@@ -1,7 +1,7 @@
 """Points of one model that show whether it has positive equivalents in another one: random ones,
 and witnesses for an open part of a box.
 
-The question. B is a box of positive parameters of `given`: a closed interval a parameter, or all
+The question. B is a box of positive parameters of `chain`: a closed interval a parameter, or all
 positive numbers. L is its affine span: a parameter whose interval is one value is a constant
 there. C is such a box of `other`. E holds the points of B that have an equivalent in C. E is
 semi-algebraic (Tarski, Seidenberg), so but for a proper algebraic subset of L the box B consists
@@ -9,7 +9,7 @@ of finitely many open pieces, each inside E or outside of it. "Sometimes" says t
 pieces of both kinds. A single point is no proof of a piece: it may be a special one. The two
 statements below make it one.
 
-A piece with equivalents (exact). At p in B, let f be a map that takes the models of `given` near p
+A piece with equivalents (exact). At p in B, let f be a map that takes the models of `chain` near p
 to equivalent ones of `other`, continuous near p: a renaming, duality, or a listed solution of a
 chain without tests (see `synthesis.construction`). The last one is continuous, for it is computed
 from simple roots by operations whose balls leave out every zero divisor, for fixed free choices;
@@ -50,13 +50,13 @@ from math import ceil, frexp, ldexp, log2
 from flint import fmpq
 
 from disting.algebra.certainty import LEAST_SAFETY, residues
-from disting.evidence.positive import Values
+from disting.evidence.kind import PointText
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Status, Target, fraction, target
+from disting.fibres.synthesis.task import Point, Status, Target, fraction, target
 from disting.model.chain import Chain
 from disting.model.question import Answer
 from disting.model.row import Row
-from disting.questions.positive.obstacles import Point, distances, receptances, rows
+from disting.questions.positive.obstacles import distances, receptances, rows
 from disting.questions.positive.undamped_rows import word, words
 
 Range = tuple[Fraction, Fraction]
@@ -77,18 +77,18 @@ def random_point(chain: Chain, label: str, ranges: Mapping[str, Range] | None = 
     }
 
 
-def spelled(point: Point) -> Values:
+def spelled(point: Point) -> PointText:
     """A point as text."""
     return tuple((name, str(value)) for name, value in point.items())
 
 
-def read(values: Values) -> Point:
+def read(values: PointText) -> Point:
     """Inverse of `spelled`."""
     return {name: fraction(value) for name, value in values}
 
 
-def equivalent(given: Chain, point: Point, other: Chain) -> Answer:
-    """Whether `other` has positive parameters with the receptance of `given` at this positive
+def equivalent(chain: Chain, point: Point, other: Chain) -> Answer:
+    """Whether `other` has positive parameters with the receptance of `chain` at this positive
     point.
 
     Undamped, with one gap and decay: row by row, by words. Undamped, `other` without a gap and
@@ -96,12 +96,12 @@ def equivalent(given: Chain, point: Point, other: Chain) -> Answer:
     positive. UNKNOWN otherwise.
     """
     if other.damped:
-        return _damped(target(given.structure, point), other)
-    if given.gap == other.gap and distances(given) == distances(other):
-        pairs = zip(rows(other), receptances(given, point), strict=True)
+        return _damped(target(chain.structure, point), other)
+    if chain.gap == other.gap and distances(chain) == distances(other):
+        pairs = zip(rows(other), receptances(chain, point), strict=True)
         return _all(_row(row, t) for row, t in pairs)
     if not other.gap and distances(other)[1]:
-        return _row(rows(other)[-1], target(given.structure, point).folded(1))
+        return _row(rows(other)[-1], target(chain.structure, point).folded(1))
     return Answer.UNKNOWN
 
 
@@ -111,28 +111,28 @@ def _row(row: Row, t: Target) -> Answer:
         return Answer.YES  # it comes from a collocated row (Foster)
     if t.denominator.degree() != row.n_masses or t.numerator.degree() != row.numerator_degree:
         return Answer.UNKNOWN  # a special point: a pole and a zero coincide
-    found, known = word(t), words(row.n_masses, row.a, row.b)
-    if found is None:
+    signs, possible = word(t), words(row.n_masses, row.a, row.b)
+    if signs is None:
         return Answer.UNKNOWN
     return (
         Answer.YES
-        if found in known.lower
+        if signs in possible.lower
         else Answer.UNKNOWN
-        if found in known.upper
+        if signs in possible.upper
         else Answer.NO
     )
 
 
 def _damped(whole: Target, other: Chain) -> Answer:
-    found = fibre(other, whole, confirm=False)
-    listed = found.status is Status.COMPLETE and not found.tests.boundary
-    none = listed and all(s.positive is Answer.NO for s in found.solutions)
-    return Answer.NO if none or found.status is Status.EMPTY else Answer.UNKNOWN
+    whole_fibre = fibre(other, whole, confirm=False)
+    listed = whole_fibre.status is Status.COMPLETE and not whole_fibre.tests.boundary
+    none = listed and all(s.positive is Answer.NO for s in whole_fibre.solutions)
+    return Answer.NO if none or whole_fibre.status is Status.EMPTY else Answer.UNKNOWN
 
 
 def _all(answers: Iterable[Answer]) -> Answer:
-    known = set(answers)
-    return next((a for a in (Answer.NO, Answer.UNKNOWN) if a in known), Answer.YES)
+    answered = set(answers)
+    return next((a for a in (Answer.NO, Answer.UNKNOWN) if a in answered), Answer.YES)
 
 
 def _drawn(low: Fraction, high: Fraction, share: float) -> fmpq:

@@ -1,9 +1,9 @@
-"""Positive equivalents within ranges that a user gives: of models of `given` in its ranges, in the
+"""Positive equivalents within ranges that a user gives: of models of `chain` in its ranges, in the
 ranges of `other`.
 
 ALWAYS: a renaming takes the box of one into the box of the other. NEVER: not even without ranges
 (a range that is one value may make special what never happens generically: then only the decay
-counts). SOMETIMES: an open part of the box of `given` that has equivalents in the box of `other`
+counts). SOMETIMES: an open part of the box of `chain` that has equivalents in the box of `other`
 and one that has none. Short random points look for both; long ones near by testify (see `witness`,
 which has the proof). Where no long point confirms what the search saw, nothing is claimed.
 
@@ -26,13 +26,13 @@ from disting.errors import InputError, shown
 from disting.evidence.decision import Excluded
 from disting.evidence.positive import BoxMap, Empirical, Points, PositiveFinding, Share
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Solution, Status, target
+from disting.fibres.synthesis.task import Point, Solution, Status, target
 from disting.fibres.synthesis.theorems import are_dual, dual, is_untested
 from disting.model.chain import Chain
 from disting.model.names import MOST_DIGITS, is_too_long, name_of
 from disting.model.question import Answer, Settings
 from disting.model.symmetry import canonical, forms
-from disting.questions.positive.obstacles import Obstacle, Point
+from disting.questions.positive.obstacles import Obstacle
 from disting.questions.positive.points import (
     DRAWS,
     Range,
@@ -56,108 +56,108 @@ class Ranges:
     number (drawn from 1/8 to 8).
     """
 
-    given: Mapping[str, Range]
+    chain: Mapping[str, Range]
     other: Mapping[str, Range]
 
 
 def ranges(
-    given: Mapping[str, tuple[Bound, Bound]], other: Mapping[str, tuple[Bound, Bound]]
+    chain: Mapping[str, tuple[Bound, Bound]], other: Mapping[str, tuple[Bound, Bound]]
 ) -> Ranges:
     """Ranges from numbers or text such as "0.5" and "2/3", taken exactly. Raises InputError unless
     0 <= low <= high > 0.
 
-    >>> ranges({"m1": (1, "3/2")}, {}).given["m1"]
+    >>> ranges({"m1": (1, "3/2")}, {}).chain["m1"]
     (Fraction(1, 1), Fraction(3, 2))
     """
     return Ranges(
-        *({name: _range(name, *bounds) for name, bounds in side.items()} for side in (given, other))
+        *({name: _range(name, *bounds) for name, bounds in side.items()} for side in (chain, other))
     )
 
 
 def within_ranges(
-    given: Chain, other: Chain, limits: Ranges, settings: Settings | None = None, tries: int = TRIES
+    chain: Chain, other: Chain, limits: Ranges, settings: Settings | None = None, tries: int = TRIES
 ) -> PositiveFinding:
-    """Share of the models of `given` in its ranges that have an equivalent in the ranges of
+    """Share of the models of `chain` in its ranges that have an equivalent in the ranges of
     `other`.
 
     Raises InputError for chains of different kinds and for ranges of parameters that a chain does
     not have.
     """
-    refuse(given, other)
-    _known(given, limits.given)
+    refuse(chain, other)
+    _known(chain, limits.chain)
     _known(other, limits.other)
     inside = next(
-        (BoxMap(tuple(m.items())) for m in renamings(given, other) if _maps(m, limits)), None
+        (BoxMap(tuple(m.items())) for m in renamings(chain, other) if _maps(m, limits)), None
     )
     if inside:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=inside)
-    if not all(is_plain(c) for c in (given, other)):
+    if not all(is_plain(c) for c in (chain, other)):
         return PositiveFinding(
             Share.UNKNOWN, reason="ground dampers, a lag and dead time are not covered"
         )
-    anywhere = positive_finding(given, other, settings)
-    fixed = any(low == high for low, high in limits.given.values())
+    anywhere = positive_finding(chain, other, settings)
+    fixed = any(low == high for low, high in limits.chain.values())
     if anywhere.share is Share.NEVER and (
         not fixed or anywhere.evidence == Excluded(Obstacle.DECAY)
     ):
         return anywhere
-    return _sampled(given, other, limits, (settings or Settings()).seed, tries)
+    return _sampled(chain, other, limits, (settings or Settings()).seed, tries)
 
 
-def confirms_within(evidence: BoxMap | Points, given: Chain, other: Chain, limits: Ranges) -> bool:
+def confirms_within(evidence: BoxMap | Points, chain: Chain, other: Chain, limits: Ranges) -> bool:
     """Whether evidence of `within_ranges` is true; what holds without ranges is confirmed by
     `confirms`.
     """
     if isinstance(evidence, BoxMap):
         renaming = dict(evidence.pairs)
-        return renaming in list(renamings(given, other)) and _maps(renaming, limits)
+        return renaming in list(renamings(chain, other)) and _maps(renaming, limits)
     with_one, without = read(evidence.with_one), read(evidence.without)
     inside = all(
-        _is_of(point, given, limits) and is_long(point, limits.given)
+        _is_of(point, chain, limits) and is_long(point, limits.chain)
         for point in (with_one, without)
     )
-    has = inside and _has_piece(given, with_one, other, limits)
-    return has and _lacks_piece(given, without, other, limits) is not None
+    has = inside and _has_piece(chain, with_one, other, limits)
+    return has and _lacks_piece(chain, without, other, limits) is not None
 
 
-def equivalent_within(given: Chain, point: Point, other: Chain, box: Mapping[str, Range]) -> Answer:
+def equivalent_within(chain: Chain, point: Point, other: Chain, box: Mapping[str, Range]) -> Answer:
     """Whether this model has an equivalent in the box of `other`."""
     if any(
         all(_in(value, box.get(name)) for name, value in image.items())
-        for image in _images(given, point, other)
+        for image in _images(chain, point, other)
     ):
         return Answer.YES
-    if equivalent(given, point, other) is Answer.NO:
+    if equivalent(chain, point, other) is Answer.NO:
         return Answer.NO
-    found = fibre(other, target(given.structure, point))
-    places = [_place(s, box) for s in found.solutions]
+    whole_fibre = fibre(other, target(chain.structure, point))
+    places = [_place(s, box) for s in whole_fibre.solutions]
     if is_untested(other) and Answer.YES in places:
         return Answer.YES
-    complete = found.status is Status.EMPTY or (
-        found.status is Status.COMPLETE and not found.tests.boundary
+    complete = whole_fibre.status is Status.EMPTY or (
+        whole_fibre.status is Status.COMPLETE and not whole_fibre.tests.boundary
     )
     return Answer.NO if complete and set(places) <= {Answer.NO} else Answer.UNKNOWN
 
 
-def _sampled(given: Chain, other: Chain, limits: Ranges, seed: str, tries: int) -> PositiveFinding:
+def _sampled(chain: Chain, other: Chain, limits: Ranges, seed: str, tries: int) -> PositiveFinding:
     """What short points see, and what long ones near them confirm."""
-    points = [random_point(given, f"ranges:{seed}:{k}", limits.given) for k in range(tries)]
-    answers = [equivalent_within(given, point, other, limits.other) for point in points]
+    points = [random_point(chain, f"ranges:{seed}:{k}", limits.chain) for k in range(tries)]
+    answers = [equivalent_within(chain, point, other, limits.other) for point in points]
     empirical = Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))
-    label, length = f"{seed}:{written(given)}:{written(other)}:{written(limits)}", bits(other)
+    label, length = f"{seed}:{written(chain)}:{written(other)}:{written(limits)}", bits(other)
 
     def near(wanted: Answer) -> Iterator[Point]:
         """Long points near the first places of this answer."""
         places = [p for p, answer in zip(points, answers, strict=True) if answer is wanted]
         yield from (
-            drawn_near(p, limits.given, length, f"{label}:{wanted}:{k}")
+            drawn_near(p, limits.chain, length, f"{label}:{wanted}:{k}")
             for k, p in enumerate(places[:DRAWS])
         )
 
-    with_one = next((p for p in near(Answer.YES) if _has_piece(given, p, other, limits)), None)
+    with_one = next((p for p in near(Answer.YES) if _has_piece(chain, p, other, limits)), None)
     if with_one is not None:
         for without in near(Answer.NO):
-            grade = _lacks_piece(given, without, other, limits)
+            grade = _lacks_piece(chain, without, other, limits)
             if grade is not None:
                 evidence = Points(spelled(with_one), spelled(without))
                 return PositiveFinding(Share.SOMETIMES, *grade, evidence, empirical)
@@ -168,27 +168,29 @@ def _sampled(given: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
     )
 
 
-def _has_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> bool:
+def _has_piece(chain: Chain, point: Point, other: Chain, limits: Ranges) -> bool:
     """Whether an open part of the box around the point has equivalents in the box of `other`."""
     box = limits.other
-    if any(_stays(renaming, point, limits) for renaming in renamings(given, other)):
+    if any(_stays(renaming, point, limits) for renaming in renamings(chain, other)):
         return True
     if any(
         all(_strictly_in(v, box.get(name)) for name, v in image.items())
-        for image in _images(given, point, other)
+        for image in _images(chain, point, other)
     ):
         return True
-    found = fibre(other, target(given.structure, point)) if is_untested(other) else None
-    return found is not None and any(_place(s, box) is Answer.YES for s in found.solutions)
+    whole_fibre = fibre(other, target(chain.structure, point)) if is_untested(other) else None
+    return whole_fibre is not None and any(
+        _place(s, box) is Answer.YES for s in whole_fibre.solutions
+    )
 
 
-def _lacks_piece(given: Chain, point: Point, other: Chain, limits: Ranges) -> Grade | None:
+def _lacks_piece(chain: Chain, point: Point, other: Chain, limits: Ranges) -> Grade | None:
     """Whether, and how surely, an open part of the box near the point has none: words are
     exact, listed solutions bounded.
     """
-    if equivalent_within(given, point, other, limits.other) is not Answer.NO:
+    if equivalent_within(chain, point, other, limits.other) is not Answer.NO:
         return None
-    return graded(not other.damped and equivalent(given, point, other) is Answer.NO, LEAST_SAFETY)
+    return graded(not other.damped and equivalent(chain, point, other) is Answer.NO, LEAST_SAFETY)
 
 
 def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:
@@ -220,29 +222,29 @@ def _side(value: object, bounds: Range | None) -> Answer:
     return Answer.YES if x > low and x < high else Answer.UNKNOWN
 
 
-def renamings(given: Chain, other: Chain) -> Iterator[dict[str, str]]:
+def renamings(chain: Chain, other: Chain) -> Iterator[dict[str, str]]:
     """All renamings by symmetry that turn the one chain into the other."""
     form = canonical(other)
-    back = {here: name for name, here in form.renaming.items()}
-    for moved in forms(given):
+    back = {image: name for name, image in form.renaming.items()}
+    for moved in forms(chain):
         if moved.chain == form.chain:
-            yield {name: back[here] for name, here in moved.renaming.items()}
+            yield {name: back[image] for name, image in moved.renaming.items()}
 
 
-def _images(given: Chain, point: Point, other: Chain) -> Iterator[Point]:
+def _images(chain: Chain, point: Point, other: Chain) -> Iterator[Point]:
     """The point under all exact maps."""
-    for renaming in renamings(given, other):
+    for renaming in renamings(chain, other):
         yield {renaming[name]: value for name, value in point.items()}
-    here = canonical(given)
-    if is_plain(given) and is_plain(other) and are_dual(here.chain, canonical(other).chain):
-        image = dual(here.chain, {here.renaming[name]: value for name, value in point.items()})
+    form = canonical(chain)
+    if is_plain(chain) and is_plain(other) and are_dual(form.chain, canonical(other).chain):
+        image = dual(form.chain, {form.renaming[name]: value for name, value in point.items()})
         for renaming in renamings(canonical(other).chain, other):
             yield {renaming[name]: value for name, value in image.items()}
 
 
 def _maps(renaming: Mapping[str, str], limits: Ranges) -> bool:
     """Whether every range lies inside the one that it is renamed to."""
-    pairs = [(limits.given.get(name), limits.other.get(image)) for name, image in renaming.items()]
+    pairs = [(limits.chain.get(name), limits.other.get(image)) for name, image in renaming.items()]
     return all(b is None or (a is not None and b[0] <= a[0] and a[1] <= b[1]) for a, b in pairs)
 
 
@@ -256,10 +258,10 @@ def _strictly_in(value: fmpq, bounds: Range | None) -> bool:
     return exact > 0 if bounds is None else bounds[0] < exact < bounds[1]
 
 
-def _is_of(point: Point, given: Chain, limits: Ranges) -> bool:
+def _is_of(point: Point, chain: Chain, limits: Ranges) -> bool:
     """Whether these are all parameters, inside the ranges."""
-    inside = all(_in(value, limits.given.get(name)) for name, value in point.items())
-    return inside and sorted(point) == sorted(given.parameters)
+    inside = all(_in(value, limits.chain.get(name)) for name, value in point.items())
+    return inside and sorted(point) == sorted(chain.parameters)
 
 
 def _known(chain: Chain, side: Mapping[str, Range]) -> None:

@@ -22,12 +22,12 @@ Where it is zero is a proper subvariety, whose image among the pairs (N, D), wit
 added, is a proper one too, because there are finitely many factors to each pair. The given rows
 fill the closure of these pairs. So for generic given rows and choices no element is zero.
 
-Chains of one gap and equal distances: the rows of `given` are taken one by one.
+Chains of one gap and equal distances: the rows of `chain` are taken one by one.
 
 Chains with force and sensor at one place in each row: R has any g of the non-zero poles. So D/x,
 of degree N - 1, needs a real factor of degree g, then the numerator of R, of degree g - 1, one of
 degree a_minus - 1, and that of F, of degree N - g - 1, one of degree a_plus - g - 1; the same
-argument on elements. What is known of real factors of `given` helps: its own gap is the degree of
+argument on elements. What is known of real factors of `chain` helps: its own gap is the degree of
 a real factor of D/x, its own ports those of factors of the numerators.
 
 None. A polynomial of even degree that must have a real factor of odd degree and has no real root
@@ -48,13 +48,13 @@ from flint import acb, ctx
 
 from disting.algebra.certainty import residues
 from disting.algebra.content import written
-from disting.evidence.positive import Values
+from disting.evidence.kind import PointText
 from disting.fibres.synthesis.branch import Ball, Imprecise, Poly, product, roots, shifted, splits
-from disting.fibres.synthesis.task import Target, target
+from disting.fibres.synthesis.task import Point, Target, target
 from disting.fibres.synthesis.theorems import is_plain
 from disting.model.chain import Chain
 from disting.model.row import Row
-from disting.questions.positive.obstacles import Point, distances, is_collocated, receptances, rows
+from disting.questions.positive.obstacles import distances, is_collocated, receptances, rows
 from disting.questions.positive.points import random_point, read, spelled
 
 TRIES = 1000  # points of mixed signs, a millisecond each; seldom are more than a few needed
@@ -63,63 +63,63 @@ BITS = 192
 Factor = tuple[Poly, int, int]
 
 
-def always_real(given: Chain, other: Chain) -> bool:
-    """Whether each generic real model of `given` has a real equivalent in `other`, by real
+def always_real(chain: Chain, other: Chain) -> bool:
+    """Whether each generic real model of `chain` has a real equivalent in `other`, by real
     factors; False says nothing.
 
     >>> middle, end = Chain(3, 0, 0, 2, 0, 2, damped=False), Chain(3, damped=False)
     >>> always_real(middle, end), always_real(end, middle)
     (True, False)
     """
-    if not (is_plain(given) and is_plain(other)) or given.n_masses != other.n_masses:
+    if not (is_plain(chain) and is_plain(other)) or chain.n_masses != other.n_masses:
         return False
-    if is_collocated(given) and is_collocated(other):
-        return _by_any_poles(given, other)
-    if given.gap != other.gap or distances(given) != distances(other):
+    if is_collocated(chain) and is_collocated(other):
+        return _by_any_poles(chain, other)
+    if chain.gap != other.gap or distances(chain) != distances(other):
         return False
-    return all(_row(*pair) for pair in zip(rows(given), rows(other), strict=True))
+    return all(_row(*pair) for pair in zip(rows(chain), rows(other), strict=True))
 
 
-def real_witness(given: Chain, other: Chain, seed: str) -> Values:
-    """A rational point of `given` in an open set of real models without real equivalents in
+def real_witness(chain: Chain, other: Chain, seed: str) -> PointText:
+    """A rational point of `chain` in an open set of real models without real equivalents in
     `other`; () if none is found.
     """
-    plain = is_plain(given) and is_plain(other) and given.n_masses == other.n_masses
-    if not plain or always_real(given, other):
+    plain = is_plain(chain) and is_plain(other) and chain.n_masses == other.n_masses
+    if not plain or always_real(chain, other):
         return ()
-    label = f"real:{seed}:{written(given)}:{written(other)}"
-    points = (_signed(random_point(given, f"{label}:{k}"), f"{label}:{k}") for k in range(TRIES))
-    return next((spelled(p) for p in points if lacks_real(given, p, other)), ())
+    label = f"real:{seed}:{written(chain)}:{written(other)}"
+    points = (_signed(random_point(chain, f"{label}:{k}"), f"{label}:{k}") for k in range(TRIES))
+    return next((spelled(p) for p in points if lacks_real(chain, p, other)), ())
 
 
-def confirms_real(values: Values, given: Chain, other: Chain) -> bool:
+def confirms_real(values: PointText, chain: Chain, other: Chain) -> bool:
     """Whether a stored point shows an open set of real models without real equivalents."""
     point = read(values)
-    whole = sorted(point) == sorted(given.parameters) and all(v != 0 for v in point.values())
-    return whole and lacks_real(given, point, other)
+    whole = sorted(point) == sorted(chain.parameters) and all(v != 0 for v in point.values())
+    return whole and lacks_real(chain, point, other)
 
 
-def lacks_real(given: Chain, point: Point, other: Chain) -> bool:
+def lacks_real(chain: Chain, point: Point, other: Chain) -> bool:
     """Whether real models near this one are proven to have no real equivalents, generic ones at
     least; False says nothing.
     """
-    if not (is_plain(given) and is_plain(other)) or given.n_masses != other.n_masses:
+    if not (is_plain(chain) and is_plain(other)) or chain.n_masses != other.n_masses:
         return False
     with ctx.workprec(BITS):
         try:
-            candidates = list(_candidates(given, point, other))
+            candidates = list(_candidates(chain, point, other))
             return all(any(_fails(*factor) for factor in factors) for factors in candidates)
         except Imprecise:
             return False
 
 
-def _candidates(given: Chain, point: Point, other: Chain) -> Iterator[list[Factor]]:
+def _candidates(chain: Chain, point: Point, other: Chain) -> Iterator[list[Factor]]:
     """For each way in which real rows of `other` may share the receptance, the polynomials
     that must have real factors.
     """
-    whole = target(given.structure, point).folded(1)
+    whole = target(chain.structure, point).folded(1)
     searched = rows(other)
-    alike = given.gap == other.gap and distances(given) == distances(other)
+    alike = chain.gap == other.gap and distances(chain) == distances(other)
     if whole.denominator.degree() != other.n_masses:
         yield []  # nothing is said
     elif len(searched) == 1:
@@ -127,7 +127,7 @@ def _candidates(given: Chain, point: Point, other: Chain) -> Iterator[list[Facto
     elif is_collocated(other):
         yield from _shared(whole, *searched)
     elif alike:
-        pairs = zip(searched, receptances(given, point), strict=True)
+        pairs = zip(searched, receptances(chain, point), strict=True)
         yield [_numerator(t, row) for row, t in pairs]
     else:
         yield []  # nothing is said
@@ -170,35 +170,35 @@ def _fails(polynomial: Poly, degree: int, factor: int) -> bool:
     return all(bool(z.imag != 0) for z in roots(polynomial, degree))
 
 
-def _by_any_poles(given: Chain, other: Chain) -> bool:
+def _by_any_poles(chain: Chain, other: Chain) -> bool:
     """Whether real factors of all degrees exist, with force and sensor at one place in each
     row.
     """
-    mine, searched = rows(given), rows(other)
+    mine, searched = rows(chain), rows(other)
     if len(searched) == 1:
-        known = 0 if given.gap else mine[0].a - 1
-        return _splits(searched[0].numerator_degree, searched[0].a - 1, known)
-    same = given.gap == other.gap
+        factor_degree = 0 if chain.gap else mine[0].a - 1
+        return _splits(searched[0].numerator_degree, searched[0].a - 1, factor_degree)
+    same = chain.gap == other.gap
     if same and all(_row(*pair) for pair in zip(mine, searched, strict=True)):
         return True
-    poles = _splits(other.n_masses - 1, other.gap, given.gap)
+    poles = _splits(other.n_masses - 1, other.gap, chain.gap)
     return poles and all(_splits(row.numerator_degree, row.a - 1, 0) for row in searched)
 
 
-def _row(given: Row, other: Row) -> bool:
+def _row(row: Row, other: Row) -> bool:
     """Whether each generic real row has a real equivalent of the other type."""
-    same = sorted((given.a, given.n_masses + 1 - given.b)) == sorted(
+    same = sorted((row.a, row.n_masses + 1 - row.b)) == sorted(
         (other.a, other.n_masses + 1 - other.b)
     )
     covered = other.distance <= 1 or other.b == other.n_masses or other.a == 1
-    return same or (covered and _splits(other.numerator_degree, other.a - 1, given.a - 1))
+    return same or (covered and _splits(other.numerator_degree, other.a - 1, row.a - 1))
 
 
-def _splits(degree: int, factor: int, known: int) -> bool:
+def _splits(degree: int, factor: int, factor_degree: int) -> bool:
     """Whether a real polynomial has a real factor of this degree, if it has one of degree
-    `known`.
+    `factor_degree`.
     """
-    return degree % 2 == 1 or factor % 2 == 0 or known % 2 == 1
+    return degree % 2 == 1 or factor % 2 == 0 or factor_degree % 2 == 1
 
 
 def _signed(point: Point, label: str) -> Point:

@@ -60,9 +60,9 @@ DAMPED_TRIES = 10
 
 
 def positive_finding(
-    given: Chain, other: Chain, settings: Settings | None = None
+    chain: Chain, other: Chain, settings: Settings | None = None
 ) -> PositiveFinding:
-    """Share of the positive models of `given` that have a positive equivalent in `other`.
+    """Share of the positive models of `chain` that have a positive equivalent in `other`.
 
     Raises InputError for chains of different size, damping, sensor quantity or dead time.
 
@@ -73,24 +73,24 @@ def positive_finding(
     >>> positive_finding(other, one).share.value
     'sometimes'
     """
-    refuse(given, other)
-    given, other = without_dead_time(given), without_dead_time(other)
+    refuse(chain, other)
+    chain, other = without_dead_time(chain), without_dead_time(other)
     seed = (settings or Settings()).seed
-    named = theorem(given, other)
+    named = theorem(chain, other)
     if named:
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Theorem(named))
-    if not all(is_plain(c) for c in (given, other)):
+    if not all(is_plain(c) for c in (chain, other)):
         return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
-    against = obstacle(given, other)
+    against = obstacle(chain, other)
     if against:
         return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Excluded(against))
-    compared = () if given.damped else row_words(given, other)
-    return _by_words(given, other, compared, seed) if compared else _by_points(given, other, seed)
+    compared = () if chain.damped else row_words(chain, other)
+    return _by_words(chain, other, compared, seed) if compared else _by_points(chain, other, seed)
 
 
-def refuse(given: Chain, other: Chain) -> None:
+def refuse(chain: Chain, other: Chain) -> None:
     """Raise InputError for chains that cannot be compared here."""
-    kinds = [(c.n_masses, c.damped, c.sensor, c.dead_time) for c in (given, other)]
+    kinds = [(c.n_masses, c.damped, c.sensor, c.dead_time) for c in (chain, other)]
     if kinds[0] != kinds[1]:
         raise InputError("chains of one size, damping, sensor quantity and dead time are compared")
 
@@ -107,55 +107,55 @@ def is_plain(chain: Chain) -> bool:
     return not (chain.ground_dampers or chain.lag or chain.dead_time)
 
 
-def theorem(given: Chain, other: Chain) -> str:
+def theorem(chain: Chain, other: Chain) -> str:
     """Name of the theorem by which both are the same over positive parameters, "" if there is none.
 
     >>> theorem(Chain(3, damped=False), Chain(3, 0, 0, 2, 0, 2, damped=False))
     'Foster'
     """
-    here, there = (canonical(c).chain for c in _without_common_factors(given, other))
-    if here == there:
+    mine, theirs = (canonical(c).chain for c in _without_common_factors(chain, other))
+    if mine == theirs:
         return "symmetry"
-    foster = not given.damped and all(is_plain(c) and c.collocated for c in (here, there))
-    return "Foster" if foster else "duality" if are_dual(here, there) else ""
+    foster = not chain.damped and all(is_plain(c) and c.collocated for c in (mine, theirs))
+    return "Foster" if foster else "duality" if are_dual(mine, theirs) else ""
 
 
-def _without_common_factors(given: Chain, other: Chain) -> tuple[Chain, Chain]:
+def _without_common_factors(chain: Chain, other: Chain) -> tuple[Chain, Chain]:
     """Both without the lag and the dead time that both have: equivalents inherit T1 and Td."""
-    lag, dead_time = given.lag and other.lag, given.dead_time and other.dead_time
+    lag, dead_time = chain.lag and other.lag, chain.dead_time and other.dead_time
     first, second = (
         replace(c, lag=c.lag and not lag, dead_time=c.dead_time and not dead_time)
-        for c in (given, other)
+        for c in (chain, other)
     )
     return first, second
 
 
-def row_words(given: Chain, other: Chain) -> tuple[RowWords, ...]:
+def row_words(chain: Chain, other: Chain) -> tuple[RowWords, ...]:
     """What each row of undamped `other` lacks; () where the rows do not correspond or what
     they lack is not known.
     """
-    if given.gap != other.gap or distances(given) != distances(other):
+    if chain.gap != other.gap or distances(chain) != distances(other):
         return ()
-    pairs = list(zip(rows(given), rows(other), strict=True))
-    found = tuple(_lacking(a, b) for a, b in pairs)
-    known = any(p.lacking for p in found) or all(_contained(a, b) for a, b in pairs)
-    return found if known else ()
+    pairs = list(zip(rows(chain), rows(other), strict=True))
+    compared = tuple(_lacking(a, b) for a, b in pairs)
+    is_settled = any(p.lacking for p in compared) or all(_contained(a, b) for a, b in pairs)
+    return compared if is_settled else ()
 
 
-def _lacking(given: Row, other: Row) -> RowWords:
-    ports = (given.a, given.b), (other.a, other.b)
+def _lacking(row: Row, other: Row) -> RowWords:
+    ports = (row.a, row.b), (other.a, other.b)
     lacking = (
-        () if _contained(given, other) else tuple(sorted(_words(given).lower - _words(other).upper))
+        () if _contained(row, other) else tuple(sorted(_words(row).lower - _words(other).upper))
     )
-    return RowWords(given.name, given.n_masses, *ports, lacking)
+    return RowWords(row.name, row.n_masses, *ports, lacking)
 
 
-def _contained(given: Row, other: Row) -> bool:
+def _contained(row: Row, other: Row) -> bool:
     """Whether every positive row of the one type is the same as one of the other; mirrored
     ports count as equal (`words`).
     """
-    sides = [sorted((s.a - 1, s.n_masses - s.b)) for s in (given, other)]
-    return given.distance == 0 or sides[0] == sides[1] or _words(given).upper <= _words(other).lower
+    sides = [sorted((s.a - 1, s.n_masses - s.b)) for s in (row, other)]
+    return row.distance == 0 or sides[0] == sides[1] or _words(row).upper <= _words(other).lower
 
 
 def _words(row: Row) -> Words:
@@ -163,22 +163,22 @@ def _words(row: Row) -> Words:
 
 
 def _by_words(
-    given: Chain, other: Chain, compared: tuple[RowWords, ...], seed: str
+    chain: Chain, other: Chain, compared: tuple[RowWords, ...], seed: str
 ) -> PositiveFinding:
     if not any(p.lacking for p in compared):
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Interlacing(compared))
-    first, empirical = _sampled(given, other, seed, TRIES)
+    first, empirical = _sampled(chain, other, seed, TRIES)
     evidence = Interlacing(compared, first.get(Answer.YES, ()), first.get(Answer.NO, ()))
     return PositiveFinding(
         Share.SOMETIMES, Certainty.THEOREM, evidence=evidence, empirical=empirical
     )
 
 
-def _by_points(given: Chain, other: Chain, seed: str) -> PositiveFinding:
+def _by_points(chain: Chain, other: Chain, seed: str) -> PositiveFinding:
     """The swap, an empty fibre, then random points."""
-    for share in _never(given, other, seed):
+    for share in _never(chain, other, seed):
         return share
-    first, empirical = _sampled(given, other, seed, DAMPED_TRIES if given.damped else TRIES)
+    first, empirical = _sampled(chain, other, seed, DAMPED_TRIES if chain.damped else TRIES)
     if Answer.YES in first and Answer.NO in first:
         evidence: PositiveEvidence = Points(first[Answer.YES], first[Answer.NO])
         return PositiveFinding(
@@ -189,25 +189,28 @@ def _by_points(given: Chain, other: Chain, seed: str) -> PositiveFinding:
     )
 
 
-def _never(given: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
+def _never(chain: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
     """Proofs that there is no equivalent, found at one rational point."""
-    point = rational_point(given, about(f"positivity:{seed}", given, other), point_bits(other))
-    if swap_fails(given, other) and only_rows_sum_to_zero(given, point, 2 * other.gap):
+    point = rational_point(chain, about(f"positivity:{seed}", chain, other), point_bits(other))
+    if swap_fails(chain, other) and only_rows_sum_to_zero(chain, point, 2 * other.gap):
         yield PositiveFinding(
             Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spelled(point))
         )
-    found = member(given, other, seed)
-    if found.membership is Membership.EXCLUDED:
+    finding = member(chain, other, seed)
+    if finding.membership is Membership.EXCLUDED:
         yield PositiveFinding(
-            Share.NEVER, Certainty.BOUNDED, safety_of_point(other), EmptyFibre(spelled(found.point))
+            Share.NEVER,
+            Certainty.BOUNDED,
+            safety_of_point(other),
+            EmptyFibre(spelled(finding.point)),
         )
 
 
 def _sampled(
-    given: Chain, other: Chain, seed: str, tries: int
+    chain: Chain, other: Chain, seed: str, tries: int
 ) -> tuple[dict[Answer, tuple[tuple[str, str], ...]], Empirical]:
     """The first point of each answer, and how many had which."""
-    points = [random_point(given, f"{seed}:{k}") for k in range(tries)]
-    answers = [equivalent(given, point, other) for point in points]
+    points = [random_point(chain, f"{seed}:{k}") for k in range(tries)]
+    answers = [equivalent(chain, point, other) for point in points]
     first = {answer: spelled(points[answers.index(answer)]) for answer in answers}
     return first, Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))

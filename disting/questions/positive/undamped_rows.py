@@ -54,9 +54,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cmp_to_key
 from itertools import pairwise
-from typing import Any
+from typing import cast
 
-from flint import ctx
+from flint import acb, arb, ctx
 
 from disting.fibres.synthesis.task import Target
 
@@ -107,18 +107,18 @@ def word(t: Target) -> Word | None:
         return ()
     for bits in PRECISIONS:
         with ctx.workprec(bits):
-            found = _counted(t)
-        if found is not None:
-            return found
+            counts = _counted(t)
+        if counts is not None:
+            return counts
     return None
 
 
 @cache
 def _words(nodes: int, distance: int, least: int) -> Words:
-    found = tuple(_upper(nodes - 1, distance, least, 0))
+    upper = tuple(_upper(nodes - 1, distance, least, 0))
     zeros = nodes - 1 - distance
     start = _State(0, 0, distance - 1, least, zeros - least)
-    return Words(frozenset(w for w in found if _sharable(w, frozenset((start,)))), frozenset(found))
+    return Words(frozenset(w for w in upper if _sharable(w, frozenset((start,)))), frozenset(upper))
 
 
 def _upper(gaps: int, distance: int, twos: int, height: int) -> Iterator[Word]:
@@ -135,9 +135,9 @@ def _upper(gaps: int, distance: int, twos: int, height: int) -> Iterator[Word]:
             )
 
 
-def _sharable(given: Word, states: frozenset[_State]) -> bool:
+def _sharable(counts: Word, states: frozenset[_State]) -> bool:
     """Pole, zeros, pole, .., pole: whether they can be shared out."""
-    for zeros in given:
+    for zeros in counts:
         states = frozenset(
             after for s in states for taken in _pole(s) for after in _zeros(taken, zeros)
         )
@@ -167,16 +167,16 @@ def _zeros(s: _State, zeros: int) -> Iterator[_State]:
 
 def _counted(t: Target) -> Word | None:
     """The word, if the balls are apart at this precision."""
-    found = [
+    points = [
         (z, n, is_pole)
         for p, is_pole in ((t.denominator, True), (t.numerator, False))
-        for z, n in p.complex_roots()
+        for z, n in cast("list[tuple[acb, int]]", p.complex_roots())  # not as its stub says
     ]
-    if any(bool(z.imag != 0) for z, _, _ in found):
+    if any(bool(z.imag != 0) for z, _, _ in points):
         return ()
-    if any(n > 1 or not z.imag.is_zero() for z, n, _ in found):
+    if any(n > 1 or not z.imag.is_zero() for z, n, _ in points):
         return None
-    ordered = sorted(((z.real, is_pole) for z, _, is_pole in found), key=cmp_to_key(_compared))
+    ordered = sorted(((z.real, is_pole) for z, _, is_pole in points), key=cmp_to_key(_compared))
     if not all(bool(right[0] > left[0]) for right, left in pairwise(ordered)):
         return None
     poles = [i for i, (_, is_pole) in enumerate(ordered) if is_pole]
@@ -184,8 +184,8 @@ def _counted(t: Target) -> Word | None:
     return tuple(right - left - 1 for left, right in pairwise(poles)) if inside else ()
 
 
-def _compared(one: tuple[Any, bool], other: tuple[Any, bool]) -> int:
+def _compared(point: tuple[arb, bool], other: tuple[arb, bool]) -> int:
     """From right to left; balls that overlap compare as equal, neighbours in the list will show
     it.
     """
-    return -1 if bool(one[0] > other[0]) else int(bool(one[0] < other[0]))
+    return -1 if bool(point[0] > other[0]) else int(bool(point[0] < other[0]))

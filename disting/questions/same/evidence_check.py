@@ -103,14 +103,14 @@ def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
 def _fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
     """The fibre over the stored point once more."""
     a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
-    given, searched = (a, b) if evidence.left_given else (b, a)
-    if sorted(name for name, _ in evidence.point) != sorted(given.structure.parameters):
+    chain, searched = (a, b) if evidence.left_given else (b, a)
+    if sorted(name for name, _ in evidence.point) != sorted(chain.structure.parameters):
         return False  # it speaks of another model
     try:
         point = {name: fraction(value) for name, value in evidence.point}
     except (ValueError, ZeroDivisionError):
         return False  # no numbers
-    solutions = fibre(searched, target(given.structure, point))
+    solutions = fibre(searched, target(chain.structure, point))
     if evidence.grounds == Grounds.REFUTED:
         return solutions.status is Status.EMPTY
     return len(solutions.solutions) == evidence.solutions > 0
@@ -126,9 +126,9 @@ def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
 
 def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
     """Both once more."""
-    given, other = (a, b) if evidence.with_left_given else (b, a)
+    chain, other = (a, b) if evidence.with_left_given else (b, a)
     witnessed = evidence.with_one.share in (Share.ALWAYS, Share.SOMETIMES) and proves(
-        evidence.with_one, given, other
+        evidence.with_one, chain, other
     )
     return witnessed and confirms_real(
         evidence.without, *((a, b) if evidence.without_left_given else (b, a))
@@ -139,8 +139,8 @@ def _shares(evidence: Shared, a: Chain, b: Chain) -> bool:
     """Every share refuted once more, at a fresh point, in the same direction."""
     tries = [(evidence.left_given, MOST)]
     again = chains_told_apart(rational_part(a), rational_part(b), "verify", tries)
-    told = (evidence.part, evidence.shares > 0)
-    return again is not None and (again[0].part, again[0].shares > 0) == told
+    stated = (evidence.part, evidence.shares > 0)
+    return again is not None and (again[0].part, again[0].shares > 0) == stated
 
 
 def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
@@ -153,7 +153,7 @@ def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
     return all(n % 2 == 1 and x.least == x.most == n for x, n in answers)
 
 
-def finding_holds(found: Finding, first: Chain, second: Chain, settings: Settings) -> bool:
+def finding_holds(finding: Finding, first: Chain, second: Chain, settings: Settings) -> bool:
     """Whether a finding on two canonical chains of equal rank is what its evidence shows.
 
     Outcome, bound and labels are compared with those that the settings draw. At these labels shares
@@ -161,8 +161,8 @@ def finding_holds(found: Finding, first: Chain, second: Chain, settings: Setting
     ideals are found again: all that the bound counts, in the direction that the evidence names.
     Raises NotSeenError where that takes too long.
     """
-    evidence = found.evidence
-    if evidence is None or found != exact_again(evidence, first, second, settings):
+    evidence = finding.evidence
+    if evidence is None or finding != exact_again(evidence, first, second, settings):
         return False
     if isinstance(evidence, Solved):  # of ideals, only the labels were drawn again
         return Witness().confirms(evidence, "fibre", first, second)

@@ -40,7 +40,6 @@ ranks.
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
@@ -113,8 +112,8 @@ def by_labels(
 ) -> Finding:
     """What the ideals at these labels say of two models of equal rank, if the seed draws them."""
     is_solved = isinstance(evidence, Solved)
-    told = Membership.MEMBER if is_solved else Membership.EXCLUDED
-    return decided(Decision(told, safety_of(evidence, left, right, seed), evidence))
+    membership = Membership.MEMBER if is_solved else Membership.EXCLUDED
+    return decided(Decision(membership, safety_of(evidence, left, right, seed), evidence))
 
 
 def by_theorem(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -141,8 +140,8 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
         return None
     decided_by_fibre = decide(a, b, settings.seed)
     searched = b if decided_by_fibre.direction is Direction.LEFT_IN_RIGHT else a
-    told = decided_by_fibre.decision(safety_of_point(searched))
-    return None if told.membership is Membership.UNKNOWN else decided(told)
+    decision = decided_by_fibre.decision(safety_of_point(searched))
+    return None if decision.membership is Membership.UNKNOWN else decided(decision)
 
 
 def by_full_rows(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -176,8 +175,8 @@ def by_shares(
 
 
 Method = Callable[[Chain, Chain, Settings], Finding | None]
-OF_ANY_CHAINS: dict[type[Any], Method] = {Theorem: by_theorem, DeadTime: by_dead_time}
-METHODS: dict[type[Any], Method] = OF_ANY_CHAINS | {
+OF_ANY_CHAINS: dict[type[object], Method] = {Theorem: by_theorem, DeadTime: by_dead_time}
+METHODS: dict[type[object], Method] = OF_ANY_CHAINS | {
     FibreAt: by_synthesis,
     FullRows: by_full_rows,
     Shared: by_shares,

@@ -29,8 +29,9 @@ from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import RATIONAL, Theorem
+from disting.evidence.kind import PointText
 from disting.evidence.kinds import Evidence
-from disting.evidence.positive import PositiveFinding, Share, Values
+from disting.evidence.positive import PositiveFinding, Share
 from disting.evidence.real import OddFibres, RealFactors, RealWitnesses
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings
@@ -46,28 +47,28 @@ class Asked:
     """
 
     positive: Callable[[Chain, Chain], PositiveFinding]
-    lacking: Callable[[Chain, Chain], Values]
+    lacking: Callable[[Chain, Chain], PointText]
     counted: Callable[[Chain], Identifiability]
 
 
-def positive_share(given: Chain, other: Chain, settings: Settings) -> PositiveFinding:
+def positive_share(chain: Chain, other: Chain, settings: Settings) -> PositiveFinding:
     """Which positive models of one canonical chain have a positive equivalent in another;
     UNKNOWN for chains of two kinds.
     """
     try:
-        return positive_finding(given, other, settings)
+        return positive_finding(chain, other, settings)
     except InputError as reason:
         return PositiveFinding(Share.UNKNOWN, reason=str(reason))
 
 
-def lacking_real(given: Chain, other: Chain, settings: Settings) -> Values:
+def lacking_real(chain: Chain, other: Chain, settings: Settings) -> PointText:
     """A point of one canonical chain in an open set of real models without real equivalents in
     another; () if none is found.
     """
-    return real_witness(given, other, settings.seed)
+    return real_witness(chain, other, settings.seed)
 
 
-def _values(data: list[tuple[str, str]]) -> Values:
+def _values(data: list[tuple[str, str]]) -> PointText:
     return tuple((name, value) for name, value in data)
 
 
@@ -122,12 +123,12 @@ def _by_witnesses(left: Chain, right: Chain, asked: Asked) -> Finding | None:
     equivalent.
     """
     pairs = witness_ways(left, right)
-    lacking = ((given is left, asked.lacking(given, other)) for given, other in pairs)
+    lacking = ((chain is left, asked.lacking(chain, other)) for chain, other in pairs)
     left_given, without = next((x for x in lacking if x[1]), (False, ()))
-    for given, other in pairs if without else ():
-        with_one = asked.positive(given, other)
+    for chain, other in pairs if without else ():
+        with_one = asked.positive(chain, other)
         if with_one.certainty and with_one.share in (Share.ALWAYS, Share.SOMETIMES):
-            evidence = RealWitnesses(left_given, without, given is left, with_one)
+            evidence = RealWitnesses(left_given, without, chain is left, with_one)
             certainty, safety = weakest(
                 (Certainty.PROVEN, 0), (with_one.certainty, with_one.safety)
             )

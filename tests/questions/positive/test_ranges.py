@@ -116,11 +116,11 @@ def test_a_fixed_value_may_be_special():
 
 def test_points_lie_in_their_ranges():
     box = ranges({"m1": ("1e-9", "2e-9"), "k12": (3, 3)}, {})
-    point = random_point(Chain(2, damped=False), "box", box.given)
+    point = random_point(Chain(2, damped=False), "box", box.chain)
     assert (
         Fraction(1, 10**9) <= Fraction(int(point["m1"].p), int(point["m1"].q)) <= Fraction(2, 10**9)
     )
-    assert point["k12"] == 3 and point == random_point(Chain(2, damped=False), "box", box.given)
+    assert point["k12"] == 3 and point == random_point(Chain(2, damped=False), "box", box.chain)
 
 
 @pytest.mark.parametrize(
