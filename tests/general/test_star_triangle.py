@@ -14,9 +14,8 @@ STAR = "{0}1 1 4; {0}2 2 4; {0}3 4 0; {1}1 1 2; {1}2 2 0; {1}3 2 5; {1}4 5 0; po
 POSITIVE = st.fractions(Fraction(1, 9), 9, max_denominator=9)
 
 
-def exchanged(text):
-    plain, (made,) = unbridged(network_of(text, "spice"))
-    return plain, made
+def ends(network):
+    return {e.value: {*e.nodes} for e in network.elements}
 
 
 @pytest.mark.parametrize(("kind", "other"), [("R", "C"), ("C", "R"), ("L", "R"), ("W", "C")])
@@ -26,17 +25,18 @@ def test_the_middle_is_eliminated(kind, other, values):
     """Without its current the node in the middle has the mean of the three potentials, weighted by
     the admittances y: from i to j flows y_i y_j / (y_1 + y_2 + y_3) (u_i - u_j).
     """
-    plain, made = exchanged(STAR.format(kind, other))
+    network = network_of(STAR.format(kind, other), "spice")
+    plain, (made,) = unbridged(network)
+    before, after = ends(network), ends(plain)
     known = dict(zip(made.names, values, strict=True))
     numbers = Balls(known)
     triangle = made.forth(numbers, {n: numbers[n] for n in made.names})
     y = {n: 1 / x if kind != "C" else x for n, x in known.items()}
-    for at, name in enumerate(made.names):
+    for name in made.names:
         first, second = (n for n in made.names if n != name)
         flow = y[first] * y[second] / sum(y.values())
         assert fraction(triangle[name]) == (flow if kind == "C" else 1 / flow)
-        ends = {e.value: {*e.nodes} for e in plain.elements}[name]
-        assert ends == [{2, 0}, {1, 0}, {1, 2}][at]  # opposite to where it was
+        assert after[name] == before[first] ^ before[second]  # opposite to where it was
     assert made.back(numbers, triangle) == {n: numbers[n] for n in made.names}
 
 
