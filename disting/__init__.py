@@ -133,9 +133,9 @@ def _named(name: str) -> object:
     from importlib.util import find_spec
 
     if name in _HOME:
-        found: object = getattr(import_module(_HOME[name]), name)
-        globals()[name] = found
-        return found
+        attribute: object = getattr(import_module(_HOME[name]), name)
+        globals()[name] = attribute
+        return attribute
     if name.startswith("_") or find_spec(f"disting.{name}") is None:
         raise AttributeError(f"disting has no {name}; dir(disting) lists what it has")
     return import_module(f"disting.{name}")

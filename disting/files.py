@@ -92,9 +92,9 @@ def read_bounded(path: Path, wanted: str, most: int = LARGEST) -> bytes:
     return content
 
 
-def as_path(given: object) -> Path:
+def as_path(path: object) -> Path:
     """A path that a user names; raises InputError for what is none."""
-    return Path(of_type(given, str | os.PathLike, "a file is named by its path"))  # type: ignore[arg-type]
+    return Path(of_type(path, str | os.PathLike, "a file is named by its path"))  # type: ignore[arg-type]
 
 
 def read_json(path: Path, wanted: str) -> Any:
@@ -110,14 +110,14 @@ def read_json(path: Path, wanted: str) -> Any:
 
 def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """A JSON object in which no key is doubled: of two values one would be lost."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    entries = dict(pairs)
+    if len(entries) < len(pairs):
         keys = [key for key, _ in pairs]
         name = next((value for key, value in pairs if key == "name"), None)
         where = f"model {shown(name)}: " if name is not None else ""
         doubled = next(key for key in keys if keys.count(key) > 1)
         raise InputError(f"{where}{shown(doubled)} is given twice; leave one of them away")
-    return found
+    return entries
 
 
 def _at_most(path: Path, size: int, most: int) -> bytes:
@@ -242,13 +242,13 @@ def schema(of: Format) -> dict[str, Any]:
     >>> schema(Format.NEXT)["title"], sorted(schema(Format.NEXT)["$defs"])[:2]
     ('disting next 1', ['certainty', 'next'])
     """
-    found, known = _read_schema(of.short), _read_schema("definitions")
+    own, definitions = _read_schema(of.short), _read_schema("definitions")
     needed: dict[str, Any] = {}
-    new = _definitions(found)
+    new = _definitions(own)
     while new:
-        needed |= {name: known[name] for name in sorted(new)}
-        new = {n for name in new for n in _definitions(known[name])} - needed.keys()
-    return found | {"$defs": dict(sorted(needed.items()))}
+        needed |= {name: definitions[name] for name in sorted(new)}
+        new = {n for name in new for n in _definitions(definitions[name])} - needed.keys()
+    return own | {"$defs": dict(sorted(needed.items()))}
 
 
 def _definitions(part: object) -> set[str]:
@@ -258,5 +258,5 @@ def _definitions(part: object) -> set[str]:
 
 def _read_schema(name: str) -> dict[str, Any]:
     text = (Path(__file__).parent / "schemas" / f"{name}.json").read_text(encoding="utf-8")
-    found: dict[str, Any] = json.loads(text)
-    return found
+    content: dict[str, Any] = json.loads(text)
+    return content

@@ -54,21 +54,21 @@ def renamings(left: Columns, right: Columns, size: int) -> Iterator[tuple[int, .
 
 
 def _matched(
-    left: Columns, right: Columns, one: Colouring, other: Colouring
+    left: Columns, right: Columns, own: Colouring, other: Colouring
 ) -> Iterator[tuple[int, ...]]:
-    if one.fingerprint != other.fingerprint:
+    if own.fingerprint != other.fingerprint:
         return
-    count = Counter(one.colours)
-    tied = [i for i, colour in enumerate(one.colours) if count[colour] > 1]
+    count = Counter(own.colours)
+    tied = [i for i, colour in enumerate(own.colours) if count[colour] > 1]
     if not tied:
-        yield tuple(other.colours.index(colour) for colour in one.colours)
+        yield tuple(other.colours.index(colour) for colour in own.colours)
         return
     chosen = tied[0]
-    for partner in (j for j, colour in enumerate(other.colours) if colour == one.colours[chosen]):
+    for partner in (j for j, colour in enumerate(other.colours) if colour == own.colours[chosen]):
         yield from _matched(
             left,
             right,
-            colouring(left, _individualised(one.colours, chosen)),
+            colouring(left, _individualised(own.colours, chosen)),
             colouring(right, _individualised(other.colours, partner)),
         )
 

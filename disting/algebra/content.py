@@ -36,8 +36,10 @@ def written(value: Any) -> str:
         return f"[{', '.join(map(written, value))}]"
     if is_dataclass(kind):
         own = getattr(value, "written_fields", None)
-        told = {name: getattr(value, name) for name in _names(kind)} if own is None else own
-        inside = ", ".join(f"{name}={written(item)}" for name, item in told.items())
+        inside_fields = (
+            {name: getattr(value, name) for name in _names(kind)} if own is None else own
+        )
+        inside = ", ".join(f"{name}={written(item)}" for name, item in inside_fields.items())
         return f"{kind.__qualname__}({inside})"
     if isinstance(value, Mapping):
         parts = ", ".join(f"{written(key)}: {written(item)}" for key, item in value.items())

@@ -94,11 +94,11 @@ def _reduced(
     previous: fmpz_mpoly | None,
 ) -> list[fmpz_mpoly]:
     """Bareiss' step: (pivot * entry - factor * above) / previous pivot."""
-    found = list(row)
+    entries = list(row)
     for j in columns:
         entry = pivot[column] * row[j] - row[column] * pivot[j]
-        found[j] = entry if previous is None else entry // previous
-    return found
+        entries[j] = entry if previous is None else entry // previous
+    return entries
 
 
 def _primitive(row: Sequence[fmpz_mpoly]) -> list[fmpz_mpoly]:
@@ -141,8 +141,8 @@ def interpolated(values: Sequence[int], modulus: int) -> list[int]:
     powers = nmod_mat(
         count, count, [pow(x, j, modulus) for x in range(count) for j in range(count)], modulus
     )
-    found = powers.solve(nmod_mat(count, 1, list(values), modulus))
-    return [int(found[j, 0]) for j in range(count)]
+    solved = powers.solve(nmod_mat(count, 1, list(values), modulus))
+    return [int(solved[j, 0]) for j in range(count)]
 
 
 @dataclass(frozen=True)
@@ -153,17 +153,17 @@ class Tridiagonal(Generic[Ring]):
 
     diagonal: tuple[Ring, ...]
     off: tuple[Ring, ...]
-    one: Ring
+    unit: Ring
 
     @cached_property
     def leading(self) -> list[Ring]:
         """leading[i] = determinant of the first i rows and columns."""
-        return _minors(self.diagonal, self.off, self.one)
+        return _minors(self.diagonal, self.off, self.unit)
 
     @cached_property
     def trailing(self) -> list[Ring]:
         """trailing[i] = determinant of rows and columns i, i+1, ..., n-1."""
-        return _minors(self.diagonal[::-1], self.off[::-1], self.one)[::-1]
+        return _minors(self.diagonal[::-1], self.off[::-1], self.unit)[::-1]
 
     @property
     def determinant(self) -> Ring:
@@ -173,7 +173,7 @@ class Tridiagonal(Generic[Ring]):
     def adjugate_column(self, column: int) -> list[Ring]:
         """adj A[:, column], by two running products."""
         n = len(self.diagonal)
-        entries = [self.one] * n
+        entries = [self.unit] * n
         run = self.trailing[column + 1]
         for row in range(column, -1, -1):
             run = run if row == column else run * self.off[row]
@@ -193,8 +193,8 @@ class Tridiagonal(Generic[Ring]):
         return self.leading[row] * self.off[row] * self.trailing[row + 2]
 
 
-def _minors(diagonal: tuple[Ring, ...], off: tuple[Ring, ...], one: Ring) -> list[Ring]:
-    minors = [one]
+def _minors(diagonal: tuple[Ring, ...], off: tuple[Ring, ...], unit: Ring) -> list[Ring]:
+    minors = [unit]
     for i, entry in enumerate(diagonal):
         grown = entry * minors[-1]
         minors.append(grown - off[i - 1] * off[i - 1] * minors[-2] if i else grown)
@@ -210,12 +210,12 @@ def minors(rows: Sequence[Sequence[fmpz_mpoly]], start: Minors, times: Times = m
     >>> str(minors([[a, b], [b, a]], {0: a**0})[0b11])
     'a^2 - b^2'
     """
-    found = start
+    whole = start
     for row in rows:
-        found = _with_row(
-            found, [(j, entry) for j, entry in enumerate(row) if not entry.is_zero()], times
+        whole = _with_row(
+            whole, [(j, entry) for j, entry in enumerate(row) if not entry.is_zero()], times
         )
-    return found
+    return whole
 
 
 def _with_row(above: Minors, entries: list[tuple[int, fmpz_mpoly]], times: Times) -> Minors:

@@ -57,19 +57,19 @@ def _flats(matrix: Words, bits: Words, modulus: int) -> list[Flat]:
     sparsest = int(np.count_nonzero(matrix, axis=1).argmin())
     inside = matrix[sparsest] == 0
     rest = np.delete(matrix, sparsest, axis=0)[:, inside]
-    found = _flats(rest, bits[inside], modulus)
-    if (k > 2 and rest.all(axis=0).any()) or _has_circuit(bits[inside], k, found):
-        found.append((int(bits[inside].sum()), k - 1))
+    flats = _flats(rest, bits[inside], modulus)
+    if (k > 2 and rest.all(axis=0).any()) or _has_circuit(bits[inside], k, flats):
+        flats.append((int(bits[inside].sum()), k - 1))
     outside = int(np.count_nonzero(~inside))
     order = np.argsort(inside, kind="stable")
     matrix, bits = matrix[:, order], bits[order]
     for dependent in _crossing(_mixed(matrix, modulus), bits, outside, modulus):
-        for flat in found:
+        for flat in flats:
             dependent = _unexplained(dependent, *flat)
         while dependent.size:
-            found.append(_spanned(matrix, bits, int(dependent[0]), modulus))
-            dependent = _unexplained(dependent, *found[-1])
-    return found
+            flats.append(_spanned(matrix, bits, int(dependent[0]), modulus))
+            dependent = _unexplained(dependent, *flats[-1])
+    return flats
 
 
 def _has_circuit(bits: Words, size: int, flats: list[Flat]) -> bool:
@@ -140,28 +140,28 @@ def _closed(sets: Words, reduced: Words, bits: Words) -> Words:
     return closed
 
 
-def _quotients(one: Words, others: Words, modulus: int) -> Words:
-    """The columns `others` (columns, rows, b) modulo `one` (rows, b): a row less."""
+def _quotients(row: Words, others: Words, modulus: int) -> Words:
+    """The columns `others` (columns, rows, b) modulo `row` (rows, b): a row less."""
     q = np.uint64(modulus)
-    if (one[0] == 0).any():
-        one, others = _pivot_first(one, others)
-    product: Words = one[0] * others[:, 1:]
-    product += (q - one[1:]) * others[:, :1]
+    if (row[0] == 0).any():
+        row, others = _pivot_first(row, others)
+    product: Words = row[0] * others[:, 1:]
+    product += (q - row[1:]) * others[:, :1]
     product -= product // q * q  # half the time of a remainder
     return product
 
 
-def _pivot_first(one: Words, others: Words) -> tuple[Words, Words]:
-    """Both with rows exchanged so that `one` starts with a number other than zero if it has any."""
-    one, others = one.copy(), others.copy()
-    place = np.flatnonzero(one[0] == 0)
-    source = (one[:, place] != 0).argmax(axis=0)
-    for block in (one[None], others):
+def _pivot_first(row: Words, others: Words) -> tuple[Words, Words]:
+    """Both with rows exchanged so that `row` starts with a number other than zero if it has any."""
+    row, others = row.copy(), others.copy()
+    place = np.flatnonzero(row[0] == 0)
+    source = (row[:, place] != 0).argmax(axis=0)
+    for block in (row[None], others):
         block[:, 0, place], block[:, source, place] = (
             block[:, source, place],
             block[:, 0, place],
         )
-    return one, others
+    return row, others
 
 
 def _mixed(matrix: Words, modulus: int) -> Words:

@@ -43,8 +43,8 @@ class Notation:
         """A rational function factorised, a sum term by term."""
         if not isinstance(of, RationalFunction):
             return self._sum(of)
-        number, found = _factorised(of)
-        return self.product(number, [(str(p) if len(p) == 1 else terms(p), e) for p, e in found])
+        number, powers = _factorised(of)
+        return self.product(number, [(str(p) if len(p) == 1 else terms(p), e) for p, e in powers])
 
     def product(self, number: Fraction, powers: Sequence[Power]) -> str:
         """A number times powers."""
@@ -69,10 +69,10 @@ class Notation:
             text = self.sum.format(text)
         return text if exponent == 1 else self.power.format(text, exponent)
 
-    def _sum(self, found: Sum) -> str:
+    def _sum(self, products: Sum) -> str:
         text = "".join(
             (" - " if c < 0 else " + ") + self.product(Fraction(abs(c)), list(powers.items()))
-            for c, powers in found
+            for c, powers in products
         )
         return (self.minus if text.startswith(" - ") else "") + (text[3:] or "0")
 
@@ -112,9 +112,9 @@ def text_in_s(
 
 def _in_s(coefficients: Sequence[Polynomial], power: Callable[[int], str]) -> Iterator[Term]:
     """The terms of a polynomial in s; sums in brackets, and powers of s, are symbols."""
-    for i, found in enumerate(map(terms, coefficients)):
-        in_brackets: Sum = [(1, {TEXT.sum.format(text(found)): 1})]
-        for number, powers in in_brackets if i and len(found) > 1 else found:
+    for i, products_in_s in enumerate(map(terms, coefficients)):
+        in_brackets: Sum = [(1, {TEXT.sum.format(text(products_in_s)): 1})]
+        for number, powers in in_brackets if i and len(products_in_s) > 1 else products_in_s:
             yield number, {**powers, power(i): 1} if power(i) else powers
 
 
@@ -135,8 +135,8 @@ def expression(of: RationalFunction | Sum) -> Expr:
 
     if not isinstance(of, RationalFunction):
         return Add(*(Mul(c, *(symbol(n) ** e for n, e in powers.items())) for c, powers in of))
-    number, found = _factorised(of)
-    return Mul(Rational(number), *(expression(terms(p)) ** e for p, e in found))
+    number, factored = _factorised(of)
+    return Mul(Rational(number), *(expression(terms(p)) ** e for p, e in factored))
 
 
 def _factorised(of: RationalFunction) -> tuple[Fraction, list[tuple[Polynomial, int]]]:

@@ -40,13 +40,13 @@ def content(polynomial: Polynomial) -> Content:
     return polynomial.context().names(), entries
 
 
-def polynomial_of(known: Content) -> Polynomial:
+def polynomial_of(entries_of: Content) -> Polynomial:
     """The polynomial of this content.
 
     >>> polynomial_of((("m1", "k12"), (((1, 0), -2), ((0, 1), 1))))
     -2*m1 + k12
     """
-    names, entries = known
+    names, entries = entries_of
     return fmpz_mpoly_ctx.get(names, Ordering.lex).from_dict(dict(entries))
 
 
@@ -86,10 +86,10 @@ def terms(polynomial: fmpz_mpoly) -> list[Term]:
     [(-2, {'m1': 2}), (1, {'k12': 1})]
     """
     names = polynomial.context().names()
-    found = polynomial.terms()
+    pairs = polynomial.terms()
     return [
         (int(c), {name: int(e) for name, e in zip(names, powers, strict=True) if e})
-        for powers, c in found
+        for powers, c in pairs
     ]
 
 
@@ -97,8 +97,8 @@ def factors(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
     """The integer content with sign, and the irreducible factors with exponents, single symbols
     first.
     """
-    content, found = factored(polynomial)
-    return content, sorted(found, key=lambda pe: (len(pe[0]), str(pe[0])))
+    content, powers = factored(polynomial)
+    return content, sorted(powers, key=lambda pe: (len(pe[0]), str(pe[0])))
 
 
 def factored(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
@@ -114,19 +114,19 @@ def factored(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]
     (6, [(x - 1000000000, 1), (x + 3000000000, 1), (x + 1, 2)])
     """
     try:
-        number, found = polynomial.factor()
+        number, powers = polynomial.factor()
     except OverflowError:
         return _over_rationals(polynomial)
-    return int(number), [(factor, int(power)) for factor, power in found]
+    return int(number), [(factor, int(power)) for factor, power in powers]
 
 
 def _over_rationals(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
     ring = polynomial.context()
     field = fmpq_mpoly_ctx.get(ring.names(), ring.ordering())
-    number, found = field.from_dict(polynomial.to_dict()).factor()
+    number, powers = field.from_dict(polynomial.to_dict()).factor()
     return int(number), [
         (ring.from_dict({e: int(c) for e, c in factor.to_dict().items()}), power)
-        for factor, power in found
+        for factor, power in powers
     ]
 
 

@@ -52,7 +52,7 @@ def common_power(structure: Structure) -> int:
 @lru_cache(maxsize=REMEMBERED)
 def _powers(structure: Structure) -> tuple[Powers, int]:
     sides = _at_ones(structure) if is_sign_free(structure) else _written_out(structure)
-    num, den = ({i for i, known in enumerate(side) if known} for side in sides)
+    num, den = ({i for i, is_there in enumerate(side) if is_there} for side in sides)
     common = min(num | den)
     return (frozenset(i - common for i in num), frozenset(i - common for i in den)), common
 
@@ -67,7 +67,7 @@ def zeros(structure: Structure) -> frozenset[str]:
     """Labels of the coefficients (25) up to the degrees that vanish identically."""
     sides = zip("ba", powers(structure), strict=True)
     return frozenset(
-        f"{letter}{i}" for letter, known in sides for i in range(max(known)) if i not in known
+        f"{letter}{i}" for letter, side in sides for i in range(max(side)) if i not in side
     )
 
 
@@ -168,13 +168,13 @@ def quotient(
     structure: Arrangement,
     point: Sequence[int],
     modulus: int,
-    known: Mapping[str, int] = MappingProxyType({}),
+    constants: Mapping[str, int] = MappingProxyType({}),
 ) -> Quotient:
     """The transfer function (24), without dead time, in lowest terms at a point given in the
-    order of the parameters; `known` are residues of what has a known size, by name.
+    order of the parameters; `constants` are residues of what has a known size, by name.
     """
     values = values_at(structure, point, lambda number: constant(number, modulus))
-    values |= {name: constant(number, modulus) for name, number in known.items()}
+    values |= {name: constant(number, modulus) for name, number in constants.items()}
     rational = receptance(structure, values, variable(modulus), constant(1, modulus))
     order, names = structure.sensor_order, [p for p in structure.parameters if p != "Td"]
     return lowest_terms(

@@ -134,8 +134,10 @@ def coefficients_have_rank(
     `rank_is_at_most`, of a single transfer function. False says nothing. Raises OutOfTimeError.
     """
     if not labels:
-        every = [(one, 1, bottom[-1]) for top, bottom in entries for one in (*top, *bottom[:-1])]
-        return rank([_row(names, units, *one) for one in every], seconds) <= most
+        every = [
+            (ratio, 1, bottom[-1]) for top, bottom in entries for ratio in (*top, *bottom[:-1])
+        ]
+        return rank([_row(names, units, *ratio) for ratio in every], seconds) <= most
     ((top, bottom),) = entries
     lead = bottom[-1]
     if all(name[0] == "G" and name != "G0" for name in labels):
@@ -170,13 +172,13 @@ def _strictly_proper(tops: Sequence[fmpz_mpoly], bottoms: Sequence[fmpz_mpoly]) 
 def _markov(number: int, tops: Sequence[fmpz_mpoly], bottoms: Sequence[fmpz_mpoly]) -> fmpz_mpoly:
     """g_k by the recursion."""
     lead, m, zero = bottoms[-1], len(bottoms) - 1, 0 * bottoms[0]
-    found: list[fmpz_mpoly] = []
+    parameters: list[fmpz_mpoly] = []
     for k in range(number + 1):
         g = lead**k * (tops[m - k] if 0 <= m - k < len(tops) else zero)
         for i in range(1, min(k, m) + 1):
-            g -= bottoms[m - i] * lead ** (i - 1) * found[k - i]
-        found.append(g)
-    return found[number]
+            g -= bottoms[m - i] * lead ** (i - 1) * parameters[k - i]
+        parameters.append(g)
+    return parameters[number]
 
 
 def _row(
@@ -189,9 +191,10 @@ def _row(
     """Gradient of top / lead^power, times lead^(power+1), in the units in which those parameters
     are one.
     """
-    one = dict(units)
-    value, below = (p.subs(one) for p in (top, lead))
+    unknowns = dict(units)
+    value, below = (p.subs(unknowns) for p in (top, lead))
     return [
-        top.derivative(name).subs(one) * below - power * value * lead.derivative(name).subs(one)
+        top.derivative(name).subs(unknowns) * below
+        - power * value * lead.derivative(name).subs(unknowns)
         for name in names
     ]

@@ -84,7 +84,7 @@ def profile(
     and one with a small prime.
     """
     markov = count if representation is Representation.MARKOV else None
-    size, known = model.minor_size(markov), model.constants(markov)
+    size, constants = model.minor_size(markov), model.constants(markov)
     points = enough(size, settings.points)
     seen = list(samples(model, representation, count, points, settings.seed))
     searches = (
@@ -93,15 +93,15 @@ def profile(
     )
     settings = replace(settings, subset_limit=min(settings.subset_limit, model.most_subsets))
     degrees = tuple(chain.from_iterable(model.degrees))
-    found = from_samples(
-        seen, searches, frozenset(known), degrees, count, model.n_states, size, settings
+    sampled = from_samples(
+        seen, searches, frozenset(constants), degrees, count, model.n_states, size, settings
     )
-    values = zip(found.labels, found.constants, strict=True)
+    values = zip(sampled.labels, sampled.constants, strict=True)
     return replace(
-        found,
+        sampled,
         representation=representation,
-        constants=tuple(known.get(name, value) for name, value in values),
-        safety=found.safety - model.lost_bits * points,
+        constants=tuple(constants.get(name, value) for name, value in values),
+        safety=sampled.safety - model.lost_bits * points,
     )
 
 
@@ -194,7 +194,9 @@ def _constants_known(labels: Sequence[str], free: Sequence[bool], proven: frozen
     """Whether all rows that look constant are proven to be: then no more rows than the free
     ones can be independent.
     """
-    return all(known or label in proven for label, known in zip(labels, free, strict=True))
+    return all(
+        is_constant or label in proven for label, is_constant in zip(labels, free, strict=True)
+    )
 
 
 def _matroid(

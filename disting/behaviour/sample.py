@@ -111,23 +111,21 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
     A dead time adds itself as one more invariant: exp(-Td s) is no rational function, so both
     factors are determined.
     """
-    found, model = _rows(where, representation, count), where.model
+    rows, model = _rows(where, representation, count), where.model
     n = len(where.point)
-    if model.dead_time and found:
-        found = {name: (value, [*row, 0]) for name, (value, row) in found.items()}
-        found["Td"] = (where.point[-1], [0] * (n - 1) + [1])
-    values = tuple(value for value, _ in found.values())
-    return Sample(
-        tuple(found), values, tuple(tuple(r) for _, r in found.values()), n, where.modulus
-    )
+    if model.dead_time and rows:
+        rows = {name: (value, [*row, 0]) for name, (value, row) in rows.items()}
+        rows["Td"] = (where.point[-1], [0] * (n - 1) + [1])
+    values = tuple(value for value, _ in rows.values())
+    return Sample(tuple(rows), values, tuple(tuple(r) for _, r in rows.values()), n, where.modulus)
 
 
 def coefficient_columns(where: Drawn) -> Columns:
     """Values and Jacobian columns of all coefficients at a point, each denominator monic."""
-    known = [row for q in where.quotients if q is not None for row in _terms(q).values()]
-    columns = [tuple(row[j] for _, row in known) for j in range(len(known[0][1]) if known else 0)]
-    still = [(0,) * len(known)] * (len(where.point) - len(columns))
-    return tuple(value for value, _ in known), columns + still
+    rows = [row for q in where.quotients if q is not None for row in _terms(q).values()]
+    columns = [tuple(row[j] for _, row in rows) for j in range(len(rows[0][1]) if rows else 0)]
+    still = [(0,) * len(rows)] * (len(where.point) - len(columns))
+    return tuple(value for value, _ in rows), columns + still
 
 
 def label(name: str, at: int, shared: int | None) -> str:
@@ -148,7 +146,7 @@ def shared_poles(degrees: Sequence[Degrees], at: int) -> int | None:
 
 def _rows(where: Drawn, representation: Representation, count: int) -> dict[str, Derivatives]:
     """The invariants of all transfer functions but the dead time."""
-    found: dict[str, Derivatives] = {}
+    rows: dict[str, Derivatives] = {}
     for i, q in enumerate(where.quotients):
         if q is None:
             continue
@@ -161,8 +159,8 @@ def _rows(where: Drawn, representation: Representation, count: int) -> dict[str,
             named = _terms(q) if first is None else _less(_terms(q), _terms(first), where.modulus)
         if not where.model.is_numbered:
             return named
-        found |= {label(name, i, shared): row for name, row in named.items()}
-    return found
+        rows |= {label(name, i, shared): row for name, row in named.items()}
+    return rows
 
 
 def _degrees(q: Quotient | None) -> Degrees:
@@ -196,6 +194,6 @@ def _less(
     }
 
 
-def _difference(one: Derivatives, other: Derivatives, modulus: int) -> Derivatives:
-    (value, row), (less, slopes) = one, other
+def _difference(minuend: Derivatives, other: Derivatives, modulus: int) -> Derivatives:
+    (value, row), (less, slopes) = minuend, other
     return (value - less) % modulus, [(x - y) % modulus for x, y in zip(row, slopes, strict=True)]

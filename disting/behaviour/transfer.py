@@ -95,36 +95,36 @@ class _RowMatrix(Generic[Ring]):
 
 
 def receptance(
-    structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
+    structure: Arrangement, values: Mapping[str, Ring], s: Ring, unit: Ring
 ) -> Rational[Ring]:
-    """num, den and gradients at the given parameter values (ring elements); `s` and `one` belong
+    """num, den and gradients at the given parameter values (ring elements); `s` and `unit` belong
     to the same ring.
 
     Rows without a port do not contribute and are left out, so their parameters have zero
     gradients.
     """
-    rows = _matrices(structure, values, s, one)
-    den, num = _sum(rows, one)
-    zero = one - one
+    rows = _matrices(structure, values, s, unit)
+    den, num = _sum(rows, unit)
+    zero = unit - unit
     num_gradient, den_gradient = (
         {p: zero for p in structure.parameters if p != "Td"} for _ in range(2)
     )
     for row in rows:
-        others, rest = _sum([other for other in rows if other is not row], one)
+        others, rest = _sum([other for other in rows if other is not row], unit)
         for element in row.elements:
             d_num, d_den = _gradient(row, element, s)
             num_gradient[element.parameter] = d_num * others + d_den * rest
             den_gradient[element.parameter] = d_den * others
     plain = Rational(num, den, num_gradient, den_gradient)
-    return _lagged(plain, values["T1"], s, one) if structure.lag else plain
+    return _lagged(plain, values["T1"], s, unit) if structure.lag else plain
 
 
 def plain_receptance(
-    structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
+    structure: Arrangement, values: Mapping[str, Ring], s: Ring, unit: Ring
 ) -> tuple[Ring, Ring]:
     """num and den of `receptance` without the gradients, which are most of its work."""
-    den, num = _sum(_matrices(structure, values, s, one), one)
-    return num, den * (one + values["T1"] * s) if structure.lag else den
+    den, num = _sum(_matrices(structure, values, s, unit), unit)
+    return num, den * (unit + values["T1"] * s) if structure.lag else den
 
 
 def values_at(
@@ -135,9 +135,9 @@ def values_at(
 
 
 def _matrices(
-    structure: Arrangement, values: Mapping[str, Ring], s: Ring, one: Ring
+    structure: Arrangement, values: Mapping[str, Ring], s: Ring, unit: Ring
 ) -> list[_RowMatrix[Ring]]:
-    return [_matrix(structure, ends, values, s, one) for ends in touched(structure)]
+    return [_matrix(structure, ends, values, s, unit) for ends in touched(structure)]
 
 
 def touched(structure: Arrangement) -> tuple[tuple[int, int], ...]:
@@ -148,12 +148,12 @@ def touched(structure: Arrangement) -> tuple[tuple[int, int], ...]:
 
 
 def _matrix(
-    structure: Arrangement, ends: tuple[int, int], values: Mapping[str, Ring], s: Ring, one: Ring
+    structure: Arrangement, ends: tuple[int, int], values: Mapping[str, Ring], s: Ring, unit: Ring
 ) -> _RowMatrix[Ring]:
     first, last = ends
     elements = tuple(e for e in structure.elements if _nodes(e, ends))
-    powers = [one, s, s * s]
-    diagonal, off = [one - one] * (last - first + 1), [one - one] * (last - first)
+    powers = [unit, s, s * s]
+    diagonal, off = [unit - unit] * (last - first + 1), [unit - unit] * (last - first)
     for e in elements:
         term = values[e.parameter] * powers[power(e)]
         nodes = _nodes(e, ends)
@@ -161,7 +161,7 @@ def _matrix(
             diagonal[node - first] = diagonal[node - first] + term
         if len(nodes) == 2:
             off[e.at - first] = off[e.at - first] + term
-    matrix = Tridiagonal(tuple(diagonal), tuple(off), one)
+    matrix = Tridiagonal(tuple(diagonal), tuple(off), unit)
     p = structure.ports
     ports = (p.act_plus - first, p.act_minus - first, p.meas_plus - first, p.meas_minus - first)
     return _RowMatrix(first, matrix, ports, elements)
@@ -206,15 +206,15 @@ def _gradient(row: _RowMatrix[Ring], element: Element, s: Ring) -> tuple[Ring, R
     return d_num, square
 
 
-def _sum(rows: Sequence[_RowMatrix[Ring]], one: Ring) -> tuple[Ring, Ring]:
+def _sum(rows: Sequence[_RowMatrix[Ring]], unit: Ring) -> tuple[Ring, Ring]:
     """Product of the determinants, and the numerator of the sum of the receptances over it."""
-    num, den = one - one, one
+    num, den = unit - unit, unit
     for row in rows:
         num, den = num * row.matrix.determinant + row.num * den, den * row.matrix.determinant
     return den, num
 
 
-def _lagged(plain: Rational[Ring], time_constant: Ring, s: Ring, one: Ring) -> Rational[Ring]:
-    factor = one + time_constant * s
+def _lagged(plain: Rational[Ring], time_constant: Ring, s: Ring, unit: Ring) -> Rational[Ring]:
+    factor = unit + time_constant * s
     gradient = {name: d * factor for name, d in plain.den_gradient.items()} | {"T1": s * plain.den}
     return Rational(plain.num, plain.den * factor, plain.num_gradient, gradient)

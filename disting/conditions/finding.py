@@ -114,7 +114,7 @@ def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
 
     Raises ContradictionError where one side has equivalents and the other has none.
     """
-    shares, known = {left.share, right.share}, [x for x in (left, right) if x.certainty]
+    shares, graded_ways = {left.share, right.share}, [x for x in (left, right) if x.certainty]
     if Share.NEVER in shares and shares & {Share.ALWAYS, Share.SOMETIMES}:
         raise ContradictionError(
             f"positive equivalents {left.share} one way and {right.share} the other"
@@ -129,7 +129,7 @@ def positive_ways(left: PositiveFinding, right: PositiveFinding) -> Finding:
             Outcome.ABANDONED,
             note=f"whether equivalents are positive is not known: {reasons}",
         )
-    certainty, safety = weakest(*((x.certainty, x.safety) for x in known if x.certainty))
+    certainty, safety = weakest(*((x.certainty, x.safety) for x in graded_ways if x.certainty))
     return Finding(
         rule=ADMISSIBLE,
         outcome=SAME[both.share],

@@ -62,8 +62,8 @@ class InclusionFinding:
     reason: str = ""
 
     def __post_init__(self) -> None:
-        known = self.inclusion is not Inclusion.UNKNOWN
-        if (self.evidence is not None, self.certainty is not None) != (known, known):
+        is_known = self.inclusion is not Inclusion.UNKNOWN
+        if (self.evidence is not None, self.certainty is not None) != (is_known, is_known):
             raise ValueError("exactly a finding that is not unknown carries certainty and evidence")
         withhold(
             self,
@@ -95,12 +95,12 @@ class Inclusions:
         image, closure = self.image, self.closure
         equivalents = ((Inside.EQUIVALENT,), (Inside.NO_EQUIVALENT, Inside.NO_LIMIT))
         limits = ((Inside.EQUIVALENT, Inside.LIMIT), (Inside.NO_LIMIT,))
-        for found, proofs in ((image, equivalents), (closure, limits)):
-            proof = proofs[found.inclusion is Inclusion.NEITHER]
-            if found.evidence is not None and found.evidence.inside not in proof:
+        for finding, proofs in ((image, equivalents), (closure, limits)):
+            proof = proofs[finding.inclusion is Inclusion.NEITHER]
+            if finding.evidence is not None and finding.evidence.inside not in proof:
                 raise ValueError(
-                    f"evidence of kind {found.evidence.kind} does not prove {found.inclusion} in"
-                    " this sense"
+                    f"evidence of kind {finding.evidence.kind} does not prove {finding.inclusion}"
+                    " in this sense"
                 )
         if image.inclusion in ONE_SIDED and closure.inclusion is not image.inclusion:
             raise ValueError("equivalents are limits")
@@ -153,13 +153,13 @@ _AS_LIMIT = {
 }
 
 
-def inclusion_to_dict(found: InclusionFinding) -> dict[str, object]:
+def inclusion_to_dict(finding: InclusionFinding) -> dict[str, object]:
     """Plain data, ready for JSON."""
-    certainty = found.certainty.value if found.certainty else ""
-    head = {"inclusion": found.inclusion.value, "certainty": certainty, "safety": found.safety}
+    certainty = finding.certainty.value if finding.certainty else ""
+    head = {"inclusion": finding.inclusion.value, "certainty": certainty, "safety": finding.safety}
     return head | {
-        "evidence": found.evidence.to_dict() if found.evidence else {},
-        "reason": found.reason,
+        "evidence": finding.evidence.to_dict() if finding.evidence else {},
+        "reason": finding.reason,
     }
 
 
@@ -177,14 +177,16 @@ def inclusion_from_dict(data: dict[str, object]) -> InclusionFinding:
     )
 
 
-def inclusions_to_dict(found: Inclusions) -> dict[str, object]:
+def inclusions_to_dict(inclusions: Inclusions) -> dict[str, object]:
     """Plain data: `closure`, and `image` where it has another finding (what is no limit has no
     equivalent either).
     """
     same = (
-        {} if found.image == found.closure else {Sense.IMAGE.value: inclusion_to_dict(found.image)}
+        {}
+        if inclusions.image == inclusions.closure
+        else {Sense.IMAGE.value: inclusion_to_dict(inclusions.image)}
     )
-    return {Sense.CLOSURE.value: inclusion_to_dict(found.closure), **same}
+    return {Sense.CLOSURE.value: inclusion_to_dict(inclusions.closure), **same}
 
 
 def inclusions_from_dict(data: dict[str, object]) -> Inclusions:

@@ -105,9 +105,11 @@ def condition_5(left: Profile, right: Profile) -> Finding:
     if isinstance(left.matroid, Unsearched) or isinstance(right.matroid, Unsearched):
         reasons = [p.matroid.reason for p in (left, right) if isinstance(p.matroid, Unsearched)]
         return Finding(DEPENDENCES, Outcome.ABANDONED, note=reasons[0])
-    one, other = _restricted(left, left.matroid), _restricted(right, right.matroid)
+    mine, theirs = _restricted(left, left.matroid), _restricted(right, right.matroid)
     outcome, evidence = (
-        (Outcome.HOLDS, None) if one == other else (Outcome.FAILS, _unequal_rows(left, one, other))
+        (Outcome.HOLDS, None)
+        if mine == theirs
+        else (Outcome.FAILS, _unequal_rows(left, mine, theirs))
     )
     return Finding(DEPENDENCES, outcome, *dependence_grade(left, right), evidence)
 
@@ -154,11 +156,11 @@ def _restricted(profile: Profile, shape: Matroid) -> Matroid:
     )
 
 
-def _unequal_rows(left: Profile, one: Matroid, other: Matroid) -> Evidence:
+def _unequal_rows(left: Profile, mine: Matroid, theirs: Matroid) -> Evidence:
     labels = _ordered(left, left.form)
-    rows = separating_rows(one, other)
+    rows = separating_rows(mine, theirs)
     return Ranks(
-        tuple(labels[i] for i in rows), rank_in(one, rows), rank_in(other, rows), all_rows=False
+        tuple(labels[i] for i in rows), rank_in(mine, rows), rank_in(theirs, rows), all_rows=False
     )
 
 

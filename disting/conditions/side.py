@@ -104,8 +104,8 @@ class Side(ABC, Generic[S]):
     def profile(self, representation: Representation, count: int) -> Profile:
         """What it reveals in a representation, with so many Markov parameters."""
         if (representation, count) not in self._known:
-            found = self.source(self.profiled, representation, count, self.settings)
-            self._known[representation, count] = found
+            answer = self.source(self.profiled, representation, count, self.settings)
+            self._known[representation, count] = answer
         return self._known[representation, count]
 
     def sketch(self, representation: Representation, count: int) -> Profile:
@@ -179,7 +179,7 @@ class Side(ABC, Generic[S]):
         """Whether evidence of an inclusion is true of both, seen anew."""
         return False
 
-    def proves(self, other: Self, found: PositiveFinding) -> bool:
+    def proves(self, other: Self, finding: PositiveFinding) -> bool:
         """Whether evidence on the positive equivalents of the one in the other is true."""
         return False
 

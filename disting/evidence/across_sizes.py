@@ -67,8 +67,8 @@ class Limit(Kind):
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         path = "; ".join(part.sentence for part in self.parts)
         same = [
-            f"{name} being the same as the chain {given}"
-            for name, given in self._replaced(smaller, larger)
+            f"{name} being the same as the chain {shape}"
+            for name, shape in self._replaced(smaller, larger)
         ]
         why = f" ({' and '.join(same)})" if same else ""
         how = "masses of a row numbered from 1 at each step"
@@ -83,9 +83,9 @@ class Limit(Kind):
 
     def _replaced(self, smaller: str, larger: str) -> list[tuple[str, tuple[int, ...]]]:
         return [
-            (name, given)
-            for name, given in ((smaller, self.smaller), (larger, self.larger))
-            if given
+            (name, shape)
+            for name, shape in ((smaller, self.smaller), (larger, self.larger))
+            if shape
         ]
 
 
@@ -157,11 +157,11 @@ class PoleSharing(Kind):
     def sentence(self, left: str, right: str) -> str:
         """What is impossible."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        found = "A model" if len(self.points) == 1 else f"Each of {len(self.points)} models"
+        subject = "A model" if len(self.points) == 1 else f"Each of {len(self.points)} models"
         row = "" if len(self.points) == 1 else " that its grounded row can have"
         return (
-            f"{found} of {smaller} given in numbers is no limit of {larger}: no distribution of the"
-            f" poles to its two rows gives the zeros{row}."
+            f"{subject} of {smaller} given in numbers is no limit of {larger}: no distribution of"
+            f" the poles to its two rows gives the zeros{row}."
         )
 
 
@@ -186,7 +186,7 @@ class LimitFibre(Kind):
     def sentence(self, left: str, right: str) -> str:
         """The limits, and what was computed."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        given, searched = (smaller, "the limit") if self.small_given else ("the limit", smaller)
+        source, searched = (smaller, "the limit") if self.small_given else ("the limit", smaller)
         rows = [
             f"{', then '.join(f'{e} {_WORDS[x]}' for e, x in path)} in the {name} row"
             for name, path in self.steps
@@ -194,7 +194,7 @@ class LimitFibre(Kind):
         ]
         return (
             f"{smaller} is part of a limit of {larger} with"
-            f" {' and '.join(rows) or 'a row at rest'}: for random parameters of {given} modulo"
+            f" {' and '.join(rows) or 'a row at rest'}: for random parameters of {source} modulo"
             f" random primes, parameters of {searched} with the same transfer function were"
             " computed."
         )

@@ -56,7 +56,7 @@ class Counts(Kind):
         """Number of the first transfer function, from 0, of which the degrees differ, and both."""
         sides = ([s[i : i + 2] for i in range(0, len(s), 2)] for s in (self.left, self.right))
         pairs = list(enumerate(zip(*sides, strict=True)))
-        return next((found for found in pairs if found[1][0] != found[1][1]), pairs[0])
+        return next((pair for pair in pairs if pair[1][0] != pair[1][1]), pairs[0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ class Forms(Kind):
     def sentence(self, left: str, right: str) -> str:
         """Which invariants vary on one side only."""
         sides = ((self.only_left, left, right), (self.only_right, right, left))
-        parts = [_varies(labels, here, there) for labels, here, there in sides if labels]
+        parts = [_varies(labels, first, second) for labels, first, second in sides if labels]
         why = f": {TRANSCENDENTAL}" if "Td" in (*self.only_left, *self.only_right) else ""
         return capital("; ".join(parts)) + why + "."
 
@@ -86,9 +86,9 @@ class Forms(Kind):
     def holds(self, pair: "SeenPair", representation: str) -> bool:
         """Whether they vary on one side only."""
         only = (*self.only_left, *self.only_right)
-        here, there = (side.free(representation, only) for side in pair.sides)
+        n_left, n_right = (side.free(representation, only) for side in pair.sides)
         left, right = set(self.only_left), set(self.only_right)
-        return bool(only) and left <= here - there and right <= there - here
+        return bool(only) and left <= n_left - n_right and right <= n_right - n_left
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,10 +119,10 @@ class Ranks(Kind):
 
     def holds(self, pair: "SeenPair", representation: str) -> bool:
         """Both ranks once more, of rows that there are."""
-        known = set[str]().union(*(s.labels(representation, self.rows) for s in pair.sides))
+        labels = set[str]().union(*(s.labels(representation, self.rows) for s in pair.sides))
         ranks = tuple(side.rank(representation, self.rows) for side in pair.sides)
-        told = (self.left, self.right)
-        return set(self.rows) <= known and ranks == told and self.left != self.right
+        stated = (self.left, self.right)
+        return set(self.rows) <= labels and ranks == stated and self.left != self.right
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,9 +271,11 @@ def _degrees_in_words(degrees: tuple[int, ...]) -> str:
     return f"a numerator of degree {n} over a denominator of degree {m}"
 
 
-def _varies(labels: Labels, here: str, there: str) -> str:
+def _varies(labels: Labels, first: str, second: str) -> str:
     depends, are = ("depends", "is") if len(labels) == 1 else ("depend", "are")
-    return f"{spelled(labels)} {depends} on the parameters in {here} but {are} constant in {there}"
+    return (
+        f"{spelled(labels)} {depends} on the parameters in {first} but {are} constant in {second}"
+    )
 
 
 def capital(text: str) -> str:

@@ -88,12 +88,12 @@ class Theorem(Kind):
 
     def shows(self, domain: Domain) -> Relation:
         """Of positive models of chains it is told which way they have equivalents (`BothWays`)."""
-        known = {
+        holds_over = {
             Domain.COMPLEX: True,
             Domain.REAL: self.name in RATIONAL,
             Domain.POSITIVE: self.name in ("Foster and Cauer", GEARS, INTERLACING, REPLACEMENT),
         }
-        return Relation.INDISTINGUISHABLE if known[domain] else Relation.UNDECIDED
+        return Relation.INDISTINGUISHABLE if holds_over[domain] else Relation.UNDECIDED
 
     def without_exception(self, domain: Domain) -> bool:
         """Symmetries of a chain carry all parameters over, and so do units. So does duality where
@@ -142,8 +142,8 @@ class FibreUnder(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """How many were listed and what refutes them."""
-        given, searched = (left, right) if self.left_given else (right, left)
-        start = f"For one choice of rational parameters of {given}, {searched} has "
+        source, searched = (left, right) if self.left_given else (right, left)
+        start = f"For one choice of rational parameters of {source}, {searched} has "
         if not self.missed:
             return f"{start}no parameters, real or complex, that fit experiment {self.listed}."
         count = len(self.missed)
@@ -177,15 +177,15 @@ class FibreAt(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """What the fibre shows."""
-        given, searched = (left, right) if self.left_given else (right, left)
+        source, searched = (left, right) if self.left_given else (right, left)
         if self.grounds == "refuted":
             return (
-                f"For one choice of rational parameters of {given} no parameters of {searched},"
+                f"For one choice of rational parameters of {source} no parameters of {searched},"
                 " real or complex, give the same transfer function: every branch of the inverse"
                 " synthesis is refuted."
             )
         return (
-            f"For one choice of rational parameters of {given}, parameters of {searched} with the"
+            f"For one choice of rational parameters of {source}, parameters of {searched} with the"
             f" same transfer function are proven to exist: {self.solutions} solutions listed,"
             f" {self.real} of them real, {self.positive} positive."
         )
@@ -248,11 +248,11 @@ class Excluded(Kind):
         if self.name not in _OBSTACLES:
             raise ValueError(f"nothing that excludes equivalents is called {self.name!r}")
 
-    def sentence(self, given: str, other: str) -> str:
+    def sentence(self, source: str, other: str) -> str:
         """What stands against equivalents."""
-        why = _OBSTACLES[self.name].format(given, other)
+        why = _OBSTACLES[self.name].format(source, other)
         return (
-            f"No generic positive parameters of {given} have a positive equivalent in {other}:"
+            f"No generic positive parameters of {source} have a positive equivalent in {other}:"
             f" {why}."
         )
 

@@ -70,10 +70,10 @@ class Explicit(OverDomain):
     def sentence(self, left: str, right: str) -> str:
         """One formula each way, and how many there are."""
         said = []
-        for way, given, searched in zip(BOTH, (left, right), (right, left), strict=True):
+        for way, source, searched in zip(BOTH, (left, right), (right, left), strict=True):
             every = [f for f in self.formulas if f[0] is way]
             more = f" ({len(every)} formulas for different parameters)" if len(every) > 1 else ""
-            said.append(f"{given} is {searched} at {_told(every[0], self.small(every[0]))}{more}")
+            said.append(f"{source} is {searched} at {_told(every[0], self.small(every[0]))}{more}")
         values = "" if self.without_exception(Domain.POSITIVE) else " but special ones"
         return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters{values}."
 
@@ -104,13 +104,13 @@ class NoEquivalent(OverDomain):
 
     def sentence(self, left: str, right: str) -> str:
         """What would have to hold."""
-        given, searched = (left, right) if self.left_given else (right, left)
+        source, searched = (left, right) if self.left_given else (right, left)
         whole = (c if set("<>=") & set(c) else f"{c} = 0" for c in self.contradictions[:SHOWN])
         first = (c if len(c) <= LONGEST else f"{c[:LONGEST]} .." for c in whole)
         some = " or ".join([*first, *[".."] * (len(self.contradictions) > SHOWN)])
         return (
-            f"{given} has no equivalent in {searched} with {self.domain} parameters: that asks for"
-            f" {some}, which is impossible (p0, p1, .. parameters of {given} by the alphabet, q0,"
+            f"{source} has no equivalent in {searched} with {self.domain} parameters: that asks for"
+            f" {some}, which is impossible (p0, p1, .. parameters of {source} by the alphabet, q0,"
             f" q1, .. those of {searched})."
         )
 
@@ -152,13 +152,13 @@ class Witnesses(OverDomain):
 
     def sentence(self, left: str, right: str) -> str:
         """Both points in words."""
-        given, searched = (left, right) if self.with_left_given else (right, left)
+        source, searched = (left, right) if self.with_left_given else (right, left)
         without, nowhere = (left, right) if self.without_left_given else (right, left)
         many = {-1: " (infinitely many complex)", -2: ""}.get(
             self.solutions, f" ({self.solutions} complex)"
         )
         return (
-            f"{given} at {_spelled(self.point_with)} is {searched} at {_spelled(self.equivalent)};"
+            f"{source} at {_spelled(self.point_with)} is {searched} at {_spelled(self.equivalent)};"
             f" {without} at {_spelled(self.point_without)} has no equivalent in {nowhere} with"
             f" {self.domain} parameters{many}; the same is true all around both points."
         )
@@ -182,9 +182,11 @@ class Replaced(Kind):
 
     def shows(self, domain: Domain) -> Relation:
         """What the inner one shows, of positive values: those theorems speak of no others."""
-        found = self.inner.shows(domain) if domain is Domain.POSITIVE else Relation.UNDECIDED
+        relation = self.inner.shows(domain) if domain is Domain.POSITIVE else Relation.UNDECIDED
         larger = self.left_larger or self.right_larger
-        return Relation.UNDECIDED if larger and found is not Relation.DISTINGUISHABLE else found
+        return (
+            Relation.UNDECIDED if larger and relation is not Relation.DISTINGUISHABLE else relation
+        )
 
     @property
     def title(self) -> str:
@@ -257,10 +259,10 @@ class OfPart(Kind):
         """SOMETIMES where the inner one shows that, by a point of the part without an equivalent:
         the whole may give what the part does not.
         """
-        known = domain is Domain.POSITIVE and self.inner.shows(domain) is Relation.SOMETIMES
-        found = witnesses_in(self.inner)
-        given = found is not None and found.without_left_given is self.left_is_part
-        return Relation.SOMETIMES if known and given else Relation.UNDECIDED
+        is_sometimes = domain is Domain.POSITIVE and self.inner.shows(domain) is Relation.SOMETIMES
+        witnesses = witnesses_in(self.inner)
+        is_of_part = witnesses is not None and witnesses.without_left_given is self.left_is_part
+        return Relation.SOMETIMES if is_sometimes and is_of_part else Relation.UNDECIDED
 
     @property
     def title(self) -> str:

@@ -37,9 +37,9 @@ class Solved(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """What was found."""
-        given, searched = (left, right) if self.left_given else (right, left)
+        source, searched = (left, right) if self.left_given else (right, left)
         return (
-            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a"
+            f"For {_times(len(self.labels), 'choice')} of random parameters of {source} modulo a"
             f" random prime, parameters of {searched} with exactly the same transfer function were"
             " computed."
         )
@@ -65,9 +65,9 @@ class Refuted(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """What was found."""
-        given, searched = (left, right) if self.left_given else (right, left)
+        source, searched = (left, right) if self.left_given else (right, left)
         return (
-            f"For {_times(len(self.labels), 'choice')} of random parameters of {given} modulo a"
+            f"For {_times(len(self.labels), 'choice')} of random parameters of {source} modulo a"
             f" random prime, no parameters of {searched}, in any extension, have the same transfer"
             f" function: the equations contradict each other in degree {self.degree}."
         )
@@ -118,22 +118,22 @@ class ByRows(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """What was found, row by row."""
-        given, searched = (left, right) if self.left_given else (right, left)
-        told = "; ".join(_told(step, searched) for step in self.steps)
+        source, searched = (left, right) if self.left_given else (right, left)
+        steps = "; ".join(_told(step, searched) for step in self.steps)
         if self.is_member:
             return (
                 f"Both rows of {searched} can have, at least in the limit, the receptances that"
-                f" add up to {given}: {told}."
+                f" add up to {source}: {steps}."
             )
         start = (
-            f"The poles of each row of a generic {given} stay together in an equivalent {searched}"
+            f"The poles of each row of a generic {source} stay together in an equivalent {searched}"
         )
         if not self.steps:
             return (
                 f"{start}, and no choice of rows has as many poles as the grounded row of"
                 f" {searched}."
             )
-        return f"{start}, so its rows have given receptances: {told}."
+        return f"{start}, so its rows have given receptances: {steps}."
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON: what is shown of a row stands beside its name."""
@@ -173,10 +173,10 @@ class Shared(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """What was found."""
-        given, searched = (left, right) if self.left_given else (right, left)
+        source, searched = (left, right) if self.left_given else (right, left)
         where = f"The {self.part} rows decide, the others are the same. " if self.part else ""
         return (
-            f"{where}For one choice of random parameters of {given} modulo a random prime, no"
+            f"{where}For one choice of random parameters of {source} modulo a random prime, no"
             f" parameters of {searched}, in any extension, have the same receptance: each of the"
             f" {self.shares} ways in which the numerator's roots could be shared out among its"
             " factors leads to a contradiction."
@@ -201,12 +201,12 @@ class FullRows(Kind):
     def sentence(self, left: str, right: str) -> str:
         """Row by row."""
         rows = zip(("grounded", "free"), self.free, strict=True)
-        told = [
+        same = [
             f"the {name} rows are equal" if n == SAME else f"both {name} rows {_FULL.format(n)}"
             for name, n in rows
         ]
         return (
-            f"In {left} and {right} {' and '.join(told)}, so each can have the rows of the other."
+            f"In {left} and {right} {' and '.join(same)}, so each can have the rows of the other."
         )
 
     @property
@@ -230,16 +230,16 @@ def _told(step: RowStep, searched: str) -> str:
     row = f"the {step.part} row of {searched}"
     match step.shown:
         case Vanishing():
-            found = (
+            statement = (
                 f"Markov parameter {step.shown.index} of {row} is a product of elements and had to"
                 " be zero, or the reverse"
             )
         case Solved():
-            found = (
+            statement = (
                 f"{row} was solved for {len(step.shown.labels)} random receptances modulo random"
                 " primes"
             )
-    return f"{_SPLITS[step.split]}, {found}"
+    return f"{_SPLITS[step.split]}, {statement}"
 
 
 _SPLITS = {

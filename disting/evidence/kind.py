@@ -200,8 +200,8 @@ def is_well_typed(evidence: Any) -> bool:
     file holds may be anything. None is no evidence.
     """
     kind: Any = type(evidence)
-    known = {} if evidence is None else _hints(kind)
-    return all(_is_of(getattr(evidence, name), hint) for name, hint in known.items())
+    hints = {} if evidence is None else _hints(kind)
+    return all(_is_of(getattr(evidence, name), hint) for name, hint in hints.items())
 
 
 @cache
@@ -213,7 +213,7 @@ def _hints(kind: Any) -> dict[str, Any]:
 
 def _is_of(value: Any, hint: Any) -> bool:
     if get_origin(hint) in (Union, UnionType):
-        return any(_is_of(value, one) for one in get_args(hint))
+        return any(_is_of(value, option) for option in get_args(hint))
     if get_origin(hint) is tuple:
         return isinstance(value, tuple) and _items_are_of(value, get_args(hint))
     if hint in (int, bool, str):

@@ -68,13 +68,13 @@ def evidence_from(data: dict[str, Any]) -> Evidence:
     """Evidence of a verdict from plain data; raises KeyError, TypeError or ValueError for what
     is none.
     """
-    found: Evidence = read(data, get_args(Evidence))
-    return found
+    evidence: Evidence = read(data, get_args(Evidence))
+    return evidence
 
 
 def inclusion_evidence_from(data: dict[str, Any]) -> InclusionEvidence:
     """Evidence of an inclusion from plain data; raises KeyError, TypeError or ValueError for
     what is none.
     """
-    found: InclusionEvidence = read(data, get_args(InclusionEvidence))
-    return found
+    evidence: InclusionEvidence = read(data, get_args(InclusionEvidence))
+    return evidence

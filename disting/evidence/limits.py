@@ -73,15 +73,15 @@ class Outside(_Steps):
 
     def sentence(self, left: str, right: str) -> str:
         """Row by row."""
-        given, searched = self._names(left, right)
+        source, searched = self._names(left, right)
         if not self.steps:
             return (
-                f"The poles of each row of a generic {given} stay together in every limit of"
+                f"The poles of each row of a generic {source} stay together in every limit of"
                 f" models {searched}, and no choice of rows has as many poles as the grounded row"
                 f" of {searched}."
             )
-        told = "; ".join(step.told(searched) for step in self.steps)
-        return f"A generic {given} is no limit of models {searched}: {told}."
+        steps = "; ".join(step.told(searched) for step in self.steps)
+        return f"A generic {source} is no limit of models {searched}: {steps}."
 
     @property
     def formula(self) -> str:
@@ -102,9 +102,9 @@ class RowsInside(_Steps):
 
     def sentence(self, left: str, right: str) -> str:
         """Row by row."""
-        given, searched = self._names(left, right)
-        told = "; ".join(step.told(searched) for step in self.steps)
-        return f"Every {given} is a limit of models {searched}: {told}."
+        source, searched = self._names(left, right)
+        steps = "; ".join(step.told(searched) for step in self.steps)
+        return f"Every {source} is a limit of models {searched}: {steps}."
 
 
 _IN = {
@@ -277,21 +277,25 @@ class RelativeDegrees(Kind):
     def sentence(self, left: str, right: str) -> str:
         """Both relative degrees in words."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
-        here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
-        if here > there:
+        degree, other_degree = (
+            (self.left, self.right) if self.left_is_larger else (self.right, self.left)
+        )
+        if degree > other_degree:
             return (
-                f"The receptance of {larger} falls at least as fast as s^-{here} for all finite"
-                f" elements other than zero, that of {smaller} as s^-{there}."
+                f"The receptance of {larger} falls at least as fast as s^-{degree} for all finite"
+                f" elements other than zero, that of {smaller} as s^-{other_degree}."
             )
         return (
-            f"The receptance of {larger} falls as s^-{here} for all elements other than zero, that"
-            f" of {smaller} at least as fast as s^-{there}."
+            f"The receptance of {larger} falls as s^-{degree} for all elements other than zero,"
+            f" that of {smaller} at least as fast as s^-{other_degree}."
         )
 
     @property
     def formula(self) -> str:
         """The two relative degrees."""
-        here, there = (self.left, self.right) if self.left_is_larger else (self.right, self.left)
-        if here > there:
-            return f"deg D₂ − deg N₂ ≥ {here} > {there} = deg D₁ − deg N₁"
-        return f"deg D₂ − deg N₂ = {here} < {there} ≤ deg D₁ − deg N₁"
+        degree, other_degree = (
+            (self.left, self.right) if self.left_is_larger else (self.right, self.left)
+        )
+        if degree > other_degree:
+            return f"deg D₂ − deg N₂ ≥ {degree} > {other_degree} = deg D₁ − deg N₁"
+        return f"deg D₂ − deg N₂ = {degree} < {other_degree} ≤ deg D₁ − deg N₁"

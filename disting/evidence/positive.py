@@ -1,7 +1,7 @@
 """Findings on positive equivalents, how many of the positive models of one chain have one in
 another, and their evidence.
 
-`given` is the model whose positive parameters are asked about, `other` the one in which
+`source` is the model whose positive parameters are asked about, `other` the one in which
 equivalents are looked for.
 """
 
@@ -19,7 +19,7 @@ Z95 = 1.96  # quantile of the normal distribution for 95 %
 
 @dataclass(frozen=True, slots=True)
 class EmptyFibre(Kind):
-    """NEVER: at this rational point of `given` no parameters of `other`, not even complex ones,
+    """NEVER: at this rational point of `source` no parameters of `other`, not even complex ones,
     are equivalent.
     """
 
@@ -59,17 +59,17 @@ class Interlacing(Kind):
     with_one: PointText = ()
     without: PointText = ()
 
-    def sentence(self, given: str, other: str) -> str:
+    def sentence(self, source: str, other: str) -> str:
         """Which arrangements of poles and zeros `other` lacks."""
         lacking = [(p.part, _spelled(p.lacking)) for p in self.parts if p.lacking]
         if not lacking:
             return (
-                f"However the zeros of {given} lie between its poles, positive parameters of"
+                f"However the zeros of {source} lie between its poles, positive parameters of"
                 f" {other} can do the same."
             )
         which = " and ".join(f"{words} in the {name} row" for name, words in lacking)
         return (
-            f"Some positive parameters of {given} have a positive equivalent in {other}, others"
+            f"Some positive parameters of {source} have a positive equivalent in {other}, others"
             f" have none: those where the zeros of a row lie between its poles as in no {other}"
             f" (zeros a gap, slowest gap first: {which})."
         )
@@ -91,7 +91,7 @@ class Interlacing(Kind):
 
 @dataclass(frozen=True, slots=True)
 class Points(Kind):
-    """SOMETIMES: rational points of `given`, one in an open set with positive equivalents, one
+    """SOMETIMES: rational points of `source`, one in an open set with positive equivalents, one
     in an open set without.
     """
 
@@ -107,7 +107,7 @@ class Points(Kind):
 
 @dataclass(frozen=True, slots=True)
 class BoxMap(Kind):
-    """ALWAYS, within ranges: a renaming (given, other) takes the ranges of `given` into those
+    """ALWAYS, within ranges: a renaming (source, other) takes the ranges of `source` into those
     of `other`.
     """
 
@@ -215,11 +215,11 @@ class PositiveFinding:
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its share")
 
-    def sentence(self, given: str, other: str) -> str:
+    def sentence(self, source: str, other: str) -> str:
         """What is known and why; a sampled share is called empirical."""
         if self.evidence is None:
             return (
-                f"Which positive {given} have a positive equivalent in {other} is not known:"
+                f"Which positive {source} have a positive equivalent in {other} is not known:"
                 f" {self.reason}."
             )
         seen = (
@@ -227,20 +227,20 @@ class PositiveFinding:
             if self.empirical and self.share is Share.SOMETIMES
             else ""
         )
-        return self.evidence.sentence(given, other) + seen
+        return self.evidence.sentence(source, other) + seen
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; what is empty is left out."""
-        told: dict[str, object] = {"share": self.share.value}
+        plain: dict[str, object] = {"share": self.share.value}
         if self.evidence and self.certainty:
-            told |= {
+            plain |= {
                 "certainty": self.certainty.value,
                 "safety": self.safety,
                 "evidence": self.evidence.to_dict(),
             }
         if self.empirical:
-            told["empirical"] = asdict(self.empirical)
-        return told | ({"reason": self.reason} if self.reason else {})
+            plain["empirical"] = asdict(self.empirical)
+        return plain | ({"reason": self.reason} if self.reason else {})
 
     @staticmethod
     def from_dict(data: dict[str, Any]) -> "PositiveFinding":

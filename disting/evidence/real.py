@@ -55,13 +55,13 @@ class RealWitnesses(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """Both in words."""
-        given, other = (left, right) if self.without_left_given else (right, left)
+        source, other = (left, right) if self.without_left_given else (right, left)
         values = ", ".join(f"{name} = {_rounded(value)}" for name, value in self.without)
         positive = self.with_one.sentence(
             *((left, right) if self.with_left_given else (right, left))
         )
         return (
-            f"{positive} But near {values} no real {given} has a real equivalent in {other}: its"
+            f"{positive} But near {values} no real {source} has a real equivalent in {other}: its"
             " poles and zeros cannot be shared out among the rows without parting two conjugates."
         )
 
@@ -92,22 +92,22 @@ class BothWays(Kind):
         shares = {self.left.share, self.right.share}
         if len(shares) == 1:
             return self.left.share
-        known = Share.SOMETIMES in shares and Share.NEVER not in shares
-        return Share.SOMETIMES if known else Share.UNKNOWN
+        is_settled = Share.SOMETIMES in shares and Share.NEVER not in shares
+        return Share.SOMETIMES if is_settled else Share.UNKNOWN
 
     def sentence(self, left: str, right: str) -> str:
         """Both ways in words; a theorem, which holds both ways, once."""
-        here, there = self.left.sentence(left, right), self.right.sentence(right, left)
+        one_way, other_way = self.left.sentence(left, right), self.right.sentence(right, left)
         same = isinstance(self.left.evidence, Theorem) and self.left.evidence == self.right.evidence
-        return here if same else f"{here} {there}"
+        return one_way if same else f"{one_way} {other_way}"
 
     @property
     def formula(self) -> str:
         """Both formulas, from left to right and back, or one if they are the same."""
-        here, there = (
+        one_way, other_way = (
             x.evidence.formula if x.evidence else "not known" for x in (self.left, self.right)
         )
-        return here if here == there else f"→ {here}; ← {there}"
+        return one_way if one_way == other_way else f"→ {one_way}; ← {other_way}"
 
     def shows(self, domain: Domain) -> Relation:
         """What the share says, of positive parameters alone."""
@@ -143,11 +143,11 @@ class OddFibres(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """Both numbers and what they mean."""
-        here, there = (_equivalents(n) for n in (self.right, self.left))
+        of_left, of_right = (_equivalents(n) for n in (self.right, self.left))
         return (
-            f"Generic parameters of {left} have {here} in {right}, and those of {right} have"
-            f" {there} in {left}; solutions that are not real are pairs of conjugates, so of an odd"
-            " number at least one is real."
+            f"Generic parameters of {left} have {of_left} in {right}, and those of {right} have"
+            f" {of_right} in {left}; solutions that are not real are pairs of conjugates, so of an"
+            " odd number at least one is real."
         )
 
 

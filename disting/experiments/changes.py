@@ -56,17 +56,17 @@ class Change(Generic[P]):
         return Change(self.kind, place(self.place), self.size)
 
 
-def changes_of(given: Mapping[str, object]) -> Iterator[Change[Any]]:
+def changes_of(arguments: Mapping[str, object]) -> Iterator[Change[Any]]:
     """Yield the changes that arguments of `Experiment` say: masses of what takes no size, {mass:
     size} of what does; what a place is, is for the caller to look at. Raises InputError; TypeError
     for an argument of no kind.
     """
-    known = [kind.argument for kind in CHANGES]
-    unknown = sorted(given.keys() - set(known))
+    names = [kind.argument for kind in CHANGES]
+    unknown = sorted(arguments.keys() - set(names))
     if unknown:
-        raise TypeError(f"an experiment has no {unknown[0]!r}; what it changes: {', '.join(known)}")
+        raise TypeError(f"an experiment has no {unknown[0]!r}; what it changes: {', '.join(names)}")
     for kind in CHANGES:
-        value = given.get(kind.argument, ())
+        value = arguments.get(kind.argument, ())
         if kind.takes_size:
             yield from (Change(kind, mass, size) for mass, size in _sizes(value))
         else:
@@ -102,43 +102,43 @@ def read_changes(kind: Kind, value: str, place: Callable[[str], P]) -> Iterator[
     yield Change(kind, place(at), size)
 
 
-def number(what: str, given: object) -> Fraction:
+def number(what: str, size_given: object) -> Fraction:
     """A known size, exact; GENERIC is one that is drawn once and for all, between 1 and 2.
 
     >>> number("inertia", 0.5), 1 < number("inertia", "generic") < 2
     (Fraction(1, 2), True)
     """
-    if given == GENERIC:
+    if size_given == GENERIC:
         low = 1 << (GENERIC_BITS - 1)
         return Fraction(low + residues(f"generic {what}", 1, low)[0], low)
     try:
-        size = Fraction(given if isinstance(given, Fraction) else _plain(given))
+        size = Fraction(size_given if isinstance(size_given, Fraction) else _plain(size_given))
     except (ValueError, ZeroDivisionError):
         raise InputError(
-            f"a known {what} is a positive number or {GENERIC}, not {shown(given)}"
+            f"a known {what} is a positive number or {GENERIC}, not {shown(size_given)}"
         ) from None
     if size <= 0:
-        raise InputError(f"a known {what} is positive, not {shown(str(given))}")
+        raise InputError(f"a known {what} is positive, not {shown(str(size_given))}")
     return size
 
 
-def _masses(given: object) -> list[Any]:
-    listed = [given] if isinstance(given, int) else given
+def _masses(masses: object) -> list[Any]:
+    listed = [masses] if isinstance(masses, int) else masses
     if not isinstance(listed, Iterable):
-        raise InputError(f"a locked mass is a whole number, not {shown(given)}")
+        raise InputError(f"a locked mass is a whole number, not {shown(masses)}")
     return list(listed)
 
 
-def _sizes(given: object) -> list[tuple[Any, object]]:
-    listed = given.items() if isinstance(given, Mapping) else given
+def _sizes(sizes: object) -> list[tuple[Any, object]]:
+    listed = sizes.items() if isinstance(sizes, Mapping) else sizes
     try:
         return [(mass, size) for mass, size in listed]  # type: ignore[attr-defined]
     except (TypeError, ValueError):
-        raise InputError(f"known sizes are written {{mass: size}}, not {shown(given)}") from None
+        raise InputError(f"known sizes are written {{mass: size}}, not {shown(sizes)}") from None
 
 
-def _plain(given: object) -> str:
-    text = str(given)
-    if isinstance(given, bool) or is_too_long(text):
+def _plain(size_given: object) -> str:
+    text = str(size_given)
+    if isinstance(size_given, bool) or is_too_long(text):
         raise ValueError(text)
     return text

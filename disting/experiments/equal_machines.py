@@ -66,36 +66,36 @@ def _forms(measured: MeasuredChain) -> list[MeasuredChain]:
 def _order(measured: MeasuredChain) -> tuple[object, ...]:
     """What the standard form has least of."""
     chain = measured.chain
-    told = [
+    experiments = [
         (e.force or (), e.sensor or (), [(c.kind, c.place, c.size) for c in e.changes])
         for e in measured.experiments
     ]
     forces = sum(e.force is not None for e in measured.experiments)
-    return forces, chain.indices, chain.ground_dampers, told
+    return forces, chain.indices, chain.ground_dampers, experiments
 
 
 def _exchanged(measured: MeasuredChain) -> MeasuredChain:
-    given = measured.chain
+    own = measured.chain
     chain = replace(
-        given,
-        act_minus=given.meas_minus,
-        act_plus=given.meas_plus,
-        meas_minus=given.act_minus,
-        meas_plus=given.act_plus,
+        own,
+        act_minus=own.meas_minus,
+        act_plus=own.meas_plus,
+        meas_minus=own.act_minus,
+        meas_plus=own.act_plus,
     )
     moved = (replace(e, force=e.sensor, sensor=e.force) for e in measured.experiments)
     return MeasuredChain(chain, tuple(moved))
 
 
 def _reflected(measured: MeasuredChain) -> MeasuredChain:
-    given = measured.chain
+    own = measured.chain
     chain = replace(
-        given,
-        act_plus=_fold(given, given.act_plus),
-        meas_plus=_fold(given, given.meas_plus),
-        ground_dampers=tuple(_fold(given, i) for i in given.ground_dampers),
+        own,
+        act_plus=_fold(own, own.act_plus),
+        meas_plus=_fold(own, own.meas_plus),
+        ground_dampers=tuple(_fold(own, i) for i in own.ground_dampers),
     )
-    folded = (e.moved(partial(_fold, given)) for e in measured.experiments)
+    folded = (e.moved(partial(_fold, own)) for e in measured.experiments)
     return MeasuredChain(chain, tuple(folded))
 
 
@@ -118,7 +118,7 @@ class _Done:
 
     kind: str
     in_free: bool
-    here: Row
+    row: Row
     elsewhere: Row
     implied: bool
     form: Form
@@ -128,14 +128,14 @@ def same_by_rows(left: MeasuredChain, right: MeasuredChain) -> bool:
     """Whether two measured chains have equal closures row by row; False where this is not known."""
     if _factors(left.chain) != _factors(right.chain):
         return False
-    one, other = _done(left), _done(right)
-    if one is None or other is None or (one.kind, one.in_free) != (other.kind, other.in_free):
+    mine, theirs = _done(left), _done(right)
+    if mine is None or theirs is None or (mine.kind, mine.in_free) != (theirs.kind, theirs.in_free):
         return False
-    if not same_receptances(one.elsewhere, other.elsewhere):
+    if not same_receptances(mine.elsewhere, theirs.elsewhere):
         return False
-    if one.implied and other.implied:
-        return same_receptances(one.here, other.here)
-    return not (one.implied or other.implied) and one.form == other.form
+    if mine.implied and theirs.implied:
+        return same_receptances(mine.row, theirs.row)
+    return not (mine.implied or theirs.implied) and mine.form == theirs.form
 
 
 def _factors(chain: Chain) -> tuple[object, ...]:
@@ -154,11 +154,11 @@ def _done(measured: MeasuredChain) -> _Done | None:
     (mass,) = further.masses
     in_free = mass > chain.gap
     rows = rows_of(chain.structure)
-    here, elsewhere = (rows[1], rows[0]) if in_free else (rows[0], rows[1])
-    at = mass - here.before
-    first, last = here.ports
+    touched, elsewhere = (rows[1], rows[0]) if in_free else (rows[0], rows[1])
+    at = mass - touched.before
+    first, last = touched.ports
     if further == Experiment(sensor=mass):
-        force = (chain.act_plus if in_free else chain.act_minus) - here.before
+        force = (chain.act_plus if in_free else chain.act_minus) - touched.before
         first, last = force, first + last - force
         kind, implied = "sensor", at == last
     elif further == Experiment(changes=further.changes):
@@ -167,7 +167,7 @@ def _done(measured: MeasuredChain) -> _Done | None:
         implied = first == at == last if change.kind.takes_size else first <= at <= last
     else:
         return None
-    return _Done(kind, in_free, here, elsewhere, implied, _form(here, first, last, at))
+    return _Done(kind, in_free, touched, elsewhere, implied, _form(touched, first, last, at))
 
 
 def _form(row: Row, first: int, last: int, at: int) -> Form:

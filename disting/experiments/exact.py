@@ -81,35 +81,37 @@ ONE_KIND = "all points that were tried are of one kind, and no argument for all 
 
 
 def positive_finding(
-    given: MeasuredChain, other: MeasuredChain, settings: Settings
+    machine: MeasuredChain, other: MeasuredChain, settings: Settings
 ) -> PositiveFinding:
-    """Which positive models of `given` have a positive equivalent in `other`."""
-    given, other = without_dead_time(given), without_dead_time(other)
-    for at in range(len(given.experiments)):
-        one, there = given.alone(at), other.alone(at)
-        if one is not None and there is not None:
-            found = _by_one(canonical(one).chain, canonical(there).chain, at + 1, settings)
-            if found is not None:
-                return found
-    return _by_points(given, other, settings)
+    """Which positive models of `machine` have a positive equivalent in `other`."""
+    machine, other = without_dead_time(machine), without_dead_time(other)
+    for at in range(len(machine.experiments)):
+        chain, other_chain = machine.alone(at), other.alone(at)
+        if chain is not None and other_chain is not None:
+            finding = _by_one(
+                canonical(chain).chain, canonical(other_chain).chain, at + 1, settings
+            )
+            if finding is not None:
+                return finding
+    return _by_points(machine, other, settings)
 
 
-def _by_one(given: Chain, other: Chain, number: int, settings: Settings) -> PositiveFinding | None:
+def _by_one(chain: Chain, other: Chain, number: int, settings: Settings) -> PositiveFinding | None:
     """What one experiment says for all of them."""
-    found = positive_share(given, other, settings)
-    if found.share is Share.NEVER:
-        return found
-    if found.share is not Share.ALWAYS or found.certainty is None:
+    finding = positive_share(chain, other, settings)
+    if finding.share is Share.NEVER:
+        return finding
+    if finding.share is not Share.ALWAYS or finding.certainty is None:
         return None
     count = identifiability(other, settings)
     if not count.least == count.most == 1 or count.count_grade[0] is Certainty.NUMERICAL:
         return None
-    certainty, safety = weakest((found.certainty, found.safety), count.count_grade)
+    certainty, safety = weakest((finding.certainty, finding.safety), count.count_grade)
     return PositiveFinding(Share.ALWAYS, certainty, safety, OnlyOne(number))
 
 
-def _by_points(given: MeasuredChain, other: MeasuredChain, settings: Settings) -> PositiveFinding:
-    seen = list(_seen(given, other, settings.seed))
+def _by_points(machine: MeasuredChain, other: MeasuredChain, settings: Settings) -> PositiveFinding:
+    seen = list(_seen(machine, other, settings.seed))
     if not seen:
         return PositiveFinding(Share.UNKNOWN, reason=NO_LIST)
     by_answer = dict(reversed(seen))
@@ -128,20 +130,22 @@ def _by_points(given: MeasuredChain, other: MeasuredChain, settings: Settings) -
     )
 
 
-def _seen(given: MeasuredChain, other: MeasuredChain, seed: str) -> Iterator[tuple[Answer, Listed]]:
+def _seen(
+    machine: MeasuredChain, other: MeasuredChain, seed: str
+) -> Iterator[tuple[Answer, Listed]]:
     """Yield whether random positive points have a positive equivalent, each with its list."""
-    at = next((at for at, _, _ in listable(given, other)), None)
+    at = next((at for at, _, _ in listable(machine, other)), None)
     if at is None:
         return
     for k in range(TRIES):
-        label = about(f"positive:{seed}:{k}", given, other)
-        listed = listed_at(given, other, at, _scaled(given, other, label))
+        label = about(f"positive:{seed}:{k}", machine, other)
+        listed = listed_at(machine, other, at, _scaled(machine, other, label))
         if listed is not None and listed.kept:
             yield answer_of(listed.kept), listed
 
 
-def _scaled(given: MeasuredChain, other: MeasuredChain, label: str) -> dict[str, fmpq]:
-    values = rational_point(given.chain, label, point_bits(other.chain))
+def _scaled(machine: MeasuredChain, other: MeasuredChain, label: str) -> dict[str, fmpq]:
+    values = rational_point(machine.chain, label, point_bits(other.chain))
     steps = residues(f"scale:{label}", len(values), 2 * SCALES + 2)
     return {
         name: value * fmpq(2) ** (step - 1 - SCALES)
@@ -220,8 +224,8 @@ def exact_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings)
     """The finding for two measured chains of equal ranks and degrees; dead times are equal where
     conditions 1 to 3 hold, and a factor of their own.
     """
-    found = by_list(left, right, settings)
-    return by_ideals(left, right, settings, LIMITS) if found is None else found
+    finding = by_list(left, right, settings)
+    return by_ideals(left, right, settings, LIMITS) if finding is None else finding
 
 
 def by_ideals(
@@ -229,8 +233,8 @@ def by_ideals(
 ) -> Finding:
     """What the ideal of one fibre of the stacked map says."""
     maps = matched(left, right)
-    found = decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=limits)
-    return decided(found)
+    decision = decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=limits)
+    return decided(decision)
 
 
 def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:
@@ -239,10 +243,10 @@ def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings)
     """
     if same_by_rows(left, right):
         return Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN)
-    found = by_list(left, right, settings, shared=True)
-    if found is None:
-        found = by_parts(left, right, settings)
-    return by_ideals(left, right, settings, QUICK) if found is None else found
+    finding = by_list(left, right, settings, shared=True)
+    if finding is None:
+        finding = by_parts(left, right, settings)
+    return by_ideals(left, right, settings, QUICK) if finding is None else finding
 
 
 QUICKLY = Question(

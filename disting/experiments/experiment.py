@@ -196,11 +196,11 @@ class Entry:
     def row_ends(self) -> tuple[tuple[int, int], ...]:
         """Rows of masses that move, cut at the locked ones."""
         still = set(self.experiment.still)
-        found = []
+        rows = []
         for first, last in self.structure.row_ends:
             walls = [first - 1, *(i for i in range(first, last + 1) if i in still), last + 1]
-            found += [(a + 1, b - 1) for a, b in pairwise(walls) if b - a > 1]
-        return tuple(found)
+            rows += [(a + 1, b - 1) for a, b in pairwise(walls) if b - a > 1]
+        return tuple(rows)
 
     @cached_property
     def elements(self) -> tuple[Element, ...]:
@@ -216,7 +216,7 @@ class Entry:
     @cached_property
     def known(self) -> dict[str, Fraction]:
         """Sizes of what is added, by the names of `elements`."""
-        return {known.parameter: size for known, size in self._added.items()}
+        return {element.parameter: size for element, size in self._added.items()}
 
     @cached_property
     def _added(self) -> dict[Known, Fraction]:
@@ -279,22 +279,22 @@ class MeasuredChain:
         return tuple(e.text for e in self.experiments)
 
 
-def _place(what: str, given: object) -> Place | None:
-    if given is None:
+def _place(what: str, place: object) -> Place | None:
+    if place is None:
         return None
-    ends = tuple(given) if isinstance(given, tuple | list) else (given, 0)
+    ends = tuple(place) if isinstance(place, tuple | list) else (place, 0)
     wrong = any(isinstance(i, bool) or not isinstance(i, int) or i < 0 for i in ends)
     if len(ends) != 2 or wrong:
-        raise InputError(f"a {what} is at a mass or between two, not {shown(given)}")
+        raise InputError(f"a {what} is at a mass or between two, not {shown(place)}")
     if ends[0] == ends[1]:
         raise InputError(f"a {what} has two different ends, not twice {shown(ends[0])}")
     return ends[0], ends[1]
 
 
-def _quantity(given: object) -> Sensor:
+def _quantity(quantity: object) -> Sensor:
     try:
-        return Sensor(str(given))
+        return Sensor(str(quantity))
     except ValueError:
         raise InputError(
-            f"a sensor shows position, velocity or acceleration, not {shown(given)}"
+            f"a sensor shows position, velocity or acceleration, not {shown(quantity)}"
         ) from None

@@ -53,13 +53,13 @@ def identifiability_under(measured: MeasuredChain, settings: Settings) -> Parame
     names = measured.chain.parameters
     if len(measured.silent) == len(measured.experiments):
         return _nothing(names)
-    known = _local(measured, settings)
-    if known.rank == len(names):
+    ranked = _local(measured, settings)
+    if ranked.rank == len(names):
         plain = without_dead_time(measured)
         listed = next(lists(plain, plain, settings.seed, confirm=True), None)
         if listed is not None and _bounds(listed):
-            return _counted(measured, known, listed, settings)
-    return _by_ideal(measured, known, settings)
+            return _counted(measured, ranked, listed, settings)
+    return _by_ideal(measured, ranked, settings)
 
 
 def _nothing(names: tuple[str, ...]) -> ParameterIdentifiability:
@@ -70,38 +70,40 @@ def _nothing(names: tuple[str, ...]) -> ParameterIdentifiability:
 
 def _local(measured: MeasuredChain, settings: Settings) -> Local:
     model = MachineModel(measured)
-    found = local(model, settings)
+    ranked = local(model, settings)
     # several entries may have been special at a point that was drawn again: a bit for each
     lost = enough(model.minor_size(None), settings.points)
-    return replace(found, safety=found.safety - lost) if found.safety else found
+    return replace(ranked, safety=ranked.safety - lost) if ranked.safety else ranked
 
 
 def _bounds(listed: Listed) -> bool:
     """Whether generic points have no more solutions than are left here: all are simple."""
-    return all(s.confirmation is Confirmation.SUBSYSTEM for s in listed.found.solutions)
+    return all(s.confirmation is Confirmation.SUBSYSTEM for s in listed.fibre.solutions)
 
 
 def _counted(
-    measured: MeasuredChain, known: Local, listed: Listed, settings: Settings
+    measured: MeasuredChain, ranked: Local, listed: Listed, settings: Settings
 ) -> ParameterIdentifiability:
     """From a list: at most so many vectors fit, and one if it is the point alone."""
     most = len(listed.kept)
     bound = safety_of_point(measured.chain) - 1
     if most == 1:
-        grade = joint([known.safety, bound])
+        grade = joint([ranked.safety, bound])
         levels = dict.fromkeys(measured.chain.parameters, Level.GLOBAL)
-        return ParameterIdentifiability(levels, known.rank, 1, 1, *grade)
-    found = _by_ideal(measured, known, settings)
-    certainty, bits = joint([found.safety, bound])
-    return replace(found, most=min(most, found.most or most), certainty=certainty, safety=bits)
+        return ParameterIdentifiability(levels, ranked.rank, 1, 1, *grade)
+    by_ideal = _by_ideal(measured, ranked, settings)
+    certainty, bits = joint([by_ideal.safety, bound])
+    return replace(
+        by_ideal, most=min(most, by_ideal.most or most), certainty=certainty, safety=bits
+    )
 
 
 def _by_ideal(
-    measured: MeasuredChain, known: Local, settings: Settings
+    measured: MeasuredChain, ranked: Local, settings: Settings
 ) -> ParameterIdentifiability:
     sure = ("Td",) if measured.chain.dead_time else ()
     return by_parameter(
-        measured.chain.parameters, known, stacked_map(without_dead_time(measured)), settings, sure
+        measured.chain.parameters, ranked, stacked_map(without_dead_time(measured)), settings, sure
     )
 
 

@@ -72,8 +72,8 @@ def numberings(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, 
     mine, theirs = part.chain.structure, whole.chain.structure
     if len(mine.elements) >= len(theirs.elements):
         return iter(())
-    found = embeddings(mine, theirs)
-    return (places for places in found if _keeps(places, part, whole))
+    ways = embeddings(mine, theirs)
+    return (places for places in ways if _keeps(places, part, whole))
 
 
 def places_in(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, int]]:
@@ -88,22 +88,22 @@ def places_in(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, i
     """
     pairs = {
         pair
-        for here, there in zip(part.entries, whole.entries, strict=True)
-        for pair in zip(there.attached, here.attached, strict=True)
+        for inner, outer in zip(part.entries, whole.entries, strict=True)
+        for pair in zip(outer.attached, inner.attached, strict=True)
     }
     ports = dict(pairs)
     if len(ports) < len(pairs):
         return iter(())
-    found = minors(part.chain.structure, whole.chain.structure, ports)
-    return (places for places in found if _keeps(places, whole, part))
+    ways = minors(part.chain.structure, whole.chain.structure, ports)
+    return (places for places in ways if _keeps(places, whole, part))
 
 
 def confirms_missing(evidence: MissingElements, left: MeasuredChain, right: MeasuredChain) -> bool:
     """Whether the numbering makes the part of the whole, in all experiments."""
     part, whole = (left, right) if evidence.left_is_part else (right, left)
     places = {i: at for at, i in evidence.numbering}
-    known = is_minor(part.chain.structure, whole.chain.structure, places)
-    return known and len(places) == len(evidence.numbering) and _keeps(places, whole, part)
+    is_part = is_minor(part.chain.structure, whole.chain.structure, places)
+    return is_part and len(places) == len(evidence.numbering) and _keeps(places, whole, part)
 
 
 def _keeps(places: dict[int, int], measured: MeasuredChain, other: MeasuredChain) -> bool:
@@ -112,10 +112,10 @@ def _keeps(places: dict[int, int], measured: MeasuredChain, other: MeasuredChain
     """
     same = {i: i for i in range(other.chain.n_masses + 1)}
     return all(
-        tuple(map(places.get, here.attached)) == there.attached
-        and here.sensor_order == there.sensor_order
-        and _changes(here.experiment, places) == _changes(there.experiment, same)
-        for here, there in zip(measured.entries, other.entries, strict=True)
+        tuple(map(places.get, mine.attached)) == theirs.attached
+        and mine.sensor_order == theirs.sensor_order
+        and _changes(mine.experiment, places) == _changes(theirs.experiment, same)
+        for mine, theirs in zip(measured.entries, other.entries, strict=True)
     )
 
 
@@ -127,8 +127,10 @@ def _changes(
     for change in experiment.changes:
         at = places.get(change.place)
         if at:
-            here = change.kind, at
-            done[here] = None if change.size is None else change.size + (done.get(here) or 0)
+            change_at = change.kind, at
+            done[change_at] = (
+                None if change.size is None else change.size + (done.get(change_at) or 0)
+            )
     return done
 
 
@@ -139,18 +141,18 @@ def _found(
     yield from (missing(places, first) for places in places_in(small, large))
     if small.chain.dead_time and not large.chain.dead_time:
         yield without_dead_time(first)
-    one, other = profile_of(small), profile_of(large)
-    pairs = list(zip(_pairs(one), _pairs(other), strict=True))
-    for here, there in pairs:
-        if exceed(here, there):
-            counts = Counts(*ordered(here, there, first))
+    mine, theirs = profile_of(small), profile_of(large)
+    pairs = list(zip(_pairs(mine), _pairs(theirs), strict=True))
+    for smaller, larger in pairs:
+        if exceed(smaller, larger):
+            counts = Counts(*ordered(smaller, larger, first))
             yield InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
-    if any(here[1] != there[1] for here, there in pairs):
+    if any(smaller[1] != larger[1] for smaller, larger in pairs):
         return
     yield from _by_one_experiment(small, large, profile_of, first)
-    found = by_profiles(one, other, left_is_smaller=first)
-    if found is not None:
-        yield found
+    finding = by_profiles(mine, theirs, left_is_smaller=first)
+    if finding is not None:
+        yield finding
 
 
 def _by_one_experiment(
@@ -161,11 +163,11 @@ def _by_one_experiment(
     """
     for k, pair in enumerate(zip(small.experiments, large.experiments, strict=True)):
         alone = (MeasuredChain(m.chain, (e,)) for m, e in zip((small, large), pair, strict=True))
-        one, other = map(profile_of, alone)
-        if one.rank > other.rank:
-            labels = tuple(name.replace("[1]", f"[{k + 1}]") for name in one.labels)
-            ranks = ordered(one.rank, other.rank, first)
-            grade = graded(other.rank_proven, min(one.safety, other.safety) - 1)
+        mine, theirs = map(profile_of, alone)
+        if mine.rank > theirs.rank:
+            labels = tuple(name.replace("[1]", f"[{k + 1}]") for name in mine.labels)
+            ranks = ordered(mine.rank, theirs.rank, first)
+            grade = graded(theirs.rank_proven, min(mine.safety, theirs.safety) - 1)
             yield InclusionFinding(Inclusion.NEITHER, *grade, LargerProjection(labels, *ranks))
 
 

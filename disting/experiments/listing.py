@@ -62,7 +62,7 @@ class Listed:
 
     values: dict[str, fmpq]
     at: int
-    found: Fibre
+    fibre: Fibre
     refuted_by: tuple[int | None, ...]
 
     @property
@@ -73,7 +73,7 @@ class Listed:
     @property
     def kept(self) -> tuple[Solution, ...]:
         """The solutions that no experiment refutes."""
-        pairs = zip(self.found.solutions, self.refuted_by, strict=True)
+        pairs = zip(self.fibre.solutions, self.refuted_by, strict=True)
         return tuple(s for s, missed in pairs if missed is None)
 
 
@@ -84,8 +84,8 @@ def by_list(
     left, right = without_dead_time(left), without_dead_time(right)
     ways = [(True, left, right), (False, right, left)]
     ways.sort(key=lambda way: dearest(way[2].chain))
-    for left_given, given, searched in ways:
-        listed = next(lists(given, searched, settings.seed, shared=shared), None)
+    for left_given, machine, searched in ways:
+        listed = next(lists(machine, searched, settings.seed, shared=shared), None)
         if listed is not None and None not in listed.refuted_by:
             evidence = FibreUnder(
                 left_given,
@@ -105,7 +105,7 @@ def by_list(
 
 
 def lists(
-    given: MeasuredChain,
+    machine: MeasuredChain,
     searched: MeasuredChain,
     seed: str,
     *,
@@ -115,18 +115,18 @@ def lists(
     """Yield lists at random points, one for each experiment that can be listed; `confirm` has
     solutions tested for being simple.
     """
-    for at, _, _ in listable(given, searched):
+    for at, _, _ in listable(machine, searched):
         for draw in range(DRAWS):
             label = f"synthesis:{seed}:{draw}"
-            values = (_shared_point if shared else _own_point)(given, searched, label)
-            listed = listed_at(given, searched, at, values, confirm=confirm)
+            values = (_shared_point if shared else _own_point)(machine, searched, label)
+            listed = listed_at(machine, searched, at, values, confirm=confirm)
             if listed is not None:
                 yield listed
                 break
 
 
 def listed_at(
-    given: MeasuredChain,
+    machine: MeasuredChain,
     searched: MeasuredChain,
     at: int,
     values: dict[str, fmpq],
@@ -134,41 +134,41 @@ def listed_at(
     confirm: bool = False,
 ) -> Listed | None:
     """All solutions of one experiment at a point; None for an infinite or an open list."""
-    one, other = given.alone(at), searched.alone(at)
-    if one is None or other is None:
+    chain, other_chain = machine.alone(at), searched.alone(at)
+    if chain is None or other_chain is None:
         return None
-    found = _fibre(other, one, tuple(values.items()), confirm)
-    whole = found.status in (Status.COMPLETE, Status.EMPTY)
-    if not whole or found.tests.boundary or found.tests.uncovered:
+    whole_fibre = _fibre(other_chain, chain, tuple(values.items()), confirm)
+    whole = whole_fibre.status in (Status.COMPLETE, Status.EMPTY)
+    if not whole or whole_fibre.tests.boundary or whole_fibre.tests.uncovered:
         return None
-    missed = (missed_by(given, values, searched, s, found) for s in found.solutions)
-    return Listed(values, at, found, tuple(missed))
+    missed = (missed_by(machine, values, searched, s, whole_fibre) for s in whole_fibre.solutions)
+    return Listed(values, at, whole_fibre, tuple(missed))
 
 
-def listable(given: MeasuredChain, searched: MeasuredChain) -> Iterator[tuple[int, Chain, Chain]]:
+def listable(machine: MeasuredChain, searched: MeasuredChain) -> Iterator[tuple[int, Chain, Chain]]:
     """Yield the experiments in which both are chains of the class, and that a method serves."""
-    for at in range(len(given.experiments)):
-        one, other = given.alone(at), searched.alone(at)
+    for at in range(len(machine.experiments)):
+        chain, other_chain = machine.alone(at), searched.alone(at)
         if (
-            one is not None
-            and other is not None
-            and (one.n_masses, one.sensor) == (other.n_masses, other.sensor)
-            and _is_covered(other)
+            chain is not None
+            and other_chain is not None
+            and (chain.n_masses, chain.sensor) == (other_chain.n_masses, other_chain.sensor)
+            and _is_covered(other_chain)
         ):
-            yield at, one, other
+            yield at, chain, other_chain
 
 
 def missed_by(
-    given: MeasuredChain,
+    machine: MeasuredChain,
     point: dict[str, fmpq],
     searched: MeasuredChain,
-    one: Solution,
+    solution: Solution,
     all_: Fibre,
 ) -> int | None:
     """The first experiment whose transfer function no parameters in the solution's balls have."""
     with ctx.workprec(max(all_.precision_bits, 64)):
-        for k, (here, there) in enumerate(zip(given.entries, searched.entries, strict=True)):
-            if _differs(here, point, there, one.values):
+        for k, (mine, theirs) in enumerate(zip(machine.entries, searched.entries, strict=True)):
+            if _differs(mine, point, theirs, solution.values):
                 return k
     return None
 
@@ -179,54 +179,56 @@ def without_dead_time(measured: MeasuredChain) -> MeasuredChain:
     return replace(measured, chain=replace(chain, dead_time=False)) if chain.dead_time else measured
 
 
-def _own_point(given: MeasuredChain, searched: MeasuredChain, label: str) -> dict[str, fmpq]:
+def _own_point(machine: MeasuredChain, searched: MeasuredChain, label: str) -> dict[str, fmpq]:
     """A point of this question alone."""
-    return rational_point(given.chain, about(label, given, searched), point_bits(searched.chain))
+    return rational_point(
+        machine.chain, about(label, machine, searched), point_bits(searched.chain)
+    )
 
 
-def _shared_point(given: MeasuredChain, searched: MeasuredChain, label: str) -> dict[str, fmpq]:
+def _shared_point(machine: MeasuredChain, searched: MeasuredChain, label: str) -> dict[str, fmpq]:
     """A point of two chains, whatever is done to them."""
-    form, other = canonical(given.chain), canonical(searched.chain).chain
-    found = rational_point(form.chain, about(label, form.chain, other), point_bits(other))
-    return {name: found[form.renaming[name]] for name in given.chain.parameters}
+    form, other = canonical(machine.chain), canonical(searched.chain).chain
+    drawn = rational_point(form.chain, about(label, form.chain, other), point_bits(other))
+    return {name: drawn[form.renaming[name]] for name in machine.chain.parameters}
 
 
 def _fibre(
-    searched: Chain, given: Chain, values: tuple[tuple[str, fmpq], ...], confirm: bool
+    searched: Chain, chain: Chain, values: tuple[tuple[str, fmpq], ...], confirm: bool
 ) -> Fibre:
     """All parameters of one chain with the transfer function of the other, made once for all
     chains of the same canonical forms.
     """
-    form, here = canonical(searched), canonical(given)
-    named = sorted((here.renaming[name], value) for name, value in values)
-    found = _canonical_fibre(form.chain, here.chain, tuple(named), confirm)
+    form, image = canonical(searched), canonical(chain)
+    named = sorted((image.renaming[name], value) for name, value in values)
+    whole = _canonical_fibre(form.chain, image.chain, tuple(named), confirm)
     solutions = (
         replace(s, values={name: s.values[form.renaming[name]] for name in searched.parameters})
-        for s in found.solutions
+        for s in whole.solutions
     )
-    return replace(found, solutions=tuple(solutions))
+    return replace(whole, solutions=tuple(solutions))
 
 
 @lru_cache(maxsize=REMEMBERED)
 def _canonical_fibre(
-    searched: Chain, given: Chain, values: tuple[tuple[str, fmpq], ...], confirm: bool
+    searched: Chain, chain: Chain, values: tuple[tuple[str, fmpq], ...], confirm: bool
 ) -> Fibre:
-    return fibre(searched, target(given.structure, dict(values)), confirm=confirm)
+    return fibre(searched, target(chain.structure, dict(values)), confirm=confirm)
 
 
-def _differs(here: Entry, point: dict[str, fmpq], there: Entry, balls: dict[str, Ball]) -> bool:
+def _differs(mine: Entry, point: dict[str, fmpq], theirs: Entry, balls: dict[str, Ball]) -> bool:
     """Whether N2 D1 - N1 D2 has a coefficient that is certainly not zero."""
     rational = {name: fmpq_poly([value]) for name, value in point.items()}
-    num, den = _receptance(here, rational, fmpq_poly)
-    top, bottom = _receptance(there, {n: acb_poly([v]) for n, v in balls.items()}, acb_poly)
-    lift = here.sensor_order - there.sensor_order
+    num, den = _receptance(mine, rational, fmpq_poly)
+    top, bottom = _receptance(theirs, {n: acb_poly([v]) for n, v in balls.items()}, acb_poly)
+    lift = mine.sensor_order - theirs.sensor_order
     gap = top * acb_poly(den) - acb_poly(num) * bottom if not lift else acb_poly([1])
     return any(not gap[i].contains(0) for i in range(gap.length()))
 
 
 def _receptance(entry: Entry, values: dict[str, Poly], ring: type[Poly]) -> tuple[Poly, Poly]:
-    known = {n: ring([fmpq(x.numerator, x.denominator)]) for n, x in entry.known.items()}
-    return plain_receptance(entry, values | known, ring([0, 1]), ring([1]))
+    sizes = {n: ring([fmpq(x.numerator, x.denominator)]) for n, x in entry.known.items()}
+    return plain_receptance(entry, values | sizes, ring([0, 1]), ring([1]))
 
 
 def _is_covered(chain: Chain) -> bool:

@@ -131,8 +131,8 @@ def _has_one_sign(entry: Entry) -> bool:
     """
     p, signs = entry.ports, set[int]()
     for first, last in touched(entry):
-        here = [first <= port <= last for port in p]
-        act_minus, act_plus, meas_minus, meas_plus = here
+        inside = [first <= port <= last for port in p]
+        act_minus, act_plus, meas_minus, meas_plus = inside
         if (act_minus and act_plus) or (meas_minus and meas_plus):
             return False
         signs.add(1 if act_plus == meas_plus else -1)
@@ -143,16 +143,16 @@ def _scaled(entry: Entry, values: Mapping[str, Whole], s: Whole) -> tuple[Whole,
     """Receptance num/den over the integers: A(s) times the common denominator L of what is known
     has integer entries, and its inverse is that of A(s) divided by L. T1 is no part of A(s).
     """
-    factor, one = known_factor(entry), s**0
+    factor, unit = known_factor(entry), s**0
     lifted = {n: v if n in ("T1", "Td") else factor * v for n, v in values.items()}
-    lifted |= {n: int(size * factor) * one for n, size in entry.known.items()}
-    num, den = plain_receptance(entry, lifted, s, one)
+    lifted |= {n: int(size * factor) * unit for n, size in entry.known.items()}
+    num, den = plain_receptance(entry, lifted, s, unit)
     return factor * num, den
 
 
-def residues_of(known: Mapping[str, Fraction], modulus: int) -> dict[str, int]:
+def residues_of(sizes: Mapping[str, Fraction], modulus: int) -> dict[str, int]:
     """What is known, modulo a prime."""
-    return {n: x.numerator * pow(x.denominator, -1, modulus) % modulus for n, x in known.items()}
+    return {n: x.numerator * pow(x.denominator, -1, modulus) % modulus for n, x in sizes.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,20 +224,20 @@ class MachineModel:
     def _zeros(self, markov: int | None) -> Iterator[str]:
         """Yield their labels."""
         for i, entry in enumerate(self.measured.entries):
-            found, shared = shape(entry), shared_poles(self.degrees, i)
-            if not found.numerator:
+            own, shared = shape(entry), shared_poles(self.degrees, i)
+            if not own.numerator:
                 continue
             if markov is not None:
-                names = vanishing_series(found.numerator, found.denominator_powers, markov)
+                names = vanishing_series(own.numerator, own.denominator_powers, markov)
                 yield from (label(name, i, None) for name in names)
                 continue
             first = None if shared is None else shape(self.measured.entries[shared])
-            same = first is not None and first.denominator == found.denominator
-            for name in (f"b{k}" for k in range(found.degrees[0] + 1)):
-                if name in found.zeros:
+            same = first is not None and first.denominator == own.denominator
+            for name in (f"b{k}" for k in range(own.degrees[0] + 1)):
+                if name in own.zeros:
                     yield label(name, i, None)
-            for name in (f"a{k}" for k in range(found.degrees[1])):
-                zero = name in found.zeros and (first is None or name in first.zeros)
+            for name in (f"a{k}" for k in range(own.degrees[1])):
+                zero = name in own.zeros and (first is None or name in first.zeros)
                 if same or zero:
                     yield label(name, i, shared)
 

@@ -87,8 +87,8 @@ class ComparedMachine(Side[MeasuredChain]):
         """The exact decision, for equal ranks and degrees."""
         if not comparable(self, other):
             return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
-        found = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
-        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
+        finding = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
+        return resting_on_ranks(finding, self.transfer_profile, other.transfer_profile)
 
     def confirms(self, other: "ComparedMachine", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both."""
@@ -102,9 +102,9 @@ class ComparedMachine(Side[MeasuredChain]):
         """What `exact` finds with evidence of this kind."""
         if not comparable(self, other):
             return None
-        found = exact_again(evidence, self.measured, other.measured, self.settings)
+        finding = exact_again(evidence, self.measured, other.measured, self.settings)
         profiles = self.transfer_profile, other.transfer_profile
-        return None if found is None else resting_on_ranks(found, *profiles)
+        return None if finding is None else resting_on_ranks(finding, *profiles)
 
     def admissible(
         self, other: "ComparedMachine", domain: Domain, why: Evidence | None = None
@@ -114,13 +114,13 @@ class ComparedMachine(Side[MeasuredChain]):
         """
         if isinstance(why, Renaming) or domain is not Domain.POSITIVE:
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_KNOWN.format(domain))
-        found = positive_ways(self.positive(other), other.positive(self))
-        if found.outcome is Outcome.ABANDONED or isinstance(why, FreeChoice):
-            return found
+        finding = positive_ways(self.positive(other), other.positive(self))
+        if finding.outcome is Outcome.ABANDONED or isinstance(why, FreeChoice):
+            return finding
         same = self.exact(other)
-        grades = (found.certainty, found.safety), (same.certainty, same.safety)
+        grades = (finding.certainty, finding.safety), (same.certainty, same.safety)
         certainty, safety = weakest(*grades)
-        return replace(found, certainty=certainty, safety=safety)
+        return replace(finding, certainty=certainty, safety=safety)
 
     def inclusions(self, other: "ComparedMachine") -> Inclusions:
         """For unequal ranks: limits, where missing elements or one experiment settle it."""
@@ -146,6 +146,6 @@ class ComparedMachine(Side[MeasuredChain]):
 
 def comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
     """Whether the exact decision is asked: ranks, degrees and dead times are equal."""
-    one, other = left.transfer_profile, right.transfer_profile
+    mine, theirs = left.transfer_profile, right.transfer_profile
     times = (side.measured.chain.dead_time for side in (left, right))
-    return one.rank == other.rank > 0 and one.degrees == other.degrees and len(set(times)) == 1
+    return mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees and len(set(times)) == 1

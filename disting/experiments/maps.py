@@ -45,21 +45,21 @@ def matched(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, Stac
     if by_mass is not None:
         return by_mass
     sides = [[_fraction(e) for e in m.entries if shape(e).numerator] for m in (left, right)]
-    found = stacked_maps([m.chain.parameters for m in (left, right)], sides)
-    return found[0], found[1]
+    maps = stacked_maps([m.chain.parameters for m in (left, right)], sides)
+    return maps[0], maps[1]
 
 
 def _by_mass(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, StackedMap] | None:
     """Both maps as (w, c0, c1), where the second experiment is the first one with an inertia."""
-    here, there = _split(left), _split(right)
-    if here is None or there is None or here.kind != there.kind:
+    first, second = _split(left), _split(right)
+    if first is None or second is None or first.kind != second.kind:
         return None
-    numerators = zip(here.parts[0], here.parts[1], there.parts[0], there.parts[1], strict=True)
+    numerators = zip(first.parts[0], first.parts[1], second.parts[0], second.parts[1], strict=True)
     if not any(b and d and not (a or c) for a, b, c, d in numerators):
         return None
     seen = [
         [k for k, pair in enumerate(zip(*part, strict=True)) if any(pair)]
-        for part in zip(here.parts, there.parts, strict=True)
+        for part in zip(first.parts, second.parts, strict=True)
     ]
     return tuple(  # type: ignore[return-value]
         map_of(
@@ -69,7 +69,7 @@ def _by_mass(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, Sta
                 *([part[k] for k in kept] for part, kept in zip(split.parts, seen, strict=True)),
             ],
         )
-        for m, split in ((left, here), (right, there))
+        for m, split in ((left, first), (right, second))
     )
 
 
@@ -103,8 +103,8 @@ def _split(measured: MeasuredChain) -> _Split | None:
     parts = tuple(
         tuple(_factor(c, at, power) for c in side) for side in (num, den[:-1]) for power in (0, 1)
     )
-    one = tuple(int(k == at) for k in range(len(names)))
-    return _Split((size, len(num), len(den)), ((one, 1),), parts)
+    exponents = tuple(int(k == at) for k in range(len(names)))
+    return _Split((size, len(num), len(den)), ((exponents, 1),), parts)
 
 
 def _factor(terms: Terms, at: int, power: int) -> Terms:

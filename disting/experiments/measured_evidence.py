@@ -113,10 +113,10 @@ def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChai
     if set(evidence.rows) <= labels:
         return confirms(ranks, left, right)
     for k in range(len(left.experiments)):
-        one, other = (MeasuredChain(m.chain, (m.experiments[k],)) for m in (left, right))
+        mine, theirs = (MeasuredChain(m.chain, (m.experiments[k],)) for m in (left, right))
         rows = tuple(name.replace(f"[{k + 1}]", "[1]") for name in evidence.rows)
-        if set(rows) in [_seen(m).labels("tf") for m in (one, other)]:
-            return confirms(replace(ranks, rows=rows), one, other)
+        if set(rows) in [_seen(m).labels("tf") for m in (mine, theirs)]:
+            return confirms(replace(ranks, rows=rows), mine, theirs)
     return False
 
 
@@ -128,81 +128,83 @@ def _one_experiment(evidence: Counts, left: MeasuredChain, right: MeasuredChain)
     pairs = (model.degrees for model in models)
     ranks = [profile(model, Representation.TF, 0, FRESH).rank for model in models]
     small, large = ordered(evidence.left, evidence.right, ranks[0] < ranks[1])
-    told = (evidence.left, evidence.right) in list(zip(*pairs, strict=True))
-    return told and exceed(small, large)
+    is_stated = (evidence.left, evidence.right) in list(zip(*pairs, strict=True))
+    return is_stated and exceed(small, large)
 
 
 def _missed(evidence: FibreUnder, left: MeasuredChain, right: MeasuredChain) -> bool:
     """The list once more, and what each of it misses."""
     left, right = without_dead_time(left), without_dead_time(right)
-    given, searched = (left, right) if evidence.left_given else (right, left)
+    machine, searched = (left, right) if evidence.left_given else (right, left)
     at = evidence.listed - 1
-    if not _is_of(evidence.point, given) or not 0 <= at < len(given.experiments):
+    if not _is_of(evidence.point, machine) or not 0 <= at < len(machine.experiments):
         return False
     try:
         values = {name: fraction(value) for name, value in evidence.point}
     except (ValueError, ZeroDivisionError):
         return False  # no numbers
-    listed = listed_at(given, searched, at, values)
+    listed = listed_at(machine, searched, at, values)
     return listed is not None and evidence.missed == tuple(
         None if k is None else k + 1 for k in listed.refuted_by
     )
 
 
-def _is_of(point: tuple[tuple[str, str], ...], given: MeasuredChain) -> bool:
-    return sorted(name for name, _ in point) == sorted(given.chain.parameters)
+def _is_of(point: tuple[tuple[str, str], ...], machine: MeasuredChain) -> bool:
+    return sorted(name for name, _ in point) == sorted(machine.chain.parameters)
 
 
 def _both_ways(evidence: BothWays, left: MeasuredChain, right: MeasuredChain) -> bool:
     """What is known of either way, once more; something is."""
     left, right = without_dead_time(left), without_dead_time(right)
     ways = [(evidence.left, left, right), (evidence.right, right, left)]
-    known = [way for way in ways if way[0].certainty]
-    return bool(known) and all(_proves(*way) for way in known)
+    graded_ways = [way for way in ways if way[0].certainty]
+    return bool(graded_ways) and all(_proves(*way) for way in graded_ways)
 
 
-def _proves(found: PositiveFinding, given: MeasuredChain, other: MeasuredChain) -> bool:
-    match found.evidence:
+def _proves(finding: PositiveFinding, machine: MeasuredChain, other: MeasuredChain) -> bool:
+    match finding.evidence:
         case Points():
-            with_one = _answer(found.evidence.with_one, given, other)
-            without = _answer(found.evidence.without, given, other)
-            told = found.share is Share.SOMETIMES and found.certainty is Certainty.BOUNDED
-            return told and (with_one, without) == (Answer.YES, Answer.NO)
+            with_one = _answer(finding.evidence.with_one, machine, other)
+            without = _answer(finding.evidence.without, machine, other)
+            is_sometimes = (
+                finding.share is Share.SOMETIMES and finding.certainty is Certainty.BOUNDED
+            )
+            return is_sometimes and (with_one, without) == (Answer.YES, Answer.NO)
         case OnlyOne():
-            at = found.evidence.experiment - 1
-            return found.share is Share.ALWAYS and _is_only_one(at, given, other)
-    pairs = _alone(given, other)
-    return found.share is Share.NEVER and any(proves(found, *pair) for pair in pairs)
+            at = finding.evidence.experiment - 1
+            return finding.share is Share.ALWAYS and _is_only_one(at, machine, other)
+    pairs = _alone(machine, other)
+    return finding.share is Share.NEVER and any(proves(finding, *pair) for pair in pairs)
 
 
 def _answer(
-    values: tuple[tuple[str, str], ...], given: MeasuredChain, other: MeasuredChain
+    values: tuple[tuple[str, str], ...], machine: MeasuredChain, other: MeasuredChain
 ) -> Answer:
     """Whether there is a positive equivalent at a stored positive point."""
     point = {name: fraction(value) for name, value in values}
-    if not _is_of(values, given) or any(value <= 0 for value in point.values()):
+    if not _is_of(values, machine) or any(value <= 0 for value in point.values()):
         return Answer.UNKNOWN
-    for at, _, _ in listable(given, other):
-        listed = listed_at(given, other, at, point)
+    for at, _, _ in listable(machine, other):
+        listed = listed_at(machine, other, at, point)
         if listed is not None and listed.kept:
             return answer_of(listed.kept)
     return Answer.UNKNOWN
 
 
-def _is_only_one(at: int, given: MeasuredChain, other: MeasuredChain) -> bool:
+def _is_only_one(at: int, machine: MeasuredChain, other: MeasuredChain) -> bool:
     """Whether there is one equivalent and no more in this experiment, counted from 0."""
-    if not 0 <= at < len(given.experiments):
+    if not 0 <= at < len(machine.experiments):
         return False
-    there = other.alone(at)
-    if given.alone(at) is None or there is None:
+    chain = other.alone(at)
+    if machine.alone(at) is None or chain is None:
         return False
-    count = identifiability(canonical(there).chain, FRESH)
+    count = identifiability(canonical(chain).chain, FRESH)
     return count.least == count.most == 1 and count.count_grade[0] is not Certainty.NUMERICAL
 
 
-def _alone(given: MeasuredChain, other: MeasuredChain) -> Iterator[tuple[Chain, Chain]]:
+def _alone(machine: MeasuredChain, other: MeasuredChain) -> Iterator[tuple[Chain, Chain]]:
     """Yield the canonical chains of each experiment in which both are chains of the class."""
-    for at in range(len(given.experiments)):
-        one, there = given.alone(at), other.alone(at)
-        if one is not None and there is not None:
-            yield canonical(one).chain, canonical(there).chain
+    for at in range(len(machine.experiments)):
+        chain, other_chain = machine.alone(at), other.alone(at)
+        if chain is not None and other_chain is not None:
+            yield canonical(chain).chain, canonical(other_chain).chain

@@ -43,10 +43,10 @@ class Item:
     @property
     def experiment(self) -> Experiment:
         """The further experiment; what takes a size has a generic one."""
-        given: dict[str, Any] = {self.kind.argument: self.at}
+        arguments: dict[str, Any] = {self.kind.argument: self.at}
         if self.kind.takes_size:
-            given = {self.kind.argument: {self.at: GENERIC}}
-        return Experiment(**given)
+            arguments = {self.kind.argument: {self.at: GENERIC}}
+        return Experiment(**arguments)
 
     @property
     def text(self) -> str:
@@ -86,14 +86,14 @@ class Costs:
         >>> Costs.read("lock=0.5").of["lock"], Costs.read("lock=0.5").of["inertia"]
         (0.5, 2.0)
         """
-        given: dict[str, float] = {}
+        costs: dict[str, float] = {}
         for part in filter(None, text.split(",")):
             name, _, value = part.strip().partition("=")
             try:
-                given[name] = float(value)
+                costs[name] = float(value)
             except ValueError:
                 raise InputError(f"costs are written sensor=3,lock=1, not {shown(part)}") from None
-        return Costs(given)
+        return Costs(costs)
 
     def cost(self, kind: Kind) -> float:
         """Of one item of this kind.
@@ -130,10 +130,10 @@ def measured(chain: Chain, *items: Item) -> MeasuredChain:
     Where force and sensor are at one place, to move the one or the other is the same (reciprocity:
     A(s) and its inverse are symmetric), so the sensor is moved.
     """
-    found = [
+    items_in_order = [
         Item(SENSOR, item.at) if chain.collocated and item.kind == FORCE else item for item in items
     ]
-    return MeasuredChain(chain, (Experiment(), *(item.experiment for item in found)))
+    return MeasuredChain(chain, (Experiment(), *(item.experiment for item in items_in_order)))
 
 
 def gain(chain: Chain, item: Item) -> Gain | None:
@@ -146,13 +146,13 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     prime differs.
     """
     both = measured(chain, item)
-    here, there = both.entries
-    if there.is_silent:
+    plain, further = both.entries
+    if further.is_silent:
         return Gain.SILENT
     sized = item.kind.power is not None
-    if sized and not chain.lag and here.ports == (0, item.at, 0, item.at):
+    if sized and not chain.lag and plain.ports == (0, item.at, 0, item.at):
         return Gain.REPEATS
-    if not there.experiment.changes and _seen(here) == _seen(there):
+    if not further.experiment.changes and _seen(plain) == _seen(further):
         return Gain.REPEATS
     where = drawn(MachineModel(both), "gain")
     first, second = where.quotients
@@ -162,8 +162,8 @@ def gain(chain: Chain, item: Item) -> Gain | None:
         return Gain.NEW
     num, den = first.num, first.den
     if item.kind.power is not None:
-        (size,) = residues_of(there.known, where.modulus).values()
-        lift = item.kind.power - here.sensor_order
+        (size,) = residues_of(further.known, where.modulus).values()
+        lift = item.kind.power - plain.sensor_order
         num, den = (_shifted(p, -lift) for p in (num, den)) if lift < 0 else (num, den)
         den = den + _shifted(first.num, lift) * size
     return Gain.NEW if num * second.den != second.num * den else None

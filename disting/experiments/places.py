@@ -69,14 +69,16 @@ def named(text: str) -> Named:
     return Named(Experiment(**ports, changes=changes), agreed)
 
 
-def ways(left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()) -> list[Places]:
+def ways(
+    left: Chain, right: Chain, asked: Sequence[Named], fixed_places: Places = ()
+) -> list[Places]:
     """Every way to say which masses of the right chain the named ones of the left chain are;
     raises InputError.
     """
-    for one in asked:
-        one.experiment.refuse(left)
-    fixed = dict(_agreed([*known, *(pair for one in asked for pair in one.places)]))
-    used = sorted({i for one in asked for i in one.experiment.masses})
+    for item in asked:
+        item.experiment.refuse(left)
+    fixed = dict(_agreed([*fixed_places, *(pair for item in asked for pair in item.places)]))
+    used = sorted({i for item in asked for i in item.experiment.masses})
     open_ones = [i for i in used if i not in fixed]
     wrong = [r for r in fixed.values() if r > right.n_masses]
     if wrong:
@@ -95,10 +97,10 @@ def ways(left: Chain, right: Chain, asked: Sequence[Named], known: Places = ()) 
             f"the places are not known in {count} ways, {MOST_WAYS} at most are asked for: name"
             f" some, for instance {open_ones[0]}/{free[0]}"
         )
-    found = (
+    numberings = (
         dict(zip(open_ones, chosen, strict=True)) for chosen in permutations(free, len(open_ones))
     )
-    return [tuple(sorted((fixed | one).items())) for one in found]
+    return [tuple(sorted((fixed | item).items())) for item in numberings]
 
 
 def moved(experiment: Experiment, places: Places) -> Experiment:
@@ -107,12 +109,12 @@ def moved(experiment: Experiment, places: Places) -> Experiment:
 
 
 def _mass(text: str, places: list[tuple[int, int]]) -> int:
-    found = re.fullmatch(r"(\d{1,3})(?:/(\d{1,3}))?", text.strip())
-    if not found:
+    match = re.fullmatch(r"(\d{1,3})(?:/(\d{1,3}))?", text.strip())
+    if not match:
         raise InputError(f"a place is a mass such as 3, or 3/2 for left/right, not {shown(text)}")
-    left = int(found[1])
-    if found[2] is not None:
-        places.append((left, int(found[2])))
+    left = int(match[1])
+    if match[2] is not None:
+        places.append((left, int(match[2])))
     return left
 
 

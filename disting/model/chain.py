@@ -132,11 +132,11 @@ class Chain(Drawn):
 
     def __repr__(self) -> str:
         ports = self.indices[1:] if self.indices[1:] != PORTS else ()
-        given = [repr(i) for i in (self.n_masses, *ports)]
-        given += [f"damped={self.damped}", f"sensor={self.sensor.value!r}"]
-        given += [f"ground_dampers={self.ground_dampers}"] * bool(self.ground_dampers)
-        given += ["lag=True"] * self.lag + ["dead_time=True"] * self.dead_time
-        return f"Chain({', '.join(given)})"
+        arguments = [repr(i) for i in (self.n_masses, *ports)]
+        arguments += [f"damped={self.damped}", f"sensor={self.sensor.value!r}"]
+        arguments += [f"ground_dampers={self.ground_dampers}"] * bool(self.ground_dampers)
+        arguments += ["lag=True"] * self.lag + ["dead_time=True"] * self.dead_time
+        return f"Chain({', '.join(arguments)})"
 
     def transfer_function(self) -> Any:
         """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the

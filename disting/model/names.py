@@ -115,11 +115,11 @@ def chains_named(
     >>> chains_named([Family(3, damped=False)[1], "A4"])[1].damped
     False
     """
-    given = next((m for m in models if isinstance(m, Chain)), Chain(1, damped=DAMPED))
+    pattern = next((m for m in models if isinstance(m, Chain)), Chain(1, damped=DAMPED))
     family = Family(
         1,
-        given.damped if damped is None else damped,
-        given.sensor if sensor is None else as_sensor(sensor),
+        pattern.damped if damped is None else damped,
+        pattern.sensor if sensor is None else as_sensor(sensor),
     )
     sizes = {m.n_masses if isinstance(m, Chain) else read(str(m)).masses for m in models} - {0}
     if len(sizes) == 1:
@@ -190,8 +190,8 @@ def _meant(text: str) -> str:
     head, *words = _joined(text.replace("_", " ")).lower().split("+")
     head = re.sub(r"^a?(\d{1,2})\s*[.;,/\- ]\s*a?(\d{1,6})$", r"\1:\2", head)
     near = [_word(word.replace(" ", "")) for word in words]
-    found = "+".join([head, *near])
-    return found if NAME.fullmatch(found) and found != text else ""
+    name = "+".join([head, *near])
+    return name if NAME.fullmatch(name) and name != text else ""
 
 
 def _word(word: str) -> str:
@@ -200,8 +200,8 @@ def _word(word: str) -> str:
 
     damper = re.fullmatch(r"[bd]?0*([1-9]\d?)", word)
     near = get_close_matches(word, (*WORDS, "deadtime", "dead-time"), 1, 0.6)
-    found = f"b{damper[1]}" if damper else near[0] if near else word
-    return "delay" if found.startswith("dead") else found
+    nearest = f"b{damper[1]}" if damper else near[0] if near else word
+    return "delay" if nearest.startswith("dead") else nearest
 
 
 def names_of(left: Chain, right: Chain) -> tuple[str, str]:

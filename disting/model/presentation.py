@@ -97,10 +97,10 @@ def summary(of: object, text: str) -> str:
     return line if len(line) <= LONGEST else f"{line[: LONGEST - 2]}…>"
 
 
-def plural(count: int, one: str, many: str = "") -> str:
+def plural(count: int, single: str, many: str = "") -> str:
     """Number and noun.
 
     >>> plural(1, "pair"), plural(0, "pair"), plural(2, "mass", "masses")
     ('1 pair', '0 pairs', '2 masses')
     """
-    return f"{count} {one if count == 1 else many or one + 's'}"
+    return f"{count} {single if count == 1 else many or single + 's'}"

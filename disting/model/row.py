@@ -136,8 +136,10 @@ class Row:
     def __str__(self) -> str:
         where = "at a wall" if self.grounded else "free"
         extras = [f"ground dampers {'+'.join(map(str, self.ground_dampers))}"]
-        told = ["undamped"] * (not self.damped) + extras * bool(self.ground_dampers)
-        return ", ".join([f"{self.n_masses} masses {where}, ports {self.a} and {self.b}", *told])
+        extras_in_words = ["undamped"] * (not self.damped) + extras * bool(self.ground_dampers)
+        return ", ".join(
+            [f"{self.n_masses} masses {where}, ports {self.a} and {self.b}", *extras_in_words]
+        )
 
 
 def rows_of(structure: Structure) -> tuple[Row, ...]:

@@ -16,13 +16,13 @@ SIZES = (1, 2, 3, 4)
 
 def dead_time(findings: Findings) -> Found:
     """Models with a dead time against the same without."""
-    found = [
+    verdicts = [
         _compared(findings, chain, replace(chain, dead_time=True))
         for chain in Family(3, damped=True)
     ]
     return Found(
-        f"all {len(found)} pairs are distinguishable",
-        _all_distinguishable(found),
+        f"all {len(verdicts)} pairs are distinguishable",
+        _all_distinguishable(verdicts),
         _with_and_without("delay"),
     )
 
@@ -83,9 +83,9 @@ def candidates(findings: Findings) -> Found:
 def model_a3(findings: Findings) -> Found:
     """Base dampers of A3 (force at mass 1, sensor at mass 3)."""
     groups = findings.dampers(Family(3, damped=True)[3], DamperSets.ALL).classes()
-    told = "; ".join(", ".join(map(spelled, group)) for group in groups)
+    classes = "; ".join(", ".join(map(spelled, group)) for group in groups)
     return Found(
-        f"told apart are only no damper and any: {told}",
+        f"told apart are only no damper and any: {classes}",
         [len(g) for g in groups] == [1, 7],
         (
             Seen(3, True, ("3", "3+b1"), dampers=True),
@@ -103,8 +103,8 @@ def _compared(findings: Findings, left: Chain, right: Chain) -> Verdict:
     )
 
 
-def _all_distinguishable(found: list[Verdict]) -> bool:
-    return {v.relation for v in found} == {Relation.DISTINGUISHABLE}
+def _all_distinguishable(verdicts: list[Verdict]) -> bool:
+    return {v.relation for v in verdicts} == {Relation.DISTINGUISHABLE}
 
 
 CANDIDATE_CLAIMS = (

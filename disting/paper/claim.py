@@ -189,9 +189,9 @@ class Claim:
         return Outcome.DIFFERS if self.about else Outcome.AGREES
 
 
-def counted(found: Decisions) -> dict[str, int]:
+def counted(decisions: Decisions) -> dict[str, int]:
     """Pairs by deciding condition, undecided ones under ""."""
-    return {rule: n for rule, n in found.counts().items() if n}
+    return {rule: n for rule, n in decisions.counts().items() if n}
 
 
 def told(counts: dict[str, int]) -> str:
@@ -204,15 +204,15 @@ def told(counts: dict[str, int]) -> str:
     return ", ".join([*decided, f"{counts.get('', 0)} undecided"])
 
 
-def deciding(found: Decisions) -> dict[Pair, str]:
+def deciding(decisions: Decisions) -> dict[Pair, str]:
     """The deciding condition of every pair of models, "" where it is undecided."""
-    pairs = combinations(range(len(found.subjects)), 2)
-    return {(i + 1, j + 1): found.rule(i, j) for i, j in pairs}
+    pairs = combinations(range(len(decisions.subjects)), 2)
+    return {(i + 1, j + 1): decisions.rule(i, j) for i, j in pairs}
 
 
-def undecided(found: Decisions) -> set[Pair]:
+def undecided(decisions: Decisions) -> set[Pair]:
     """The pairs that stay open."""
-    return {pair for pair, rule in deciding(found).items() if not rule}
+    return {pair for pair, rule in deciding(decisions).items() if not rule}
 
 
 def named(numbers: Sequence[object]) -> str:

@@ -32,32 +32,32 @@ FIG_13 = {"": 9, "1": 168, "4": 151, "5": 34, "6": 7, "7": 37}
 
 def condition_9_holds(findings: Findings) -> Found:
     """How often condition 9 is applicable, and how often it holds."""
-    found = {n: _condition_9(findings, n) for n in (3, 4, 5)}
-    holds = [Counter(outcomes.values())[Holding.HOLDS] for outcomes in found.values()]
+    by_size = {n: _condition_9(findings, n) for n in (3, 4, 5)}
+    holds = [Counter(outcomes.values())[Holding.HOLDS] for outcomes in by_size.values()]
     return Found(
-        f"{named([len(outcomes) for outcomes in found.values()])} pairs of 3, 4 and 5 masses differ"
-        f" in the gap alone; condition 9 holds for {named(holds)} of them",
+        f"{named([len(outcomes) for outcomes in by_size.values()])} pairs of 3, 4 and 5 masses"
+        f" differ in the gap alone; condition 9 holds for {named(holds)} of them",
         holds == [0, 1, 6],
-        tuple(seen for n, outcomes in found.items() for seen in pairs(n, outcomes)),
+        tuple(seen for n, outcomes in by_size.items() for seen in pairs(n, outcomes)),
     )
 
 
 def _condition_9(findings: Findings, n_masses: int) -> dict[Pair, Holding]:
     """Outcomes for the pairs to which it is applicable: those with the same force and sensor."""
     subjects = [findings.engine.subject("", chain) for chain in Family(n_masses, damped=False)]
-    found = {
+    outcomes = {
         (i, j): condition_9(left, right).outcome
         for (i, left), (j, right) in combinations(enumerate(subjects, 1), 2)
     }
-    return {pair: o for pair, o in found.items() if o in (Holding.FAILS, Holding.HOLDS)}
+    return {pair: o for pair, o in outcomes.items() if o in (Holding.FAILS, Holding.HOLDS)}
 
 
 def figure_13(findings: Findings) -> Found:
     """Undamped 4-mass models, all conditions."""
     catalog = findings.catalog(4, damped=False)
-    found = {rule: n for rule, n in catalog.counts(View.COMBINED).items() if n}
+    counts = {rule: n for rule, n in catalog.counts(View.COMBINED).items() if n}
     left = sum(v.relation is Relation.UNDECIDED for *_, v in catalog.pairs(View.EXACT))
-    return Found(f"{told(found)}; the exact decision leaves {left}", found == FIG_13, families(4))
+    return Found(f"{told(counts)}; the exact decision leaves {left}", counts == FIG_13, families(4))
 
 
 def eight_cases(findings: Findings) -> Found:
@@ -117,7 +117,7 @@ def conditions_2_and_8(findings: Findings) -> Found:
         for n in range(1, 6)
         for d in (False, True)
     ]
-    decisive = sum(found.get(number, 0) for found in families for number in ("2", "8"))
+    decisive = sum(counts.get(number, 0) for counts in families for number in ("2", "8"))
     rules = Counter(
         rule for chain in Family(3, damped=True) for *_, rule in findings.dampers(chain).rows()
     )
@@ -131,14 +131,14 @@ def conditions_2_and_8(findings: Findings) -> Found:
 
 def almost_all(findings: Findings) -> Found:
     """Share of pairs that the conditions decide, and what the exact decision adds."""
-    found = [findings.catalog(n, damped=d) for n, d in ((3, False), (3, True), (4, False))]
+    catalogs = [findings.catalog(n, damped=d) for n, d in ((3, False), (3, True), (4, False))]
     by_conditions, exactly = (
-        [c.counts(view)[""] for c in found] for view in (View.COMBINED, View.EXACT)
+        [c.counts(view)[""] for c in catalogs] for view in (View.COMBINED, View.EXACT)
     )
     return Found(
         f"{named(by_conditions)} pairs stay open (3 masses undamped, damped, 4 undamped); "
         f"with the exact decision {named(exactly)}",
-        sum(by_conditions) < 0.05 * sum(len(c.family) * (len(c.family) - 1) // 2 for c in found),
+        sum(by_conditions) < 0.05 * sum(len(c.family) * (len(c.family) - 1) // 2 for c in catalogs),
         CASES,
     )
 

@@ -42,9 +42,10 @@ def weights(findings: Findings) -> Found:
 
 def importance_index(findings: Findings) -> Found:
     """(16) of columns of known length."""
-    found = importance(SAMPLE)
+    indices = importance(SAMPLE)
     return Found(
-        "the length of each column S_j Δp_j, with Δp_j = p_j", bool(np.allclose(found, [5.0, 3.0]))
+        "the length of each column S_j Δp_j, with Δp_j = p_j",
+        bool(np.allclose(indices, [5.0, 3.0])),
     )
 
 

@@ -12,10 +12,10 @@ FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 
 def table_2(findings: Findings) -> Found:
     """Sizes of the families."""
-    found = [len(Family(n, damped=False)) for n in range(1, 11)]
+    sizes = [len(Family(n, damped=False)) for n in range(1, 11)]
     return Found(
-        f"{named(found[:5])}; going on {named(found[5:])} for 6 to 10 masses",
-        found[:5] == [1, 3, 11, 29, 73],
+        f"{named(sizes[:5])}; going on {named(sizes[5:])} for 6 to 10 masses",
+        sizes[:5] == [1, 3, 11, 29, 73],
         families(1, 2, 3, 4, 5),
     )
 
@@ -49,10 +49,10 @@ def figure_9(findings: Findings) -> Found:
 
 def figure_1_models(findings: Findings) -> Found:
     """The candidates of Fig. 1 among the families."""
-    found = [Family(n, damped=True)[1] == Chain(n, damped=True) for n in (1, 2, 3, 4)]
+    is_first = [Family(n, damped=True)[1] == Chain(n, damped=True) for n in (1, 2, 3, 4)]
     return Found(
         "the candidate without base dampers is model 1 of its family, and collocated",
-        all(found),
+        all(is_first),
         tuple(seen for n in (1, 2, 3, 4) for seen in models(n, [1], damped=True)),
     )
 
@@ -98,8 +98,8 @@ def sensors(findings: Findings) -> Found:
 
 
 def _series(findings: Findings, chain: Chain, count: int) -> frozenset[str]:
-    (found,) = findings.engine.profiles_of([chain], markov=count)
-    return found.form
+    (profile,) = findings.engine.profiles_of([chain], markov=count)
+    return profile.form
 
 
 FAMILY_CLAIMS = (

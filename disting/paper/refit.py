@@ -58,7 +58,7 @@ class Mode:
 class Refit:
     """A1 with numbers and the A4 that fits it best; `j` = cost (14) over `LINES` lines."""
 
-    given: Chain
+    source: Chain
     fitted: Chain
     given_parameters: Mapping[str, float]
     fitted_parameters: Mapping[str, float]
@@ -72,7 +72,9 @@ class Refit:
 
     def _modes(self, kind: str) -> tuple[Mode, ...]:
         roots = zeros if kind == "antiresonance" else poles
-        ours = oscillating(roots(self.given.structure, _vector(self.given, self.given_parameters)))
+        ours = oscillating(
+            roots(self.source.structure, _vector(self.source, self.given_parameters))
+        )
         theirs = oscillating(
             roots(self.fitted.structure, _vector(self.fitted, self.fitted_parameters))
         )
@@ -87,23 +89,23 @@ class Refit:
         )
 
 
-def refitted(given: Mapping[str, float] = GIVEN) -> Refit:
+def refitted(parameters: Mapping[str, float] = GIVEN) -> Refit:
     """The best A4 for the exact response of A1 with the given parameters."""
     family = Family(3, damped=True)
     source, target = family[1], family[4]
-    p = _vector(source, given)
+    p = _vector(source, parameters)
     low = abs(oscillating(zeros(source.structure, p))[0]) / BAND
     high = abs(oscillating(poles(source.structure, p))[-1]) * BAND
     omega = np.geomspace(low, high, LINES)
     measured = FrequencyResponse(omega, Plant(source.structure, omega).response(p))
-    found = estimates([target], Task(Cost(measured)))[target]
+    estimate = estimates([target], Task(Cost(measured)))[target]
     return Refit(
-        given=source,
+        source=source,
         fitted=target,
-        given_parameters=given,
-        fitted_parameters=found.parameters,
+        given_parameters=parameters,
+        fitted_parameters=estimate.parameters,
         measured=measured,
-        j=found.j,
+        j=estimate.j,
     )
 
 

@@ -24,11 +24,11 @@ def candidates(findings: Findings) -> Found:
 def sizes(findings: Findings) -> Found:
     """N_p of the four best models that are named."""
     named_models = ((3, (2,)), (4, (1,)), (3, (3,)), (2, (2,)))
-    found = [
+    counts = [
         len(Chain(n, damped=True, ground_dampers=b, dead_time=True).parameters)
         for n, b in named_models
     ]
-    return Found(named(found), found == [9, 12, 9, 6])
+    return Found(named(counts), counts == [9, 12, 9, 6])
 
 
 def table_1(findings: Findings) -> Found:
@@ -66,11 +66,11 @@ def thresholds(findings: Findings) -> Found:
     """Steps of N_p with rising thresholds, on the demonstration drive."""
     steps = [np.diff(sweep(findings.selection.candidates, c).n_parameters) for c in CRITERIA]
     rises, falls = (sum(int((sign * s > 0).sum()) for s in steps) for sign in (1, -1))
-    told = (
+    comparison = (
         f"simulated demonstration drive: with rising thresholds N_p rises {rises} times and falls"
         f" {falls} times"
     )
-    return Found(told, rises > falls)
+    return Found(comparison, rises > falls)
 
 
 TEST_BEDS = "It depends on measurements of the authors' test beds, which are not published."

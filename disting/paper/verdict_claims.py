@@ -45,8 +45,8 @@ def same_pictures(findings: Findings) -> Found:
 
 def figure_10_left(findings: Findings) -> Found:
     """Undamped, transfer functions."""
-    found = counted(findings.picture(3, False, View.TF))
-    return Found(told(found), "" not in found, families(3))
+    counts = counted(findings.picture(3, False, View.TF))
+    return Found(told(counts), "" not in counts, families(3))
 
 
 def figure_10_right(findings: Findings) -> Found:
@@ -75,8 +75,10 @@ def fewer_than_eight(findings: Findings) -> Found:
 
 def all_twelve(findings: Findings) -> Found:
     """Undamped, all 12 Markov parameters."""
-    found = counted(findings.picture(3, False, View.MARKOV))
-    return Found(f"all 12 are computed modulo primes: {told(found)}", "6" not in found, families(3))
+    counts = counted(findings.picture(3, False, View.MARKOV))
+    return Found(
+        f"all 12 are computed modulo primes: {told(counts)}", "6" not in counts, families(3)
+    )
 
 
 def no_additional_information(findings: Findings) -> Found:

@@ -137,14 +137,14 @@ def read_spectrum(path: Path) -> tuple[tuple[float, float], ...]:
     text = read_bounded(path, f"a CSV file with the columns {' and '.join(HEADER)}")
     try:
         rows = list(csv.DictReader(text.decode("utf-8").splitlines()))
-        found = tuple((float(row[HEADER[0]]), float(row[HEADER[1]])) for row in rows)
+        lines = tuple((float(row[HEADER[0]]), float(row[HEADER[1]])) for row in rows)
     except (ValueError, KeyError, TypeError):
-        found = ()
-    if not found:
+        lines = ()
+    if not lines:
         raise InputError(
             f"{path} is no spectrum: a CSV file with the columns {' and '.join(HEADER)} is needed"
         )
-    return found
+    return lines
 
 
 def _chirp(first: int, last: int, samples: int) -> Real:

@@ -66,7 +66,7 @@ class Form:
 
     def powers(self, values: Mapping[str, float]) -> Powers:
         """P_r by r, for values of all parameters."""
-        found: dict[float, Real] = {}
+        coefficients: dict[float, Real] = {}
         for e in self.elements:
             size = values[e.value] if e.value else 1.0
             u, v = (
@@ -75,8 +75,8 @@ class Form:
             )
             term = (1 / size if e.kind.divides else size) * np.outer(u, v)
             power = values[e.exponent] if e.exponent else e.kind.halves / 2
-            found[power] = found[power] + term if power in found else term
-        return found
+            coefficients[power] = coefficients[power] + term if power in coefficients else term
+        return coefficients
 
     def _vector(self, ends: Mapping[int, SupportsFloat]) -> Real:
         """+1 and -1 or a ratio at some nodes, nothing at the ground."""

@@ -43,11 +43,11 @@ def modules_of(module: str) -> tuple[str, ...]:
     >>> modules_of("disting.algebra.certainty")
     ('disting.algebra.certainty', 'disting.algebra.content')
     """
-    sources, found, new = _sources(), set[str](), {module}
+    sources, modules, new = _sources(), set[str](), {module}
     while new:
-        found |= new
-        new = {name for old in new for name in _imported(sources[old]) if name in sources} - found
-    return tuple(sorted(found))
+        modules |= new
+        new = {name for old in new for name in _imported(sources[old]) if name in sources} - modules
+    return tuple(sorted(modules))
 
 
 def _imported(source: str) -> Iterator[str]:

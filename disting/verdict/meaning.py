@@ -52,8 +52,8 @@ def shown(verdict: Verdict, what: str = RESPONSE, everywhere: bool = False) -> s
             return _more_equations(verdict.evidence, left, right, machines, what)
         case Forms():
             return _varying(verdict.evidence, left, right, what)
-        case DeadTime(left_given=given):
-            delayed = left if given else right
+        case DeadTime(left_given=is_left):
+            delayed = left if is_left else right
             return f"Towards high frequencies the phase of {delayed} falls without an end."
         case None:
             return _not_known(verdict, what)

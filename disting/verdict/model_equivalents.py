@@ -112,17 +112,17 @@ def _sets(
     """All values of small models, those by synthesis first; of larger ones the positive ones by
     synthesis, where these are all, or nothing else is found.
     """
-    found = _synthesized(model, values, other)
+    synthesized = _synthesized(model, values, other)
     is_large = len(other.parameters) > MOST_SOLVED
-    if is_large and found is not None and found.complete:
-        return None, found
-    names, sets = set(other.parameters), found.sets if found is not None else ()
+    if is_large and synthesized is not None and synthesized.complete:
+        return None, synthesized
+    names, sets = set(other.parameters), synthesized.sets if synthesized is not None else ()
     plain = [
         x for x in sets if x.keys() == names and not any(isinstance(v, float) for v in x.values())
     ]
     solved = alternatives(model, values, other, plain=plain)
-    is_open = is_large and found is not None and solved.extent is Extent.UNKNOWN
-    return (None, found) if is_open else (solved, None)
+    is_open = is_large and synthesized is not None and solved.extent is Extent.UNKNOWN
+    return (None, synthesized) if is_open else (solved, None)
 
 
 def _synthesized(

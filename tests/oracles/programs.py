@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from disting.fibres.ideals.fibre_ideal import FibreIdeal, Sparse
+from disting.algebra.groebner.modular import Sparse
+from disting.fibres.ideals.fibre_ideal import FibreIdeal
 from tests.oracles.rational import Emptiness
 
 PROGRAM_BITS = 31

@@ -61,7 +61,7 @@ class _Work:
     # elements whose leading monomial no other one divides
     active: list[int] = field(default_factory=list)
     pairs: list[tuple[int, int, int]] = field(default_factory=list)  # lcm, two elements
-    known: dict[int, int] = field(default_factory=dict)  # monomial -> element that reduces it
+    reducers: dict[int, int] = field(default_factory=dict)  # monomial -> element that reduces it
     # monomial -> number of elements that were tried in vain
     missed: dict[int, int] = field(default_factory=dict)
     degree: int = 0
@@ -156,13 +156,13 @@ def _multiple(work: _Work, factor: int, element: int) -> Multiple:
 
 
 def _reducer(work: _Work, code: int) -> int | None:
-    if code in work.known:
-        return work.known[code]
+    if code in work.reducers:
+        return work.reducers[code]
     guard, mask = work.order.guard, work.order.mask
     low, tried = (code & mask) | guard, work.missed.get(code, 0)
     for i in work.active:
         if i >= tried and (low - (work.rows[i].codes[0] & mask)) & guard == guard:
-            work.known[code] = i
+            work.reducers[code] = i
             return i
     work.missed[code] = len(work.rows)
     return None
@@ -179,16 +179,16 @@ def _echelon(
     free = [j for j in range(len(columns)) if j not in placed]
     steps = [(j, *placed[j]) for j in sorted(placed)]
     monomials, kept = [columns[j] for j in free], list[list[int]]()
-    found = list[MatrixRow]()
+    rows = list[MatrixRow]()
     for part in _parts(others, len(free)):
         reduced = (
             _freed([at[c] for c in codes], numbers, steps, free, modulus) for codes, numbers in part
         )
         kept += [row for row in reduced if any(row)]
-        found = _independent(kept, monomials, modulus)
-        if found and found[-1].codes[0] == 0:
-            return found[-1:]
-    return found
+        rows = _independent(kept, monomials, modulus)
+        if rows and rows[-1].codes[0] == 0:
+            return rows[-1:]
+    return rows
 
 
 def _parts(rows: list[Multiple], width: int) -> list[list[Multiple]]:

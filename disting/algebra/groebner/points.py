@@ -62,12 +62,12 @@ def _standard(basis: Basis) -> list[int]:
     """Standard monomials, finitely many, in rising order; none if there are too many."""
     leads = [row.codes[0] for row in basis.rows]
     steps = _variables(basis)
-    found, layer = list[int](), [0]
-    while layer and len(found) <= MAX_SOLUTIONS:
+    monomials, layer = list[int](), [0]
+    while layer and len(monomials) <= MAX_SOLUTIONS:
         layer = [m for m in layer if not any(basis.order.divides(lead, m) for lead in leads)]
-        found += layer
+        monomials += layer
         layer = sorted({m + x for m in layer for x in steps})
-    return [] if layer else sorted(found)
+    return [] if layer else sorted(monomials)
 
 
 def _variables(basis: Basis) -> list[int]:

@@ -78,9 +78,9 @@ class Basis:
 def basis(generators: Sequence[Sparse], size: int, bounds: Bounds) -> Basis:
     """Groebner basis of the ideal of the generators; raises TooLarge."""
     context = fmpz_mpoly_ctx.get(tuple(f"x{i}" for i in range(size)), Ordering.degrevlex)
-    given = fmpz_mpoly_vec([context.from_dict(p) for p in generators], context)
+    vector = fmpz_mpoly_vec([context.from_dict(p) for p in generators], context)
     limits = (bounds.polynomials, bounds.terms, bounds.bits)
-    grown, done = cast("Any", given).buchberger_naive(limits=limits)
+    grown, done = cast("Any", vector).buchberger_naive(limits=limits)
     if not done:
         raise TooLarge("the Groebner basis grows beyond its bounds")
     reduced = grown.autoreduction(groebner=True)
@@ -92,9 +92,9 @@ def shape(generators: Sequence[Sparse], size: int, bounds: Bounds, seed: str) ->
     shows it; raises TooLarge.
     """
     algebra = Algebra(basis(generators, size, bounds), bounds)
-    found = algebra.shape(seed)
-    if found:
-        return found
+    by_form = algebra.shape(seed)
+    if by_form:
+        return by_form
     radical = [*generators, *algebra.squarefree()]
     return Algebra(basis(radical, size, bounds), bounds).shape(seed)
 
@@ -111,29 +111,29 @@ class Algebra:
     def shape(self, seed: str) -> Shape | None:
         """The shape in the first linear form whose powers span the algebra."""
         unknowns = [self._matrix(i) for i in range(self.ideal.size)]
-        one = self._column({(0,) * self.ideal.size: fmpq(1)})
+        unit = self._column({(0,) * self.ideal.size: fmpq(1)})
         for k in range(FORMS):
             weights = residues(f"form:{seed}:{k}", self.ideal.size, 8 << k)
             form = sum(
                 (w * m for w, m in zip(weights[1:], unknowns[1:], strict=True)), 0 * unknowns[0]
             )
-            powers = [one]
+            powers = [unit]
             for _ in self.monomials:
                 powers.append(form * powers[-1])
-            if found := self._solved(powers, [m * one for m in unknowns]):
-                return found
+            if by_form := self._solved(powers, [m * unit for m in unknowns]):
+                return by_form
         return None
 
     def squarefree(self) -> list[Sparse]:
         """Squarefree parts of the minimal polynomials of the unknowns."""
-        found = []
+        polynomials = []
         for i in range(self.ideal.size):
             least = self._matrix(i).minpoly()
             part = (least // least.gcd(least.derivative())).numer()
-            found.append(
+            polynomials.append(
                 {_unit(i, k, self.ideal.size): int(c) for k, c in enumerate(part.coeffs()) if c}
             )
-        return found
+        return polynomials
 
     def _solved(self, powers: list[fmpq_mat], unknowns: list[fmpq_mat]) -> Shape | None:
         """Each unknown and the last power in the powers before it, if these are a basis."""
@@ -143,19 +143,19 @@ class Algebra:
             return None
         wanted = [*unknowns, powers[n]]
         parts = krylov.solve(_side_by_side(wanted, n))
-        found = [fmpq_poly([parts[i, j] for i in range(n)]) for j in range(len(wanted))]
-        return Shape(fmpq_poly([0] * n + [1]) - found[-1], tuple(found[:-1]))
+        parametrised = [fmpq_poly([parts[i, j] for i in range(n)]) for j in range(len(wanted))]
+        return Shape(fmpq_poly([0] * n + [1]) - parametrised[-1], tuple(parametrised[:-1]))
 
     def _standard(self, limit: int) -> list[tuple[int, ...]]:
         """The monomials that no leading monomial divides."""
-        found, edge = list[tuple[int, ...]](), [(0,) * self.ideal.size]
+        monomials, edge = list[tuple[int, ...]](), [(0,) * self.ideal.size]
         while edge:
-            found += edge
-            if len(found) > limit:
+            monomials += edge
+            if len(monomials) > limit:
                 raise TooLarge(f"more than {limit} solutions")
             grown = {_times(m, i) for m in edge for i in range(self.ideal.size)}
             edge = sorted(m for m in grown if not self._is_reducible(m))
-        return found
+        return monomials
 
     def _is_reducible(self, monomial: tuple[int, ...]) -> bool:
         return any(
