@@ -15,10 +15,10 @@ determined at all.
 >>> confirms(fourth, family[4])
 True
 
-The parts of a finding: a Combination that is determined, a Scaling that changes nothing, an
-Alternative with its Origin. It is on the canonical form of a chain, and `as_given` in its names.
-Of any model `local` gives a Local, `by_parameter` the level of each parameter, `joint` the grade of
-several statements together; `encoded` and `decoded` are for a store.
+The parts of a finding: a Combination that is determined, an Alternative with its Origin. It is on
+the canonical form of a chain, and `as_given` in its names. Of any model `local` gives a Local,
+`by_parameter` the level of each parameter, `joint` the grade of several statements together;
+`encoded` and `decoded` are for a store.
 
 >>> from disting.questions.identifiability import joint
 >>> joint([100, 120])
@@ -53,7 +53,6 @@ if TYPE_CHECKING:
         Level as Level,
         Origin as Origin,
         Renaming as Renaming,
-        Scaling as Scaling,
     )
 
 # The same list, by which a name is found when it is used, as those of `disting` are: whoever reads
@@ -63,7 +62,7 @@ _NAMES = {
     "answer": "Identifiability",
     "check": "confirms",
     "levels": "Local ParameterIdentifiability by_parameter decoded encoded joint local",
-    "parts": "Alternative Combination Formula Level Origin Renaming Scaling",
+    "parts": "Alternative Combination Formula Level Origin Renaming",
 }
 _HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
 

@@ -9,8 +9,8 @@ solutions vary continuously; agreement at exactly known solutions, which are rat
 the point, is generic but for a probability like that of their number.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from flint import acb, fmpq
 
@@ -24,14 +24,13 @@ from disting.model.question import Answer, Question, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.functions import Basis, Candidate, basis, scalings
+from disting.questions.identifiability.functions import Basis, Candidate, basis
 from disting.questions.identifiability.parts import (
     Combination,
     Formula,
     Level,
     Origin,
     Renaming,
-    Scaling,
     monomial,
 )
 from disting.questions.identifiability.solutions import (
@@ -42,7 +41,6 @@ from disting.questions.identifiability.solutions import (
     renamings,
 )
 from disting.questions.identifiability.tangent import (
-    Tangent,
     most_invariants,
     proof_tangents,
 )
@@ -82,15 +80,6 @@ def identifiabilities(
     return [as_given(answers[form.chain], form, chain) for chain, form in formed]
 
 
-@dataclass(frozen=True, slots=True)
-class _Rank:
-    """Number of determinable parameters and the exact scalings."""
-
-    value: int
-    grade: Grade
-    scalings: tuple[Scaling, ...]
-
-
 def as_given(answer: Identifiability, form: Form, chain: Chain) -> Identifiability:
     """The finding on a canonical form in the names of a chain that has this form."""
     return renamed(answer, {new: old for old, new in form.renaming.items()}, chain)
@@ -102,14 +91,14 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
     proof = proof_tangents(structure, settings.seed, points)
     rank = max(t.rank for t in proof)
     seen = basis(structure, proof, rank, settings.seed)
-    determined = _rank(structure, proof, rank, seen)
+    rank_grade = _rank_grade(structure, rank, seen)
     solutions = listing(chain, max(len(t.rows) for t in proof), settings.seed)
     _refuse_contradictions(chain, rank, solutions)
-    level, grade = judged(len(chain.parameters), rank, determined.grade, solutions)
+    level, grade = judged(len(chain.parameters), rank, rank_grade, solutions)
     return Identifiability(
         parameters=chain.parameters,
         rank=rank,
-        rank_grade=determined.grade,
+        rank_grade=rank_grade,
         level=level,
         level_grade=grade,
         least=solutions.least,
@@ -119,7 +108,6 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
         singles=tuple(combination(c, solutions) for c in seen.singles),
         basis=tuple(combination(c, solutions) for c in seen.chosen),
         safety=seen.safety,
-        scalings=determined.scalings,
         renamings=renamings(chain),
         self_dual=is_self_dual(chain),
         point=tuple((name, str(value)) for name, value in solutions.point.items()),
@@ -127,20 +115,11 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
     )
 
 
-def _rank(structure: Structure, proof: Sequence[Tangent], rank: int, seen: Basis) -> _Rank:
-    """Proven if full, if so many scalings are proven as are lacking, or if no more coefficients
-    than that are not constant.
-    """
-    parameters = len(structure.parameters)
-    if rank == parameters:
-        return _Rank(rank, (Certainty.PROVEN, 0), ())
-    seen_scalings = scalings(structure)
-    proven = rank in (parameters - len(seen_scalings), most_invariants(structure))
-    return _Rank(
-        rank,
-        (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, seen.safety),
-        seen_scalings,
-    )
+def _rank_grade(structure: Structure, rank: int, seen: Basis) -> Grade:
+    """Proven if full, or if no more coefficients than that are not constant."""
+    if rank in (len(structure.parameters), most_invariants(structure)):
+        return Certainty.PROVEN, 0
+    return Certainty.BOUNDED, seen.safety
 
 
 def judged(
@@ -203,7 +182,6 @@ def renamed(answer: Identifiability, names: Mapping[str, str], chain: Chain) -> 
         parameters=chain.parameters,
         singles=tuple(singles),
         basis=tuple(_combination(c, names, place) for c in answer.basis),
-        scalings=tuple(_scaling(s, names, place) for s in answer.scalings),
         renamings=tuple(_renaming(r, names, place) for r in answer.renamings),
         point=tuple(
             sorted(((names[n], v) for n, v in answer.point), key=lambda pair: place[pair[0]])
@@ -218,12 +196,6 @@ def _combination(c: Combination, names: Mapping[str, str], place: Mapping[str, i
     )
     return replace(
         c, formula=Formula(tuple(sorted(terms, key=lambda t: [place[n] for n, _ in t[1]])))
-    )
-
-
-def _scaling(s: Scaling, names: Mapping[str, str], place: Mapping[str, int]) -> Scaling:
-    return Scaling(
-        tuple(sorted(((names[n], w) for n, w in s.weights), key=lambda pair: place[pair[0]]))
     )
 
 

@@ -18,7 +18,6 @@ from disting.questions.identifiability.parts import (
     Level,
     Origin,
     Renaming,
-    Scaling,
 )
 
 NUMBERS = (
@@ -48,8 +47,8 @@ class Identifiability(Shown):
     `alternatives`: those listed at the random point `point` (name, fraction), the point itself
     first. `singles`: the locally identifiable parameters. `basis`: `rank` independent locally
     identifiable combinations, the most readable found. That both are identifiable, and that no
-    other parameter is, is wrong with a probability of at most 2**-safety (0: proven). `scalings`
-    and `renamings`: symmetries; `self_dual`: see Origin.DUALITY.
+    other parameter is, is wrong with a probability of at most 2**-safety (0: proven).
+    `renamings`: symmetries; `self_dual`: see Origin.DUALITY.
 
     >>> from disting import identifiability
     >>> found = identifiability("2:2")
@@ -69,7 +68,6 @@ class Identifiability(Shown):
     singles: tuple[Combination, ...]
     basis: tuple[Combination, ...]
     safety: int
-    scalings: tuple[Scaling, ...]
     renamings: tuple[Renaming, ...]
     self_dual: bool
     point: tuple[tuple[str, str], ...]
@@ -249,7 +247,6 @@ _READ: dict[str, Callable[[Any], Any]] = {
     "alternatives": _each(_alternative),
     "singles": _each(_combination),
     "basis": _each(_combination),
-    "scalings": _each(lambda d: Scaling(_pairs(d["weights"]))),
     "renamings": _each(_renaming),
     "point": _pairs,
 }

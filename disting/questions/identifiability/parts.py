@@ -156,27 +156,6 @@ class Renaming:
 
 
 @dataclass(frozen=True, slots=True)
-class Scaling:
-    """p_i -> t^w_i p_i leaves the behaviour as it is, for every t; `weights` lists the w_i that
-    are not zero. Proven.
-    """
-
-    weights: tuple[tuple[str, int], ...]
-
-    @property
-    def text(self) -> str:
-        """For people: m1, k01 times t."""
-        if len(self.weights) == 1:
-            return f"{self.weights[0][0]} has no influence"
-        groups: dict[int, list[str]] = {}
-        for name, weight in self.weights:
-            groups.setdefault(weight, []).append(name)
-        return ", ".join(
-            f"{', '.join(names)} {_scaled(weight)}" for weight, names in groups.items()
-        )
-
-
-@dataclass(frozen=True, slots=True)
 class Combination:
     """An identifiable function of the parameters; `name` is set for a transfer-function
     coefficient such as a2.
@@ -210,9 +189,3 @@ class Combination:
     def is_named(self) -> bool:
         """Whether it is a coefficient whose formula is too long to read."""
         return bool(self.name) and len(self.formula.terms) > MOST_TERMS
-
-
-def _scaled(weight: int) -> str:
-    """What happens to a parameter of this weight."""
-    power = "t" if abs(weight) == 1 else f"t^{abs(weight)}"
-    return f"times {power}" if weight > 0 else f"divided by {power}"
