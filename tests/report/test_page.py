@@ -202,6 +202,25 @@ def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_
     assert said in text
 
 
+@pytest.mark.parametrize("damped", [False, True])
+def test_groups_say_where_special_values_are_left_aside(damped: bool) -> None:
+    """41 pairs of groups of the undamped models of 4 masses, none of the damped ones."""
+    text = " ".join(Outline(page(catalog(4, damped=damped))).text.split())
+    head = "The models of one group have the same transfer functions over positive parameters:"
+    aside = ", special values aside where a pair says so" if not damped else ""
+    assert f"{head} whatever those of one{aside}, each of the others has its own" in text
+
+
+@pytest.mark.parametrize(("n", "damped"), [(2, False), (3, False), (3, True)])
+def test_the_start_page_says_it_of_its_example(n: int, damped: bool) -> None:
+    shipped = catalog(n, damped=damped)
+    low, high = shipped.classes()[0][:2]
+    text = " ".join(Outline(index([shipped])).text.split())
+    aside = ", special values aside" if shipped.verdict(low, high).has_exceptions else ""
+    assert bool(aside) is not damped
+    assert f"whatever the positive parameters of one{aside}, some of the other give one" in text
+
+
 def test_the_order_by_groups_puts_what_is_related_side_by_side() -> None:
     """A2 and A6 are no group over positive parameters; over complex ones they are."""
     data = _data(page(catalog(4, damped=False)))
