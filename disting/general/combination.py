@@ -53,7 +53,7 @@ def excludes(given: Model, values: dict[str, Fraction], other: Model, degree: in
     rows = _scaled(given, values, other)
     if rows is None:
         return False
-    monomials = sorted({e for row in rows for e in row})
+    monomials = _monomials(other)
     factors, found = monomials, False
     for _ in range(degree):
         if found or len(factors) * len(rows) * (len(rows) - 1) // 2 > MOST:
@@ -63,6 +63,16 @@ def excludes(given: Model, values: dict[str, Fraction], other: Model, degree: in
             {tuple(map(sum, zip(*two, strict=True))) for two in product(factors, monomials)}
         )
     return found
+
+
+def is_tried(other: Model) -> bool:
+    """Whether there are few enough numbers to look for at all."""
+    count = sum(map(bool, _coefficients(other)))
+    return len(_monomials(other)) * count * (count - 1) // 2 <= MOST
+
+
+def _monomials(model: Model) -> list[Exponents]:
+    return sorted({e for terms in _coefficients(model) for e, _ in terms})
 
 
 def _is_positive(products: list[Polynomial]) -> bool:
