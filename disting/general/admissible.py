@@ -24,7 +24,7 @@ from disting.general.combination import excludes, is_tried
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
 from disting.general.formulas import explicit, fit
-from disting.general.inequalities import breaking, broken
+from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
@@ -226,7 +226,7 @@ def _by_inequality(left: AnyModel, right: AnyModel) -> Finding | None:
     if not (isinstance(left, Model) and isinstance(right, Model)):
         return None
     for left_given in BOTH:
-        form = broken(*((left, right) if left_given else (right, left)))
+        form = contradiction(*((left, right) if left_given else (right, left)))
         if form:
             evidence = Inequality(Domain.POSITIVE.value, left_given, form)
             return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
@@ -252,7 +252,7 @@ def _by_numbers(
         return None
     for left_given in BOTH:
         given, other = (left, right) if left_given else (right, left)
-        values = next(breaking(given, other), None)
+        values = next(points_against(given, other), None)
         if values:
             lacking = left_given, _written(values), ()
             return _witnesses(left, right, having, lacking, Domain.POSITIVE)

@@ -26,10 +26,9 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
-from disting.errors import InputError
-from disting.general.listed import is_in_one_variable
+from disting.general.listed import is_in_one_variable, is_regular
 from disting.general.model import Model, Terms
-from disting.general.target import rational_values, target, value_at
+from disting.general.target import value_at
 
 MOST = 3000  # numbers that are looked for
 DEGREE = 2  # of the products m of monomials
@@ -97,11 +96,7 @@ def _scaled(
         return None
     if not is_in_one_variable(given.powers, other.powers):
         return None
-    try:
-        goal = target(given, rational_values(given, values))
-    except InputError:
-        return None
-    if (len(goal.numerator) - 1, len(goal.denominator) - 1) != given.degrees:
+    if not is_regular(given, values):
         return None
     point = [values[name] for name in given.parameters]
     numbers = [value_at(terms, point) for terms in mine if terms]

@@ -28,8 +28,8 @@ from typing import Any
 from flint import Ordering, fmpq_mat, fmpz_mat, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.certainty import residues
-from disting.general.listed import goal_of
-from disting.general.model import Model, Terms
+from disting.general.listed import is_regular
+from disting.general.model import Model
 from disting.general.newton import are_alike
 from disting.general.relations import coefficients
 from disting.general.target import value_at
@@ -59,50 +59,50 @@ def inequalities(model: Model) -> tuple[Form, ...]:
     (6, 6)
     """
     products = _products(model)
-    found = list[Form]()
+    forms = list[Form]()
     for group in _groups(products):
         monomials = sorted({m for pair in group for m in products[pair]})
         rows = {tuple(products[pair].get(m, 0) for pair in group) for m in monomials}
         for edge in _edges(sorted(map(_shortest, rows))):
-            found.append(tuple((x, n) for x, n in zip(group, edge, strict=True) if n))
-    return tuple(found)
+            forms.append(tuple((x, n) for x, n in zip(group, edge, strict=True) if n))
+    return tuple(forms)
 
 
-def breaks(given: Model, values: Values, other: Model) -> bool:
+def excludes_around(given: Model, values: Values, other: Model) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as an
     inequality shows it.
     """
-    if not (are_alike(given, other) and _is_regular(given, values)):
+    if not (are_alike(given, other) and is_regular(given, values)):
         return False
     point = [values[name] for name in given.parameters]
     at = [value_at(terms, point) for terms in coefficients(given) if terms]
     return any(_value(form, at) < 0 for form in inequalities(other))
 
 
-def breaking(given: Model, other: Model) -> Iterator[Values]:
+def points_against(given: Model, other: Model) -> Iterator[Values]:
     """Yield points of the given model around which none has a positive equivalent."""
     if not are_alike(given, other):
         return
     forms = inequalities(other)
-    for values, at in _drawn(given):
-        if any(_value(form, at) < 0 for form in forms) and _is_regular(given, values):
+    for values, at in _points(given):
+        if any(_value(form, at) < 0 for form in forms) and is_regular(given, values):
             yield values
 
 
-def broken(given: Model, other: Model) -> Labelled | None:
+def contradiction(given: Model, other: Model) -> Labelled | None:
     """An inequality of the other model that no positive values of the given one satisfy."""
     if not are_alike(given, other):
         return None
-    names, points = _labels(other), [at for _, at in _drawn(given)]
+    names, points = _labels(other), [at for _, at in _points(given)]
     for form in inequalities(other):
         if all(_value(form, at) < 0 for at in points):
-            found = tuple((number, names[i], names[j]) for (i, j), number in form)
-            if is_broken(found, given, other):
-                return found
+            labelled = tuple((number, names[i], names[j]) for (i, j), number in form)
+            if is_contradiction(labelled, given, other):
+                return labelled
     return None
 
 
-def is_broken(form: Labelled, given: Model, other: Model) -> bool:
+def is_contradiction(form: Labelled, given: Model, other: Model) -> bool:
     """Whether it tells two models apart: seen from the signs of all coefficients."""
     names = _labels(other)
     known = all(name in names for _, *pair in form for name in pair)
@@ -115,40 +115,28 @@ def is_broken(form: Labelled, given: Model, other: Model) -> bool:
 
 def _labels(model: Model) -> list[str]:
     """Of the coefficients: a0, a1, .. of the denominator, b0, b1, .. of the numerator."""
-    above, below = ([i for i, t in enumerate(side) if t] for side in _sides(model))
+    sides = model.numerator_terms, model.denominator_terms
+    above, below = ([i for i, t in enumerate(side) if t] for side in sides)
     return [*(f"a{i}" for i in reversed(below)), *(f"b{i}" for i in above)]
 
 
-def _sides(model: Model) -> tuple[tuple[Terms, ...], tuple[Terms, ...]]:
-    return model.numerator_terms, model.denominator_terms
-
-
-def _is_regular(model: Model, values: Values) -> bool:
-    """Whether numerator and denominator are coprime and of full degree at a point."""
-    goal = goal_of(model, values)
-    return goal is not None and model.degrees == (
-        len(goal.numerator) - 1,
-        len(goal.denominator) - 1,
-    )
-
-
 @lru_cache(maxsize=REMEMBERED)
-def _drawn(model: Model) -> tuple[tuple[Values, list[int]], ...]:
+def _points(model: Model) -> tuple[tuple[Values, list[int]], ...]:
     """Points of it, with all coefficients there: determined by the model."""
-    found = list[tuple[Values, list[int]]]()
+    points = list[tuple[Values, list[int]]]()
     for bits, k in product(SPREADS, range(POINTS)):
         label = ":".join(map(str, ("inequalities", *model.content, bits, k)))
-        drawn = residues(label, len(model.parameters), bits)
+        powers = residues(label, len(model.parameters), bits)
         values = {
-            name: Fraction(1 << int(x)) for name, x in zip(model.parameters, drawn, strict=True)
+            name: Fraction(1 << int(x)) for name, x in zip(model.parameters, powers, strict=True)
         }
         at = [
-            sum(int(c) << sum(map(mul, e, drawn)) for e, c in terms)
+            sum(int(c) << sum(map(mul, e, powers)) for e, c in terms)
             for terms in coefficients(model)
             if terms
         ]
-        found.append((values, at))
-    return tuple(found)
+        points.append((values, at))
+    return tuple(points)
 
 
 def _polynomials(model: Model) -> list[fmpz_mpoly]:
@@ -181,25 +169,25 @@ def _edges(rows: Sequence[Row]) -> Iterator[Row]:
     """Yield the edges of the cone of all x at which no row is negative; none of what contains
     lines, and none where there are too many. What does not show in the rows is 0 in x.
     """
-    width, kept = len(rows[0]), _pivots(rows)
-    rows = list(dict.fromkeys(_shortest([row[j] for j in kept]) for row in rows))
-    first = [rows[i] for i in _pivots([*zip(*rows, strict=True)])]
-    inverse = fmpq_mat(fmpz_mat(first)).inv()
-    done = list(first)
-    found = {
-        _whole([inverse[i, j] for i in range(len(first))]): sum(
-            1 << i for i in range(len(first)) if i != j
+    width, pivots = len(rows[0]), _pivots(rows)
+    rows = list(dict.fromkeys(_shortest([row[j] for j in pivots]) for row in rows))
+    base = [rows[i] for i in _pivots([*zip(*rows, strict=True)])]
+    inverse = fmpq_mat(fmpz_mat(base)).inv()
+    faces = list(base)
+    edges = {
+        _whole([inverse[i, j] for i in range(len(base))]): sum(
+            1 << i for i in range(len(base)) if i != j
         )
-        for j in range(len(first))
+        for j in range(len(base))
     }
     for row in rows:
-        if row not in first:
-            found = _cut(found, row, len(done), len(first) - 2)
-            done.append(row)
-        if len(found) > MOST:
+        if row not in base:
+            edges = _cut(edges, row, len(faces), len(base) - 2)
+            faces.append(row)
+        if len(edges) > MOST:
             return
-    for edge in sorted(found):
-        numbers = dict(zip(kept, edge, strict=True))
+    for edge in sorted(edges):
+        numbers = dict(zip(pivots, edge, strict=True))
         yield tuple(numbers.get(j, 0) for j in range(width))
 
 
@@ -209,7 +197,7 @@ def _cut(edges: dict[Row, int], row: Row, at: int, common: int) -> dict[Row, int
     no third edge has all of those.
     """
     value = {e: sum(a * b for a, b in zip(row, e, strict=True)) for e in edges}
-    found = {e: rows | (not value[e]) << at for e, rows in edges.items() if value[e] >= 0}
+    left = {e: rows | (not value[e]) << at for e, rows in edges.items() if value[e] >= 0}
     above, below = ([e for e in edges if sign * value[e] > 0] for sign in (1, -1))
     for one, other in product(above, below):
         both = edges[one] & edges[other]
@@ -218,8 +206,8 @@ def _cut(edges: dict[Row, int], row: Row, at: int, common: int) -> dict[Row, int
         if any(both & rows == both for e, rows in edges.items() if e not in (one, other)):
             continue
         pairs = zip(one, other, strict=True)
-        found[_shortest([value[one] * b - value[other] * a for a, b in pairs])] = both | 1 << at
-    return found
+        left[_shortest([value[one] * b - value[other] * a for a, b in pairs])] = both | 1 << at
+    return left
 
 
 def _pivots(rows: Sequence[Row]) -> list[int]:
@@ -230,9 +218,9 @@ def _pivots(rows: Sequence[Row]) -> list[int]:
 
 def _shortest(numbers: Iterable[int]) -> Row:
     """In the same direction, without a common factor."""
-    found = tuple(numbers)
-    common = gcd(*found)
-    return tuple(x // common for x in found)
+    row = tuple(numbers)
+    common = gcd(*row)
+    return tuple(x // common for x in row)
 
 
 def _whole(numbers: Sequence[object]) -> Row:
