@@ -103,7 +103,7 @@ FOUND = {
 }
 WHOLE_FIT = {
     "thresholds": (
-        "simulated demonstration drive: with rising thresholds N_p rises 15 times and falls 0 times"
+        "simulated demonstration drive: with rising thresholds N_p rises 11 times and falls 0 times"
     )
 }
 DIFFERING = [
