@@ -46,21 +46,23 @@ def write_model_list(shown: Listing, out: Path, *, site: bool = False) -> list[P
     """
     out.mkdir(parents=True, exist_ok=True)
     site, guide = (site or (out / page).is_file() for page in ("index.html", "guide/index.html"))
+    (out / shown.folder).mkdir(parents=True, exist_ok=True)
+    return [write_whole(out / name, [text]) for name, text in _files(shown, site, guide)]
+
+
+def _files(shown: Listing, site: bool, guide: bool) -> Iterator[tuple[str, str]]:
+    """Yield addresses and texts: together they take more memory than all verdicts."""
     decided = shown.found.decisions[View.POSITIVE]
-    texts = {
-        f"{shown.name}.html": model_list_page(shown, site=site, guide=guide),
-        f"{shown.name}.csv": decisions_csv(decided),
-        f"{shown.name}.json": decisions_json(decided),
-        f"{shown.name}-models.csv": models_csv(shown),
-        "models/style.css": "".join(map(source, ("style.css", "model.css", "next.css"))),
-    }
+    yield f"{shown.name}.html", model_list_page(shown, site=site, guide=guide)
+    yield f"{shown.name}.csv", decisions_csv(decided)
+    yield f"{shown.name}.json", decisions_json(decided)
+    yield f"{shown.name}-models.csv", models_csv(shown)
+    yield "models/style.css", "".join(map(source, ("style.css", "model.css", "next.css")))
     if page_of_motion(shown):
-        texts[page_of_motion(shown)] = motion_page_of(shown, site=site and guide)
+        yield page_of_motion(shown), motion_page_of(shown, site=site and guide)
     for card in shown.cards:
         page = listed_model_page(shown, card.number, site=site and guide)
-        texts[f"{shown.folder}/{card.number}.html"] = page
-    (out / shown.folder).mkdir(parents=True, exist_ok=True)
-    return [write_whole(out / name, [text]) for name, text in texts.items()]
+        yield f"{shown.folder}/{card.number}.html", page
 
 
 def write_family(

@@ -8,7 +8,7 @@ chain.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cached_property
 
 from markupsafe import Markup
 
@@ -29,6 +29,11 @@ class Drawing:
     def label(self) -> str:
         """What is seen, in words."""
         return f"A{self.number}: {self.scene.title}"
+
+    @cached_property
+    def layers(self) -> tuple[str, ...]:
+        """Drawn once: the pages of a model, of its twins and of the family show them."""
+        return tuple(drawn(layer, PAGE_PALETTE) for layer in self.scene.layers)
 
     @property
     def width(self) -> str:
@@ -51,13 +56,7 @@ class Part:
     @property
     def definition(self) -> Markup:
         """The part itself; the style sheet says the font and the ends of lines."""
-        return Markup(f'<g id="{self.name}">{_drawn(self.layer)}</g>')
-
-
-@cache
-def _drawn(layer: Layer) -> str:
-    """Drawn once: the pages of all models of a size show it."""
-    return drawn(layer, PAGE_PALETTE)
+        return Markup(f'<g id="{self.name}">{drawn(self.layer, PAGE_PALETTE)}</g>')
 
 
 def held(drawings: Iterable[Drawing], more: Iterable[Part] = ()) -> Markup:
@@ -69,13 +68,13 @@ def held(drawings: Iterable[Drawing], more: Iterable[Part] = ()) -> Markup:
     >>> held(two).count('<g id="part-'), held(two).count("<use")
     (8, 14)
     """
-    numbers, lines = dict[Layer, int](), list[str]()
-    for n, layers in ((d.number, d.scene.layers) for d in drawings):
+    numbers, lines = dict[str, int](), list[str]()
+    for n, layers in ((d.number, d.layers) for d in drawings):
         at = (numbers.setdefault(layer, len(numbers)) for layer in layers)
         *rest, force = (f'<use href="#part-{i}"/>' for i in at)
         lines.append(f'<g id="chain-{n}"><g id="rest-{n}">{"".join(rest)}</g>{force}</g>')
-    parts = (Part(f"part-{i}", layer) for layer, i in numbers.items())
-    return Markup("\n".join([*(part.definition for part in (*parts, *more)), *lines]))
+    parts = (f'<g id="part-{i}">{layer}</g>' for layer, i in numbers.items())
+    return Markup("\n".join([*parts, *(part.definition for part in more), *lines]))
 
 
 def ground_dampers(n_masses: int) -> Iterator[Part]:
