@@ -32,7 +32,7 @@ from disting.model.kinds import KINDS, Kind
 from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.further import Further, further
+from disting.verdict.next_experiments import Further, further
 from disting.verdict.placement_record import TESTS, Placed
 from disting.verdict.query import View
 

@@ -26,7 +26,12 @@ from disting.model.names import names_of
 from disting.model.question import Domain, Settings
 from disting.questions.positive import ranges, within_ranges
 from disting.verdict.comparison import compare, prove
-from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere, everywhere_file
+from disting.verdict.placement_verdicts import (
+    Answer,
+    Everywhere,
+    compare_everywhere,
+    everywhere_file,
+)
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import determinable

@@ -24,7 +24,7 @@ from disting.algebra.certainty import Size, prime, residues
 from disting.algebra.quotient import Quotient, matrix
 from disting.algebra.symbols import coefficients, symbols
 from disting.behaviour.chain_model import quotient, size_of_minors, vanishing_series
-from disting.behaviour.expanded import become
+from disting.behaviour.expansion import become
 from disting.behaviour.sample import (
     Representation,
     at_point,

@@ -27,7 +27,7 @@ from fractions import Fraction
 from itertools import combinations, product
 
 from disting.errors import InputError
-from disting.general.listed import is_in_one_variable
+from disting.general.fibre_lists import is_in_one_variable
 from disting.general.model import Model, Terms
 from disting.general.target import rational_values, target, value_at
 

@@ -16,7 +16,7 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.notation import quotient, text_in_s
 from disting.algebra.symbols import RationalFunction, renamed, symbols
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expanded
 from disting.errors import InputError
 from disting.general.entries import (
     frequency,

@@ -14,7 +14,7 @@ from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
 from disting.evidence.model_samples import SeenPair, seen
 from disting.fibres.ideals import Limits, seen_again
-from disting.general import listed, newton
+from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
 from disting.general.any_model import is_renamed, maps_of
 from disting.general.combination import excludes
@@ -122,7 +122,7 @@ def _has(
 ) -> bool:
     if domain is Domain.POSITIVE and newton.having(given, values, other, near):
         return True
-    if domain is Domain.POSITIVE and listed.having(given, values, other):
+    if domain is Domain.POSITIVE and fibre_lists.having(given, values, other):
         return True
     return any(one.having(values) for one in ways_again(given, other, domain))
 
@@ -133,7 +133,7 @@ def _has_none(
     if domain is Domain.POSITIVE:
         if isinstance(given, Model) and isinstance(other, Model) and excludes(given, values, other):
             return True
-        if listed.lacking(given, values, other):
+        if fibre_lists.lacking(given, values, other):
             return True
     return any(one.lacking(values) for one in ways_again(given, other, domain))
 

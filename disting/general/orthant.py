@@ -61,7 +61,7 @@ BRIEF = Effort(points=10, listed=3, orders=6, degree=1, parts=0, terms=5_000)
 @dataclass(frozen=True)
 class Orthant:
     """The ring Z[p, q, t] with its admissible values; t is a path's parameter, positive like
-    the rest (see `between`).
+    the rest (see `intermediate_value`).
     """
 
     n_given: int

@@ -26,10 +26,10 @@ from disting.algebra.symbols import (
     symbols,
     terms,
 )
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expanded
 from disting.equivalence import explicit_map
 from disting.equivalence.duplicates import Assignment
-from disting.equivalence.reached import Piece
+from disting.equivalence.reach import Piece
 from disting.equivalence.theorems import images
 from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of, tree

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, permutations
 
-from disting.equivalence.reached import REACHED, Reached
+from disting.equivalence.reach import REACHED, Reached
 from disting.errors import InputError
 from disting.general.any_model import unnamed
 from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import is_renaming
+from disting.behaviour.expansion import is_renaming
 from disting.conditions.finding import Finding, Outcome, positive_ways
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import EXACT

@@ -38,9 +38,9 @@ from disting.questions.identifiability.answer import Identifiability
 from disting.store.code import digest
 from disting.store.scheduling import mapped as mapped
 from disting.store.store import Store
+from disting.verdict.all_pairs import decisions
 from disting.verdict.cascade import audit, decide
 from disting.verdict.chain_side import ComparedChain
-from disting.verdict.deciding import decisions
 from disting.verdict.decisions import Decisions, Part
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict

@@ -32,9 +32,9 @@ from disting.network.element import Port, Sort
 from disting.network.network import Network
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.everywhere import Answer
-from disting.verdict.further import Further, places_of
+from disting.verdict.next_experiments import Further, places_of
 from disting.verdict.placement_record import Spot, answer_of
+from disting.verdict.placement_verdicts import Answer
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
 

@@ -1,7 +1,7 @@
 """One kind of further experiment on a group of structures that one measurement cannot tell apart:
 every mass of every structure against every mass of every other one.
 
-A spot is a mass of a structure at which the experiment is made. As in `grouping`, no pair is
+A spot is a mass of a structure at which the experiment is made. As in `class_search`, no pair is
 looked at where a bucket decides:
 
 0. A spot is looked at as the standard form of its machine (`equal_machines`): a force moved is a

@@ -14,7 +14,7 @@ from disting.experiments.menu import Gain
 from disting.model.kinds import Kind
 from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
-from disting.verdict.everywhere import Answer
+from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
 
 Spot = tuple[int, int]

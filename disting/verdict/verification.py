@@ -20,7 +20,11 @@ from disting.model.presentation import summary
 from disting.model.question import Domain
 from disting.verdict.claim_checks import CHECKS, LIMITS, SHARES, Check, Claim
 from disting.verdict.engine import Engine
-from disting.verdict.everywhere import FORMAT as EVERYWHERE, differing_everywhere, read_everywhere
+from disting.verdict.placement_verdicts import (
+    FORMAT as EVERYWHERE,
+    differing_everywhere,
+    read_everywhere,
+)
 from disting.verdict.result import Relation
 from disting.verdict.sides import Sides
 from disting.verdict.verdict_file import (

@@ -14,7 +14,7 @@ from disting.algebra.certainty import Size, prime, safety
 from disting.algebra.matroid import rank_in
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, degrees, is_sign_free
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expanded
 from disting.behaviour.profile import (
     Unsearched,
     from_samples,

@@ -13,7 +13,7 @@ from disting import Chain, Family, Sensor
 from disting.algebra.certainty import residues
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, quotient
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expanded
 from disting.behaviour.sample import Representation, at_point, seen_at
 from tests.laws.strategies import chains
 from tests.oracles import sympy_twin as twin

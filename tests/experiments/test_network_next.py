@@ -18,9 +18,9 @@ from disting.model.kinds import ALL_KINDS, CIRCUIT_KINDS, COMPARTMENT_KINDS, KIN
 from disting.network import network_of
 from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
-from disting.verdict.further import further, places_of
-from disting.verdict.further_words import rows
 from disting.verdict.network_placement import further_networks, measured
+from disting.verdict.next_experiments import further, places_of
+from disting.verdict.next_words import rows
 from disting.verdict.result import Relation
 
 EVERY = Costs.read("spring=2,brake=2")

@@ -19,9 +19,9 @@ from disting.experiments.menu import Costs, Gain, Item, gain, measured
 from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.model.names import chain_of
 from disting.verdict.engine import Engine
-from disting.verdict.everywhere import Answer
-from disting.verdict.further import Further, further
-from disting.verdict.further_words import conclusion, rows
+from disting.verdict.next_experiments import Further, further
+from disting.verdict.next_words import conclusion, rows
+from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
 from tests.experiments.plain_stack import has_equivalent
 from tests.experiments.test_truth import SAME

@@ -40,7 +40,7 @@ from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
 from disting.fibres.synthesis.task import Status, Target, is_regular, target
 from disting.fibres.synthesis.theorems import exact_rows, is_untested
-from disting.fibres.synthesis.undamped import neighbours_at
+from disting.fibres.synthesis.undamped_rows import neighbours_at
 from disting.model.chain import Chain
 from disting.model.question import Answer
 from disting.model.row import Row, grounded_and_free

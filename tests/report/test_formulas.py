@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 import sympy
 
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expanded
 from disting.catalogs import catalog
 from disting.model.chain import Chain
 from disting.model.family import Family

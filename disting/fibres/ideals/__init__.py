@@ -26,7 +26,7 @@ from disting.fibres.ideals.membership import (
 )
 from disting.fibres.ideals.one_value import one_value as one_value
 from disting.fibres.ideals.shares import MOST as MOST, TRIES as TRIES, Try as Try
-from disting.fibres.ideals.stacked import (
+from disting.fibres.ideals.stacked_map import (
     Fraction as Fraction,
     StackedMap as StackedMap,
     stacked_maps as stacked_maps,

@@ -21,7 +21,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from disting.evidence.ideals import Shared
-from disting.fibres.ideals.factored import factored
+from disting.fibres.ideals.factored_map import factored
 from disting.fibres.ideals.shares import TRIES, Try, told_apart
 from disting.fibres.ideals.splits import gap, poles_are_inseparable
 from disting.model.row import rows_of

@@ -1,5 +1,5 @@
 """Two rows of masses of equal rank told apart by sharing out the roots of the numerator (see
-`factored`).
+`factored_map`).
 
 At a point p0 of one row where all roots of N lie in the field, an equivalent of the other row
 shares them out among its joints between the ports, its theta and its phi. If every share is
@@ -36,7 +36,13 @@ from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
 from disting.algebra.groebner.modular import Sparse, long_polynomial
 from disting.evidence.ideals import Shared
 from disting.fibres.ideals.bounds import safety_of_empty
-from disting.fibres.ideals.factored import FactoredMap, FactoredValues, Share, shared_fibre, values
+from disting.fibres.ideals.factored_map import (
+    FactoredMap,
+    FactoredValues,
+    Share,
+    shared_fibre,
+    values,
+)
 from disting.fibres.ideals.fibre_ideal import evaluated
 from disting.fibres.ideals.system import Terms, matched
 

@@ -3,11 +3,11 @@
 from collections.abc import Callable, Iterator
 
 from disting.fibres.synthesis.branch import OPEN, Leaf, Receptance, mirrored
-from disting.fibres.synthesis.collocated import collocated, driving_point
 from disting.fibres.synthesis.damped_neighbours import inner_neighbours, serves
 from disting.fibres.synthesis.damped_next_to_end import is_untested, next_to_end
+from disting.fibres.synthesis.driving_point import collocated, driving_point
 from disting.fibres.synthesis.ground_dampers_only import adapts, swinging
-from disting.fibres.synthesis.undamped import neighbours, to_end
+from disting.fibres.synthesis.undamped_rows import neighbours, to_end
 from disting.model.row import Row
 
 Method = Callable[[Row, Receptance], Iterator[Leaf]]

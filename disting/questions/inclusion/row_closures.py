@@ -24,7 +24,7 @@ from disting.algebra.certainty import LEAST_SAFETY, prime, residues
 from disting.behaviour.chain_model import powers
 from disting.evidence.limits import RowLimits, Why
 from disting.fibres.ideals import CoefficientMap, Limits, decide
-from disting.fibres.ideals.factored import factored
+from disting.fibres.ideals.factored_map import factored
 from disting.fibres.ideals.fibre_ideal import generic_rank, sides_at
 from disting.fibres.ideals.shares import may_share, told_apart
 from disting.model.question import Membership

@@ -8,11 +8,11 @@ pairs of real roots make up any even number.
 Rows. A row of n nodes with ports a <= b has N = nu A B, A and B real of degrees a - 1 and n - b.
 Conversely let N/D be the receptance of a generic real row of the same n and b - a, and N have a
 real factor of degree a - 1. Then there is a real row:
-  - b = a: both sides are rational in the coefficients of A, B and D (see `synthesis.collocated`).
+  - b = a: both sides are rational in the coefficients of A, B, D (see `synthesis.driving_point`).
   - b = a + 1: so they are in those of A, B, Theta, Phi and kappa, where D + kappa N = Theta Phi,
-    Theta of degree a (see `synthesis.undamped`). Theta needs a real root of D + kappa N at most,
-    and kappa = -D(x)/N(x) makes any real x one.
-  - b = n: A = N/nu, and real tau_i can be chosen (see `synthesis.undamped`). a = 1: the mirror
+    Theta of degree a (see `synthesis.undamped_rows`). Theta needs a real root of D + kappa N at
+    most, and kappa = -D(x)/N(x) makes any real x one.
+  - b = n: A = N/nu, and real tau_i can be chosen (see `synthesis.undamped_rows`). a = 1: the mirror
     image of that; at the wall the reversed row (see `synthesis.foster`): its masses t^2 s_i^2 and
     springs are rational, for s_i^2 and s_a s_b J_(a,a+1) .. J_(b-1,b) hold even powers of the
     off-diagonal elements of J alone; t^2 may be any real number.

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import is_renaming
+from disting.behaviour.expansion import is_renaming
 from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved

@@ -15,7 +15,7 @@ from disting.algebra.groebner.modular import long_polynomial
 from disting.catalogs.damper_family import damper_catalog
 from disting.conditions.finding import Outcome
 from disting.fibres.ideals import Limits, chains_told_apart, decide
-from disting.fibres.ideals.factored import factored, shared_fibre, values
+from disting.fibres.ideals.factored_map import factored, shared_fibre, values
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.shares import (
     _may_split,

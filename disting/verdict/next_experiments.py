@@ -20,9 +20,9 @@ from disting.model.presentation import Shown, plural, summary
 from disting.network.element import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.everywhere import Answer
 from disting.verdict.placement import placed
 from disting.verdict.placement_record import Table
+from disting.verdict.placement_verdicts import Answer
 
 S = TypeVar("S", bound=Chain | Network)
 PLACES = {Sort.MACHINE: "mass", Sort.CIRCUIT: "node", Sort.COMPARTMENTS: "compartment"}

@@ -9,9 +9,9 @@ import pytest
 from sympy import Poly, Symbol, sympify
 
 from disting import network_of
-from disting.equivalence.reached import Piece, Reached, inequality, reached
+from disting.equivalence.reach import Piece, Reached, inequality, reached
 from disting.general.any_model import of_network, on_one_variable
-from disting.general.listed import goal_of, positive
+from disting.general.fibre_lists import goal_of, positive
 
 PAIRS = [
     ("1>0, 1>2, 2>0; in 1; out 2", "1>0, 1>2, 2>1; in 2; out 1"),

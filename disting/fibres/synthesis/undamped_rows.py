@@ -29,7 +29,7 @@ from disting.fibres.synthesis.branch import (
     shifted,
     splits,
 )
-from disting.fibres.synthesis.collocated import between, inverse_residues
+from disting.fibres.synthesis.driving_point import between, inverse_residues
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.model.row import Row
 
