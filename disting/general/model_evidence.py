@@ -13,7 +13,7 @@ from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
 from disting.evidence.model_samples import SeenPair, seen
-from disting.fibres.ideals import Limits, seen_again
+from disting.fibres.ideals import Limits, find_again
 from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
 from disting.general.any_model import is_renamed, maps_of
@@ -58,7 +58,7 @@ def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
             return _differ(evidence, left, right)
         case Solved() | Refuted():
             # normalised coordinates are those of a chain
-            return not evidence.is_normalised and seen_again(evidence, *maps_of(left, right), AGAIN)
+            return not evidence.is_normalised and find_again(evidence, *maps_of(left, right), AGAIN)
         case Theorem():
             return evidence.name == "Foster and Cauer" and are_one_ports(left, right)
         case Explicit():

@@ -2,8 +2,9 @@
 its proof.
 
 ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`,
-`intermediate_value`), or as many roots for all p as for one (`counts`). NEVER: no case is left (`cases`), or none that has a
-root. Points with and without equivalents in open sets around them are looked for with `robust`.
+`intermediate_value`), or as many roots for all p as for one (`counts`). NEVER: no case is left
+(`cases`), or none that has a root. Points with and without equivalents in open sets around them are
+looked for with `robust`.
 """
 
 from collections.abc import Callable, Iterator, Sequence

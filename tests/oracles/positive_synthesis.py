@@ -33,7 +33,7 @@ from disting.fibres.synthesis.branch import (
     Leaf,
     Receptance,
     roots,
-    shifted,
+    shift,
 )
 from disting.fibres.synthesis.fibre import PRECISIONS, fibre
 from disting.fibres.synthesis.methods import synthesise
@@ -120,7 +120,7 @@ def _over_splits(whole: Target, grounded: Row | None, free: Row) -> Answer:
     test occurs.
     """
     data = whole.balls
-    poles = roots(shifted(data.denominator, -1), whole.denominator.degree() - 1)
+    poles = roots(shift(data.denominator, -1), whole.denominator.degree() - 1)
     if not _real(poles):
         return Answer.NO if _certainly_not_real(poles) else Answer.UNKNOWN
     if grounded is None:

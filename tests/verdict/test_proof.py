@@ -95,9 +95,9 @@ def test_markov_ranks_are_proven_too(model):
 
 def _oracle_rows(structure, labels):
     """Gradients of Markov parameters by SymPy, as polynomials after clearing denominators."""
-    from disting.behaviour.expansion import expanded
+    from disting.behaviour.expansion import expand
 
-    whole = expanded(structure)
+    whole = expand(structure)
     s = sympy.Symbol("s")
     num, den = (sympy.Poly(sympy.sympify(str(p).replace("^", "**")), s) for p in whole)
     m, lead, a = den.degree(), den.LC(), den.all_coeffs()

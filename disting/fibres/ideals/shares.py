@@ -43,8 +43,8 @@ from disting.fibres.ideals.factored_map import (
     shared_fibre,
     values,
 )
-from disting.fibres.ideals.fibre_ideal import evaluated
-from disting.fibres.ideals.system import Terms, matched
+from disting.fibres.ideals.fibre_ideal import evaluate
+from disting.fibres.ideals.system import Terms, match_maps
 
 BITS = 192  # of the prime: one point gives more than 100 bits
 DRAWS = 1 << 14  # points looked at until the roots lie in the field: one in 720 for six roots
@@ -60,7 +60,7 @@ class _SolvableError(Exception):
     pass
 
 
-def told_apart(
+def tell_apart(
     left: FactoredMap, right: FactoredMap, seed: str, tries: Sequence[Try] = TRIES
 ) -> tuple[Shared, int] | None:
     """Evidence that two rows of equal rank have different closures, and its bits; None where
@@ -82,7 +82,7 @@ def told_apart(
         except _SolvableError:
             return None
         if way is not None and is_refuted:
-            bits = safety_of_empty(*matched(model.whole, other.whole), True, BITS)
+            bits = safety_of_empty(*match_maps(model.whole, other.whole), True, BITS)
             shared = Shared(
                 left_given=left_given,
                 part="",
@@ -262,4 +262,4 @@ def _roots(factor: fmpz_mod_poly) -> list[int]:
 
 
 def _monic(coordinates: Sequence[Terms], point: Sequence[int], modulus: int) -> fmpz_mod_poly:
-    return long_polynomial([*(evaluated(c, point, modulus) for c in coordinates), 1], modulus)
+    return long_polynomial([*(evaluate(c, point, modulus) for c in coordinates), 1], modulus)
