@@ -15,7 +15,7 @@ if TYPE_CHECKING:
         simulation as simulation,
     )
     from disting.algebra.certainty import Certainty as Certainty
-    from disting.behaviour.expanded import transfer_function as transfer_function
+    from disting.behaviour.expansion import transfer_function as transfer_function
     from disting.catalogs import Catalog as Catalog, ModelRow as ModelRow, catalog as catalog
     from disting.conditions.finding import Finding as Finding, Outcome as Outcome
     from disting.conditions.inclusion import Inclusion as Inclusion
@@ -70,7 +70,7 @@ if TYPE_CHECKING:
     )
     from disting.verdict.decisions import Decisions as Decisions
     from disting.verdict.engine import Engine as Engine
-    from disting.verdict.everywhere import (
+    from disting.verdict.placement_verdicts import (
         compare_everywhere as compare_everywhere,
         everywhere_file as everywhere_file,
     )
@@ -82,7 +82,7 @@ if TYPE_CHECKING:
 # The same list, by which a name is found when it is used: to import all takes half a second.
 _NAMES = {
     "disting.algebra.certainty": "Certainty",
-    "disting.behaviour.expanded": "transfer_function",
+    "disting.behaviour.expansion": "transfer_function",
     "disting.catalogs": "Catalog ModelRow catalog",
     "disting.conditions.finding": "Finding Outcome",
     "disting.conditions.inclusion": "Inclusion",
@@ -111,7 +111,7 @@ _NAMES = {
     "disting.verdict.comparison": "compare findings identifiability prove",
     "disting.verdict.decisions": "Decisions",
     "disting.verdict.engine": "Engine",
-    "disting.verdict.everywhere": "compare_everywhere everywhere_file",
+    "disting.verdict.placement_verdicts": "compare_everywhere everywhere_file",
     "disting.verdict.query": "Query View",
     "disting.verdict.result": "Relation Step Verdict",
     "disting.verdict.verdict_file": "verdict_file",

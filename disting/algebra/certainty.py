@@ -24,7 +24,7 @@ from math import ceil, log2
 
 from flint import fmpz
 
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 
 # bits: what is wrong with a larger probability than 2**-100, or could be, is not said
 LEAST_SAFETY = 100
@@ -89,7 +89,7 @@ Grade = tuple[Certainty, int]
 """Certainty and, if it is BOUNDED, the bits b of the error bound 2**-b."""
 
 
-def graded(proven: bool, safety: int) -> Grade:
+def grade_of(proven: bool, safety: int) -> Grade:
     """Certainty and error bits: none needed where the finding is proven."""
     return (Certainty.PROVEN, 0) if proven else (Certainty.BOUNDED, safety)
 
@@ -168,7 +168,7 @@ class Size:
 
 
 def about(label: str, *content: object) -> str:
-    """The label of a question about models: with a digest of all of their content (`written`).
+    """The label of a question about models: with a digest of all of their content (`full_text`).
 
     >>> about("doc", "a model") == about("doc", "a model") != about("doc", "another one")
     True
@@ -182,9 +182,9 @@ def digest(*content: object) -> str:
 
 
 def _text(content: object) -> str:
-    """As `written`; numbers of more digits than Python writes in decimal are hexadecimal."""
+    """As `full_text`; numbers of more digits than Python writes in decimal are hexadecimal."""
     try:
-        return written(content)
+        return full_text(content)
     except ValueError:
         if isinstance(content, int):
             return hex(content)

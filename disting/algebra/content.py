@@ -13,7 +13,7 @@ from typing import Any
 PLAIN = {int, str, bool, float, complex, type(None)}  # whose `repr` tells all
 
 
-def written(value: Any) -> str:
+def full_text(value: Any) -> str:
     """A value with all fields of all dataclasses in it, but for those that say `repr=False`; what
     is no dataclass, tuple, list or mapping, by its `repr`. A dataclass whose text must not change
     with its layout says its fields in `written_fields`.
@@ -21,7 +21,7 @@ def written(value: Any) -> str:
     Raises ValueError for a whole number of more digits than Python writes in decimal.
 
     >>> from disting import Chain
-    >>> written((Chain(1),))[:42], repr((Chain(1),))[:21]
+    >>> full_text((Chain(1),))[:42], repr((Chain(1),))[:21]
     ('(Chain(n_masses=1, gap=0, act_minus=0, act', '(Chain(1, damped=True')
     """
     kind = type(value)
@@ -30,19 +30,19 @@ def written(value: Any) -> str:
     if isinstance(value, tuple) and PLAIN.issuperset(map(type, value)):
         return repr(value)  # a named tuple says its name
     if kind is tuple:
-        parts = ", ".join(map(written, value))
+        parts = ", ".join(map(full_text, value))
         return f"({parts},)" if len(value) == 1 else f"({parts})"
     if kind is list:
-        return f"[{', '.join(map(written, value))}]"
+        return f"[{', '.join(map(full_text, value))}]"
     if is_dataclass(kind):
         own = getattr(value, "written_fields", None)
         inside_fields = (
             {name: getattr(value, name) for name in _names(kind)} if own is None else own
         )
-        inside = ", ".join(f"{name}={written(item)}" for name, item in inside_fields.items())
+        inside = ", ".join(f"{name}={full_text(item)}" for name, item in inside_fields.items())
         return f"{kind.__qualname__}({inside})"
     if isinstance(value, Mapping):
-        parts = ", ".join(f"{written(key)}: {written(item)}" for key, item in value.items())
+        parts = ", ".join(f"{full_text(key)}: {full_text(item)}" for key, item in value.items())
         return f"{{{parts}}}"
     return repr(value)
 

@@ -130,11 +130,11 @@ def resultant(f: Modular, g: Modular, m: int, n: int) -> int:
     )
 
 
-def interpolated(values: Sequence[int], modulus: int) -> list[int]:
+def interpolate(values: Sequence[int], modulus: int) -> list[int]:
     """Coefficients, the constant first, of the polynomial of least degree with these values at 0,
     1, 2, ..
 
-    >>> interpolated([1, 2, 5], 7)
+    >>> interpolate([1, 2, 5], 7)
     [1, 0, 1]
     """
     count = len(values)

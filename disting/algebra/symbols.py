@@ -50,7 +50,7 @@ def polynomial_of(entries_of: Content) -> Polynomial:
     return fmpz_mpoly_ctx.get(names, Ordering.lex).from_dict(dict(entries))
 
 
-def renamed(
+def rename_symbols(
     polynomial: fmpz_mpoly, ring: Mapping[str, fmpz_mpoly], renaming: Mapping[str, str]
 ) -> fmpz_mpoly:
     """The polynomial with each symbol replaced by the one that `renaming` names (itself where
@@ -97,11 +97,11 @@ def factors(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
     """The integer content with sign, and the irreducible factors with exponents, single symbols
     first.
     """
-    content, powers = factored(polynomial)
+    content, powers = factorise(polynomial)
     return content, sorted(powers, key=lambda pe: (len(pe[0]), str(pe[0])))
 
 
-def factored(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
+def factorise(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
     """The integer content with sign, and the irreducible factors with exponents, in FLINT's order;
     of coefficients of any size.
 
@@ -110,7 +110,7 @@ def factored(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]]
     the same factors, primitive and in the same order, and compares numbers of any size.
 
     >>> x, y = symbols(["x", "y"]).values()
-    >>> factored(6 * (x + 3 * 10**9) * (x + 1) ** 2 * (x - 10**9))
+    >>> factorise(6 * (x + 3 * 10**9) * (x + 1) ** 2 * (x - 10**9))
     (6, [(x - 1000000000, 1), (x + 3000000000, 1), (x + 1, 2)])
     """
     try:

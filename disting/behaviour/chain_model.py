@@ -20,7 +20,7 @@ from flint import fmpz_poly
 from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, constant, lowest_terms, variable
 from disting.algebra.symbols import coefficients
-from disting.behaviour.expanded import written_out
+from disting.behaviour.expansion import written_out
 from disting.behaviour.sample import at_point, coefficient_columns
 from disting.behaviour.transfer import Arrangement, plain_receptance, receptance, values_at
 from disting.model.protocol import Columns, Degrees

@@ -17,7 +17,14 @@ from disting.algebra.certainty import SEARCH_BITS, Size, enough, safety
 from disting.algebra.matroid import Component, Matroid, SearchTooLargeError, matroid
 from disting.algebra.quotient import Quotient, rational, series_rows
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.sample import Drawn, Representation, Sample, drawn, samples, seen_at
+from disting.behaviour.sample import (
+    DrawnPoint,
+    Representation,
+    Sample,
+    draw_point,
+    samples,
+    seen_at,
+)
 from disting.model.protocol import Model
 from disting.model.question import Settings
 from disting.model.structure import Structure
@@ -88,7 +95,7 @@ def profile(
     points = enough(size, settings.points)
     seen = list(samples(model, representation, count, points, settings.seed))
     searches = (
-        seen_at(drawn(model, label, SEARCH_BITS), representation, count)
+        seen_at(draw_point(model, label, SEARCH_BITS), representation, count)
         for label in search_labels(settings.seed)
     )
     settings = replace(settings, subset_limit=min(settings.subset_limit, model.most_subsets))
@@ -119,14 +126,14 @@ def inverse_profile(structure: Structure, count: int, settings: Settings) -> Pro
     size = model.minor_size(count)
     seed = f"{settings.seed}:inverse"
     points = range(enough(size, settings.points))
-    seen = [_inverse_at(drawn(model, f"{seed}:{k}"), count) for k in points]
+    seen = [_inverse_at(draw_point(model, f"{seed}:{k}"), count) for k in points]
     searches = (
-        _inverse_at(drawn(model, label, SEARCH_BITS), count) for label in search_labels(seed)
+        _inverse_at(draw_point(model, label, SEARCH_BITS), count) for label in search_labels(seed)
     )
     return from_samples(seen, searches, frozenset(), (0, 0), count, model.n_states, size, settings)
 
 
-def _inverse_at(where: Drawn, count: int) -> Sample:
+def _inverse_at(where: DrawnPoint, count: int) -> Sample:
     """The Markov parameters of den / (s^k num)."""
     (q,) = where.quotients
     assert q is not None  # of a chain

@@ -66,7 +66,7 @@ class Sample:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class DrawnPoint:
     """A point of a model modulo a prime, and its transfer functions there in lowest terms, None for
     those that are zero.
     """
@@ -78,7 +78,7 @@ class Drawn:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def drawn(model: Model, label: str, bits: int = PROOF_BITS) -> Drawn:
+def draw_point(model: Model, label: str, bits: int = PROOF_BITS) -> DrawnPoint:
     """The random point and the random prime that the label stands for with this model; special
     points are drawn again.
     """
@@ -92,19 +92,19 @@ def drawn(model: Model, label: str, bits: int = PROOF_BITS) -> Drawn:
     raise InputError(f"leading coefficients vanish at {DRAWS} random points")
 
 
-def at_point(model: Model, point: Sequence[int], modulus: int) -> Drawn:
+def at_point(model: Model, point: Sequence[int], modulus: int) -> DrawnPoint:
     """The same at any point, in the order of the parameters."""
-    return Drawn(model, tuple(point), modulus, tuple(model.quotients(point, modulus)))
+    return DrawnPoint(model, tuple(point), modulus, tuple(model.quotients(point, modulus)))
 
 
 def samples(
     model: Model, representation: Representation, count: int, points: int, seed: str
 ) -> Iterator[Sample]:
     """Yield samples at independent points, each with its own large prime."""
-    return (seen_at(drawn(model, f"{seed}:{k}"), representation, count) for k in range(points))
+    return (seen_at(draw_point(model, f"{seed}:{k}"), representation, count) for k in range(points))
 
 
-def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
+def seen_at(where: DrawnPoint, representation: Representation, count: int) -> Sample:
     """Transfer-function coefficients (25), or G_0..G_count (30), with their derivatives by the
     parameters.
 
@@ -120,7 +120,7 @@ def seen_at(where: Drawn, representation: Representation, count: int) -> Sample:
     return Sample(tuple(rows), values, tuple(tuple(r) for _, r in rows.values()), n, where.modulus)
 
 
-def coefficient_columns(where: Drawn) -> Columns:
+def coefficient_columns(where: DrawnPoint) -> Columns:
     """Values and Jacobian columns of all coefficients at a point, each denominator monic."""
     rows = [row for q in where.quotients if q is not None for row in _terms(q).values()]
     columns = [tuple(row[j] for _, row in rows) for j in range(len(rows[0][1]) if rows else 0)]
@@ -144,7 +144,7 @@ def shared_poles(degrees: Sequence[Degrees], at: int) -> int | None:
     return next(same, None)
 
 
-def _rows(where: Drawn, representation: Representation, count: int) -> dict[str, Derivatives]:
+def _rows(where: DrawnPoint, representation: Representation, count: int) -> dict[str, Derivatives]:
     """The invariants of all transfer functions but the dead time."""
     rows: dict[str, Derivatives] = {}
     for i, q in enumerate(where.quotients):

@@ -137,10 +137,10 @@ def values_at(
 def _matrices(
     structure: Arrangement, values: Mapping[str, Ring], s: Ring, unit: Ring
 ) -> list[_RowMatrix[Ring]]:
-    return [_matrix(structure, ends, values, s, unit) for ends in touched(structure)]
+    return [_matrix(structure, ends, values, s, unit) for ends in touched_rows(structure)]
 
 
-def touched(structure: Arrangement) -> tuple[tuple[int, int], ...]:
+def touched_rows(structure: Arrangement) -> tuple[tuple[int, int], ...]:
     """The rows that the force moves and the sensor sees."""
     p = structure.ports
     inside = {ends: [ends[0] <= port <= ends[1] for port in p] for ends in structure.row_ends}

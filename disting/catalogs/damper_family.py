@@ -32,9 +32,9 @@ from disting.model.presentation import plural, summary
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
 from disting.questions.same.low_cost import PATIENTLY
+from disting.verdict.class_search import classes
 from disting.verdict.classes import Classes
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.grouping import classes
 from disting.verdict.result import Relation
 
 # masses: there shares and ideals are asked where the synthesis is silent; for 5 they take up to

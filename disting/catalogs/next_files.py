@@ -32,8 +32,8 @@ from disting.model.kinds import KINDS, Kind
 from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.further import Further, further
-from disting.verdict.placement_record import TESTS, Placed
+from disting.verdict.next_experiments import Further, further
+from disting.verdict.placement_record import TESTS, Placement
 from disting.verdict.query import View
 
 SCHEMA = 1
@@ -156,7 +156,7 @@ def build_next(
     for done, members in enumerate(groups, 1):
         named = [empty.named(m) for m in members]
         found = further(named, engine, executor=executor, progress=progress)
-        tables = {k.name: _plain(t) for k, t in found.tables.items() if isinstance(t, Placed)}
+        tables = {k.name: _plain(t) for k, t in found.tables.items() if isinstance(t, Placement)}
         records.append({"group": list(members), **tables})
         progress("groups", done, len(groups))
     return lines(records)
@@ -229,7 +229,7 @@ def verify_next(
     return [] if len(there) == len(text.splitlines()) else [f"{path.name} has other groups"]
 
 
-def _plain(table: Placed) -> Record:
+def _plain(table: Placement) -> Record:
     return {
         "gains": "".join(g.value[0] for g in table.gains),
         "columns": [list(row) for row in table.columns],
@@ -258,12 +258,12 @@ def _further(stored: NextCatalog, record: Record) -> Further[Chain]:
 
 def _placed(
     kind: Kind, n_masses: int, structures: int, plain: Record, tests: Sequence[str]
-) -> Placed:
+) -> Placement:
     """One table; a test that the file does not have is not known. Raises LookupError, TypeError or
     ValueError for what is none.
     """
     rows = [dict(zip(tests, map(int, row), strict=True)) for row in plain["columns"]]
-    found = Placed(
+    found = Placement(
         kind,
         n_masses,
         tuple(LETTERS[letter] for letter in plain["gains"]),

@@ -192,7 +192,7 @@ def _open(found: DamperFamily, known: Mapping[tuple[Chain, Chain], Finding]) -> 
 
 
 def _representative(found: DamperFamily, group: int) -> int:
-    """The place of the member of a class with the fewest dampers, as `verdict.grouping` chooses
+    """The place of the member of a class with the fewest dampers, as `verdict.class_search` chooses
     it.
     """
     chains = found.found.chains

@@ -6,7 +6,7 @@ from disting.cli.relations import in_colour
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.positive import PositiveFinding
 from disting.model.question import Domain
-from disting.verdict.meaning import RESPONSE, shown, undetermined
+from disting.verdict.meaning import RESPONSE, meaning_sentence, undetermined
 from disting.verdict.result import Relation, Verdict
 
 Known = tuple[str, int, int]
@@ -32,7 +32,7 @@ def explained(
     apart = verdict.relation is Relation.DISTINGUISHABLE
     unknown = list(filter(None, (undetermined(*one) for one in (apart and known) or ())))
     lines += [*unknown, *[""] * bool(unknown)]
-    lines += [shown(verdict, what, everywhere), "", verdict.sentence]
+    lines += [meaning_sentence(verdict, what, everywhere), "", verdict.sentence]
     if verdict.evidence:
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]
     lines.append(f"domain     {verdict.domain} parameters{_over_complex(verdict)}")

@@ -17,7 +17,7 @@ from disting.cli.workers import engine_for, told_if_long
 from disting.errors import InputError, listed
 from disting.evidence.positive import PositiveFinding
 from disting.experiments.experiment import Experiment, MeasuredChain
-from disting.experiments.places import Places, moved, named
+from disting.experiments.places import Places, move, parse_experiment
 from disting.general.any_model import measured
 from disting.general.matrix_model import AnyModel
 from disting.general.special_values import SpecialValues, special_values
@@ -26,11 +26,16 @@ from disting.model.names import names_of
 from disting.model.question import Domain, Settings
 from disting.questions.positive import ranges, within_ranges
 from disting.verdict.comparison import compare, prove
-from disting.verdict.everywhere import Answer, Everywhere, compare_everywhere, everywhere_file
+from disting.verdict.placement_verdicts import (
+    Answer,
+    Everywhere,
+    compare_everywhere,
+    everywhere_file,
+)
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import determinable
-from disting.verdict.verdict_file import Stored, as_file, exact, has_more
+from disting.verdict.verdict_file import StoredVerdict, as_file, exact, has_more
 
 LONGER = "this pair takes longer than most; Ctrl-C stops it"
 LESS = "; less to do: --domain complex, which asks for complex values only"
@@ -97,7 +102,7 @@ def file_of(found: Judged, asked: Query, options: argparse.Namespace) -> dict[st
     beside = None
     if has_more(found.verdict):
         beside = judged(found.models, exact(asked), options).verdict
-    return as_file(Stored(found.models, (), asked, Settings(), found.verdict, beside))
+    return as_file(StoredVerdict(found.models, (), asked, Settings(), found.verdict, beside))
 
 
 def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
@@ -163,7 +168,7 @@ def _under_experiments(
         if options.json == "-":
             return 0
         found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
-    asked_for = [named(text).experiment for text in options.also]
+    asked_for = [parse_experiment(text).experiment for text in options.also]
     experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
     lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
     print("\n".join([*_every_way(found, chains, asked_for), "", *lines]))
@@ -181,7 +186,7 @@ def _every_way(
         places, verdict = found.verdicts[0]
         drawings = list(map(text_drawing, chains))
         if left == right:
-            sides = experiments, [moved(e, places) for e in experiments]
+            sides = experiments, [move(e, places) for e in experiments]
             drawings = [_drawn(chains[0], side) for side in sides]
         yield explained(verdict, drawings)
         yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)

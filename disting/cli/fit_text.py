@@ -17,7 +17,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
-from disting.report.fit.onward import commands, renamed
+from disting.report.fit.links import commands, renamed
 from disting.report.fit.responses import fits_of
 from disting.report.fit.sentences import first_lines, learned, suspicions, which_mass
 from disting.report.fit.words import (

@@ -17,7 +17,7 @@ from disting.cli.workers import Work, announced, engine_for
 from disting.errors import InputError, listed
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.experiments.places import named
+from disting.experiments.places import parse_experiment
 from disting.general.any_model import of_network, unnamed
 from disting.general.identifiability import PARAMETERS
 from disting.model.chain import LEGEND, text_drawing
@@ -186,7 +186,7 @@ def _identifiabilities(
 
 def _one_model(text: str) -> Experiment:
     """The experiment of an option that names masses of one model; raises InputError."""
-    found = named(text)
+    found = parse_experiment(text)
     if found.places:
         raise InputError(f"{text} names masses of two models: write {text.partition('/')[0]} alone")
     return found.experiment

@@ -31,8 +31,9 @@ from disting.model.names import chains_named, name_of, read
 from disting.network.element import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine
-from disting.verdict.further import Further, further, places_of
-from disting.verdict.further_words import (
+from disting.verdict.network_placement import further_networks
+from disting.verdict.next_experiments import Further, further, places_of
+from disting.verdict.next_words import (
     CSV_COLUMNS,
     AnyFurther,
     anywhere,
@@ -41,7 +42,6 @@ from disting.verdict.further_words import (
     rows,
     to_dict,
 )
-from disting.verdict.network_placement import further_networks
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
 

@@ -12,7 +12,7 @@ from disting.errors import InputError, listed
 from disting.experiments.menu import Costs
 from disting.files import Format
 from disting.fit.plan.fit_file import Named, is_of_networks, left_by, named_by
-from disting.fit.plan.further import bench_of, foretold, stood
+from disting.fit.plan.next_experiment import bench_of, foretold, stood
 from disting.fit.results.networks import BAR
 from disting.network.network import Network
 from disting.report.fit.left_first import again, first_sentence
@@ -25,9 +25,9 @@ from disting.report.fit.left_words import (
     set_in_words,
 )
 from disting.verdict.engine import Engine, Progress
-from disting.verdict.further import Further, further
-from disting.verdict.further_words import CSV_COLUMNS, to_dict
 from disting.verdict.network_placement import further_networks
+from disting.verdict.next_experiments import Further, further
+from disting.verdict.next_words import CSV_COLUMNS, to_dict
 
 AGAIN = "then fit the new measurement, NEW, together with these data:"
 

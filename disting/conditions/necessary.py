@@ -7,7 +7,7 @@ also sorts a whole family into buckets. That a condition holds proves nothing.
 
 from collections.abc import Hashable
 
-from disting.algebra.certainty import Certainty, Grade, graded
+from disting.algebra.certainty import Certainty, Grade, grade_of
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
 from disting.behaviour.profile import Profile, Unsearched
 from disting.behaviour.sample import Representation
@@ -87,7 +87,7 @@ def condition_4(left: Profile, right: Profile) -> Finding:
         return Finding(
             RANK,
             Outcome.HOLDS,
-            *graded(left.rank_proven and right.rank_proven, _safety(left, right)),
+            *grade_of(left.rank_proven and right.rank_proven, _safety(left, right)),
         )
     evidence = Ranks(left.labels, left.rank, right.rank, all_rows=True)
     return Finding(RANK, Outcome.FAILS, *rank_grade(left, right), evidence)
@@ -118,7 +118,7 @@ def degree_grade(left: Profile, right: Profile) -> Grade:
     """Degrees are exact: a leading coefficient that is not zero at a point is not zero, nor is
     a resultant.
     """
-    return graded(True, 0)
+    return grade_of(True, 0)
 
 
 def form_grade(left: Profile, right: Profile) -> Grade:
@@ -130,19 +130,19 @@ def form_grade(left: Profile, right: Profile) -> Grade:
     proven = any(
         _surely_constant(b, x) for a, b in ((left, right), (right, left)) for x in a.form - b.form
     )
-    return graded(proven, _safety(left, right))
+    return grade_of(proven, _safety(left, right))
 
 
 def rank_grade(left: Profile, right: Profile) -> Grade:
     """A rank seen at a point is a lower bound for certain; only the smaller of two could be too
     small by chance.
     """
-    return graded(min((left, right), key=lambda p: p.rank).rank_proven, _safety(left, right))
+    return grade_of(min((left, right), key=lambda p: p.rank).rank_proven, _safety(left, right))
 
 
 def dependence_grade(left: Profile, right: Profile) -> Grade:
     """A dependence seen at all points could be there by chance, within the bound."""
-    return graded(False, _safety(left, right))
+    return grade_of(False, _safety(left, right))
 
 
 def _restricted(profile: Profile, shape: Matroid) -> Matroid:

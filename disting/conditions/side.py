@@ -10,7 +10,7 @@ from typing import Any, Generic, Self, TypeVar
 
 from disting.algebra.certainty import prime
 from disting.algebra.colouring import Colouring, colouring
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
@@ -59,7 +59,7 @@ class Side(ABC, Generic[S]):
     @property
     def content(self) -> tuple[str, ...]:
         """All that its verdicts depend on, as text."""
-        return self.name, written(self.subject)
+        return self.name, full_text(self.subject)
 
     @property
     def premise(self) -> Premise | None:

@@ -9,7 +9,7 @@ they are equal.
 from dataclasses import replace
 from itertools import islice
 
-from disting.algebra.certainty import Certainty, Grade, graded
+from disting.algebra.certainty import Certainty, Grade, grade_of
 from disting.algebra.colouring import renamings
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import Profile, profile
@@ -90,7 +90,7 @@ def condition_9(left: AnySide, right: AnySide) -> Finding:
 
 
 def _grade(profiles: list[Profile]) -> Grade:
-    return graded(all(p.rank_proven for p in profiles), min(p.safety for p in profiles) - 2)
+    return grade_of(all(p.rank_proven for p in profiles), min(p.safety for p in profiles) - 2)
 
 
 def condition_6(left: AnySide, right: AnySide, exhaustive: bool) -> Finding:

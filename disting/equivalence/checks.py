@@ -28,7 +28,7 @@ from flint import acb, acb_poly, ctx, fmpq, fmpq_poly
 from disting.algebra.symbols import RationalFunction, symbols, variables
 from disting.behaviour.transfer import plain_receptance
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
-from disting.experiments.places import Named, Places, moved, named, ways
+from disting.experiments.places import Named, Places, move, parse_experiment, ways
 from disting.fibres.synthesis.task import Values
 from disting.model.chain import Chain
 
@@ -166,12 +166,12 @@ def benches(given: Chain, other: Chain, also: Sequence[str | Experiment]) -> Ite
     """Yield every way to place the experiments in the other chain; in the given one they are where
     they are named. Raises InputError.
     """
-    asked = [named(e) if isinstance(e, str) else Named(e) for e in also]
+    asked = [parse_experiment(e) if isinstance(e, str) else Named(e) for e in also]
     used = {i for one in asked for i in one.experiment.masses}
     own = tuple((i, i) for i in sorted(used)) if other == given else ()
     lefts = [Experiment(), *(one.experiment for one in asked)]
     for places in ways(given, other, asked, own):
-        rights = [moved(e, places) for e in lefts]
+        rights = [move(e, places) for e in lefts]
         pairs = dict.fromkeys(zip(lefts, rights, strict=True))
         sides = zip(*pairs, strict=True)
         one, there = (

@@ -30,9 +30,9 @@ from disting.network.notation import network_of, notations_of
 from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
-from disting.verdict.further import further
-from disting.verdict.further_words import AnyFurther, to_dict
 from disting.verdict.network_placement import further_networks
+from disting.verdict.next_experiments import further
+from disting.verdict.next_words import AnyFurther, to_dict
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import Given, refuse_ports

@@ -35,7 +35,7 @@ from disting.equivalence.theorems import (
     proportional_solutions,
 )
 from disting.errors import ContradictionError, InputError
-from disting.experiments import Experiment, named
+from disting.experiments import Experiment, parse_experiment
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Fibre, Point, Solution, Status, target
 from disting.model.chain import Chain
@@ -104,7 +104,7 @@ def equivalents(
 
 
 def _text(given: str | Experiment) -> str:
-    return (named(given).experiment if isinstance(given, str) else given).text
+    return (parse_experiment(given).experiment if isinstance(given, str) else given).text
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ masses.
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Self
 
-from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, Labels, spelled
+from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, Labels, label_runs
 from disting.model.question import Domain, Relation
 
 if TYPE_CHECKING:
@@ -79,8 +79,8 @@ class Forms(Kind):
     def formula(self) -> str:
         """Labels that vary on one side only."""
         return (
-            f"free in one only: {spelled(self.only_left) or '–'} |"
-            f" {spelled(self.only_right) or '–'}"
+            f"free in one only: {label_runs(self.only_left) or '–'} |"
+            f" {label_runs(self.only_right) or '–'}"
         )
 
     def holds(self, pair: "SeenPair", representation: str) -> bool:
@@ -107,14 +107,14 @@ class Ranks(Kind):
         if self.all_rows:
             return f"{left} has {self.left} determinable parameters, {right} {self.right}."
         return (
-            f"In {left} the invariants {spelled(self.rows)} have rank {self.left}, in {right} rank"
-            f" {self.right}."
+            f"In {left} the invariants {label_runs(self.rows)} have rank {self.left}, in {right}"
+            f" rank {self.right}."
         )
 
     @property
     def formula(self) -> str:
         """rank of the Jacobian's rows on both sides."""
-        what = "Φ" if self.all_rows else spelled(self.rows)
+        what = "Φ" if self.all_rows else label_runs(self.rows)
         return f"rank ∂({what})/∂p = {self.left} ≠ {self.right}"
 
     def holds(self, pair: "SeenPair", representation: str) -> bool:
@@ -191,7 +191,7 @@ class FreeChoice(Kind):
     @property
     def formula(self) -> str:
         """N_R equals the number of free invariants."""
-        return f"N_R = {self.rank} = |{{{spelled(self.free)}}}|"
+        return f"N_R = {self.rank} = |{{{label_runs(self.free)}}}|"
 
     def holds(self, pair: "SeenPair", representation: str) -> bool:
         """Whether these vary, no others, and have that rank."""
@@ -273,9 +273,8 @@ def _degrees_in_words(degrees: tuple[int, ...]) -> str:
 
 def _varies(labels: Labels, first: str, second: str) -> str:
     depends, are = ("depends", "is") if len(labels) == 1 else ("depend", "are")
-    return (
-        f"{spelled(labels)} {depends} on the parameters in {first} but {are} constant in {second}"
-    )
+    runs = label_runs(labels)
+    return f"{runs} {depends} on the parameters in {first} but {are} constant in {second}"
 
 
 def capital(text: str) -> str:

@@ -27,10 +27,10 @@ OUTSIDE = "an external program, which decides nothing now"
 GONE = {"program": OUTSIDE, "row": "an answer about rows of masses that is shipped no more"}
 
 
-def spelled(labels: Labels) -> str:
+def label_runs(labels: Labels) -> str:
     """Labels with runs shortened.
 
-    >>> spelled(("b0", "b1", "b2", "a1")), spelled(("b0[2]", "b1[2]"))
+    >>> label_runs(("b0", "b1", "b2", "a1")), label_runs(("b0[2]", "b1[2]"))
     ('b0–b2, a1', 'b0[2]–b1[2]')
     """
     matches = [re.fullmatch(r"([A-Za-z]+)(\d+)(.*)", label) for label in labels]
@@ -172,7 +172,7 @@ def _field(value: Any, hint: Any) -> Any:
     kinds = [k for k in get_args(hint) or (hint,) if isinstance(k, type) and issubclass(k, Kind)]
     if kinds:
         return read(value, kinds)
-    return hint.from_dict(value) if hasattr(hint, "from_dict") else tupled(value)
+    return hint.from_dict(value) if hasattr(hint, "from_dict") else as_tuples(value)
 
 
 def read(data: dict[str, Any], kinds: Iterable[type[Any]]) -> Any:
@@ -187,12 +187,12 @@ def read(data: dict[str, Any], kinds: Iterable[type[Any]]) -> Any:
 
 def plain_fields(data: dict[str, Any]) -> dict[str, Any]:
     """All but the kind."""
-    return {name: tupled(value) for name, value in data.items() if name != "kind"}
+    return {name: as_tuples(value) for name, value in data.items() if name != "kind"}
 
 
-def tupled(value: Any) -> Any:
+def as_tuples(value: Any) -> Any:
     """Lists as tuples, however deep."""
-    return tuple(map(tupled, value)) if isinstance(value, list | tuple) else value
+    return tuple(map(as_tuples, value)) if isinstance(value, list | tuple) else value
 
 
 def is_well_typed(evidence: Any) -> bool:

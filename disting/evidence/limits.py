@@ -5,7 +5,7 @@ from enum import StrEnum
 from itertools import groupby
 from typing import ClassVar, NamedTuple
 
-from disting.evidence.kind import Claim, Inside, Kind, Labels, spelled
+from disting.evidence.kind import Claim, Inside, Kind, Labels, label_runs
 
 
 class Why(StrEnum):
@@ -147,15 +147,13 @@ class LargerProjection(Kind):
 
     def sentence(self, left: str, right: str) -> str:
         """Both ranks in words."""
-        return (
-            f"The invariants {spelled(self.rows)} have rank {self.left} in {left} and {self.right}"
-            f" in {right}."
-        )
+        runs = label_runs(self.rows)
+        return f"The invariants {runs} have rank {self.left} in {left} and {self.right} in {right}."
 
     @property
     def formula(self) -> str:
         """The two ranks."""
-        return f"rank ∂({spelled(self.rows)})/∂p = {self.left}, {self.right}"
+        return f"rank ∂({label_runs(self.rows)})/∂p = {self.left}, {self.right}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,7 +256,7 @@ class FullImage(Kind):
     @property
     def formula(self) -> str:
         """N_R equals the number of free invariants."""
-        return f"N_R = {self.rank} = |{{{spelled(self.free)}}}|"
+        return f"N_R = {self.rank} = |{{{label_runs(self.free)}}}|"
 
 
 @dataclass(frozen=True, slots=True)

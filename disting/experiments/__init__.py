@@ -6,11 +6,11 @@ makes a measured chain a side of a comparison, `places` tells which mass of one 
 the other.
 
 >>> from disting import Chain
->>> from disting.experiments import moved, named, ways
->>> asked = named("sensor=2")  # a Named experiment
+>>> from disting.experiments import move, parse_experiment, ways
+>>> asked = parse_experiment("sensor=2")  # a Named experiment
 >>> ways(Chain(2), Chain(2), [asked])  # each of them Places
 [((2, 1),), ((2, 2),)]
->>> moved(asked.experiment, ((2, 1),))
+>>> move(asked.experiment, ((2, 1),))
 Experiment(sensor=1)
 
 `confirms` finds evidence of a verdict under experiments again, as `disting.verify` does.
@@ -22,7 +22,7 @@ from disting.experiments.measured_evidence import confirms as confirms
 from disting.experiments.places import (
     Named as Named,
     Places as Places,
-    moved as moved,
-    named as named,
+    move as move,
+    parse_experiment as parse_experiment,
     ways as ways,
 )

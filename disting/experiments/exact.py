@@ -62,16 +62,16 @@ from disting.evidence.positive import Empirical, OnlyOne, Points, PositiveFindin
 from disting.experiments.equal_machines import same_by_rows
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import Listed, by_list, listable, listed_at, without_dead_time
-from disting.experiments.maps import matched
+from disting.experiments.maps import match_maps
 from disting.fibres.ideals import Limits, StackedMap, Terms, decide_matched
-from disting.fibres.ideals.fibre_ideal import drawn, jacobian
+from disting.fibres.ideals.fibre_ideal import draw_point, jacobian
 from disting.fibres.synthesis.decide import point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.task import Solution
 from disting.model.chain import Chain
 from disting.model.question import Answer, Question, Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.analysis import identifiability
-from disting.questions.same.exact import SAFETY, decided
+from disting.questions.same.exact import SAFETY, as_finding
 from disting.questions.same.real_and_positive import positive_share
 
 TRIES = 12  # points
@@ -163,7 +163,7 @@ def answer_of(kept: tuple[Solution, ...]) -> Answer:
 
 def by_parts(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding | None:
     """FAILS where the ranks of some parts differ, None where they are equal."""
-    maps = matched(left, right)
+    maps = match_maps(left, right)
     size = minor_size(maps)
     points = enough(size, settings.points)
     label = about(f"parts:{settings.seed}", *(m.content for m in maps))
@@ -180,7 +180,7 @@ def ranks(stacked: StackedMap, labels: Sequence[str]) -> tuple[int, ...]:
 
 
 def _ranks_at(stacked: StackedMap, label: str) -> list[int]:
-    modulus, point = drawn(stacked, label, PROOF_BITS)
+    modulus, point = draw_point(stacked, label, PROOF_BITS)
     rows = [[int(x) for x in row] for row in jacobian(stacked, point, modulus).tolist()]
     width = len(point)
     return [
@@ -232,9 +232,9 @@ def by_ideals(
     left: MeasuredChain, right: MeasuredChain, settings: Settings, limits: Limits
 ) -> Finding:
     """What the ideal of one fibre of the stacked map says."""
-    maps = matched(left, right)
+    maps = match_maps(left, right)
     decision = decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=limits)
-    return decided(decision)
+    return as_finding(decision)
 
 
 def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:

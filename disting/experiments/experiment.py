@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 
-from disting.behaviour.transfer import touched
+from disting.behaviour.transfer import touched_rows
 from disting.errors import ConstraintViolation, InputError, shown
 from disting.experiments.changes import Change, changes_of, in_order
 from disting.model.chain import AS_IT_IS, Chain, Sensor
@@ -170,7 +170,7 @@ class Entry:
     @property
     def is_silent(self) -> bool:
         """Whether the sensor never moves: no mass that it shows is joined to one that is driven."""
-        return not touched(self)
+        return not touched_rows(self)
 
     @cached_property
     def sensor_order(self) -> int:

@@ -15,7 +15,7 @@ all of them together has the larger one.
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
-from disting.algebra.certainty import Certainty, graded
+from disting.algebra.certainty import Certainty, grade_of
 from disting.behaviour.profile import Profile
 from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.evidence.conditions import Counts
@@ -27,7 +27,7 @@ from disting.questions.inclusion.profiles import (
     by_profiles,
     exceed,
     missing,
-    ordered,
+    order,
     without_dead_time,
 )
 
@@ -44,7 +44,7 @@ def inclusions_under(
     """
     ranks = [profile_of(m).rank for m in (left, right)]
     first = ranks[0] < ranks[1]
-    small, large = ordered(left, right, first)
+    small, large = order(left, right, first)
     closure = next(_found(small, large, profile_of, first), None)
     if closure is None:
         closure = InclusionFinding(Inclusion.UNKNOWN, reason=NOT_SETTLED)
@@ -145,7 +145,7 @@ def _found(
     pairs = list(zip(_pairs(mine), _pairs(theirs), strict=True))
     for smaller, larger in pairs:
         if exceed(smaller, larger):
-            counts = Counts(*ordered(smaller, larger, first))
+            counts = Counts(*order(smaller, larger, first))
             yield InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
     if any(smaller[1] != larger[1] for smaller, larger in pairs):
         return
@@ -166,8 +166,8 @@ def _by_one_experiment(
         mine, theirs = map(profile_of, alone)
         if mine.rank > theirs.rank:
             labels = tuple(name.replace("[1]", f"[{k + 1}]") for name in mine.labels)
-            ranks = ordered(mine.rank, theirs.rank, first)
-            grade = graded(theirs.rank_proven, min(mine.safety, theirs.safety) - 1)
+            ranks = order(mine.rank, theirs.rank, first)
+            grade = grade_of(theirs.rank_proven, min(mine.safety, theirs.safety) - 1)
             yield InclusionFinding(Inclusion.NEITHER, *grade, LargerProjection(labels, *ranks))
 
 

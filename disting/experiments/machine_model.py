@@ -24,7 +24,7 @@ from disting.algebra.certainty import Size, prime, residues
 from disting.algebra.quotient import Quotient, matrix
 from disting.algebra.symbols import coefficients, symbols
 from disting.behaviour.chain_model import quotient, size_of_minors, vanishing_series
-from disting.behaviour.expanded import become
+from disting.behaviour.expansion import become
 from disting.behaviour.sample import (
     Representation,
     at_point,
@@ -33,7 +33,7 @@ from disting.behaviour.sample import (
     seen_at,
     shared_poles,
 )
-from disting.behaviour.transfer import plain_receptance, touched
+from disting.behaviour.transfer import plain_receptance, touched_rows
 from disting.experiments.experiment import Entry, MeasuredChain
 from disting.model.protocol import ZERO, Columns, Degrees
 
@@ -73,10 +73,10 @@ class Shape:
 @lru_cache(maxsize=REMEMBERED)
 def shape(entry: Entry) -> Shape:
     """What is known exactly of an entry's coefficients."""
-    if not touched(entry):
+    if not touched_rows(entry):
         return Shape(frozenset(), frozenset(), ())
     if not _has_one_sign(entry):
-        parts = expanded(entry)
+        parts = expand(entry)
         top, bottom = (
             frozenset(i for i, c in enumerate(coefficients(p, "s")) if not c.is_zero())
             for p in parts
@@ -87,11 +87,11 @@ def shape(entry: Entry) -> Shape:
     sides[0] = {i + entry.sensor_order for i in sides[0]}
     common = min(sides[0] | sides[1])
     top, bottom = (frozenset(i - common for i in side) for side in sides)
-    return Shape(top, bottom, (entry.experiment.changes, touched(entry), common))
+    return Shape(top, bottom, (entry.experiment.changes, touched_rows(entry), common))
 
 
 @lru_cache(maxsize=REMEMBERED)
-def expanded(entry: Entry) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+def expand(entry: Entry) -> tuple[fmpz_mpoly, fmpz_mpoly]:
     """Numerator and denominator in s (the first symbol) and the parameters, integers without a
     common factor.
     """
@@ -120,9 +120,9 @@ def known_factor(entry: Entry) -> int:
 
 
 def _renames(left: Entry, right: Entry, renaming: Mapping[str, str]) -> bool:
-    if not (touched(left) and touched(right)):
-        return not touched(left) and not touched(right)
-    return become(expanded(left), expanded(right), renaming)
+    if not (touched_rows(left) and touched_rows(right)):
+        return not touched_rows(left) and not touched_rows(right)
+    return become(expand(left), expand(right), renaming)
 
 
 def _has_one_sign(entry: Entry) -> bool:
@@ -130,7 +130,7 @@ def _has_one_sign(entry: Entry) -> bool:
     same product of signs.
     """
     p, signs = entry.ports, set[int]()
-    for first, last in touched(entry):
+    for first, last in touched_rows(entry):
         inside = [first <= port <= last for port in p]
         act_minus, act_plus, meas_minus, meas_plus = inside
         if (act_minus and act_plus) or (meas_minus and meas_plus):

@@ -4,7 +4,7 @@ With w_i = 1/m_i, f = 1/T1 and the other parameters as they are, row i of A(s) t
 in s where no inertia is added, and so are the denominators. Determinants and minors are linear in
 each mass, so a polynomial in the new unknowns is the old one with the exponents of m_i turned, e
 -> 1 - e; the map is birational, which leaves the closure of the image as it is. One map of all
-fractions is made by `fibres.ideals.stacked`.
+fractions is made by `fibres.ideals.stacked_map`.
 
 One inertia J that is added to mass i, and nothing else, turns w = 1/m_i into w' = w/(1 + J w) in
 the same polynomials: each coefficient c0 + c1 w (linear in w, as determinants are) becomes c0 + c1
@@ -24,9 +24,9 @@ from functools import lru_cache
 from flint import fmpz_mpoly
 
 from disting.experiments.experiment import Entry, MeasuredChain
-from disting.experiments.machine_model import expanded, shape
+from disting.experiments.machine_model import expand, shape
 from disting.fibres.ideals import Fraction, StackedMap, Terms, stacked_maps
-from disting.fibres.ideals.stacked import is_one, map_of
+from disting.fibres.ideals.stacked_map import is_one, map_of
 
 REMEMBERED = 256
 OF_MASSES = 2  # power of s with which a mass stands in A(s), so what adds to it
@@ -34,10 +34,10 @@ OF_MASSES = 2  # power of s with which a mass stands in A(s), so what adds to it
 
 def stacked_map(measured: MeasuredChain) -> StackedMap:
     """The map of one measured chain, for its fibre in itself."""
-    return matched(measured, measured)[0]
+    return match_maps(measured, measured)[0]
 
 
-def matched(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, StackedMap]:
+def match_maps(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, StackedMap]:
     """Both maps, of equal degrees, in a form in which equal transfer functions are equal
     coordinates.
     """
@@ -115,7 +115,7 @@ def _factor(terms: Terms, at: int, power: int) -> Terms:
 @lru_cache(maxsize=REMEMBERED)
 def _fraction(entry: Entry) -> Fraction:
     """Coefficients in the new unknowns, without a common factor of them."""
-    num, den = expanded(entry)
+    num, den = expand(entry)
     names = entry.parameters
     turned = [
         j

@@ -24,14 +24,14 @@ from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import confirms_missing, numberings
 from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
 from disting.experiments.machine_model import MachineModel, is_renaming
-from disting.experiments.maps import matched
-from disting.fibres.ideals import seen_again
+from disting.experiments.maps import match_maps
+from disting.fibres.ideals import find_again
 from disting.fibres.synthesis.task import fraction
 from disting.model.chain import Chain
 from disting.model.question import Answer, Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.analysis import identifiability
-from disting.questions.inclusion.profiles import exceed, ordered
+from disting.questions.inclusion.profiles import exceed, order
 from disting.questions.positive import proves
 from disting.questions.same.exact import by_labels
 
@@ -73,7 +73,7 @@ def _found_again(evidence: Kind, left: MeasuredChain, right: MeasuredChain) -> b
             return _missed(evidence, left, right)
         case Solved() | Refuted():
             # normalised coordinates are those of a chain alone
-            return not evidence.is_normalised and seen_again(evidence, *matched(left, right))
+            return not evidence.is_normalised and find_again(evidence, *match_maps(left, right))
         case BothWays():
             return _both_ways(evidence, left, right)
     return False  # it speaks of other models
@@ -98,7 +98,7 @@ def exact_again(
         case FibreUnder():
             return by_list(left, right, settings)
         case Solved() | Refuted():
-            return by_labels(evidence, *matched(left, right), settings.seed)
+            return by_labels(evidence, *match_maps(left, right), settings.seed)
     return None
 
 
@@ -127,7 +127,7 @@ def _one_experiment(evidence: Counts, left: MeasuredChain, right: MeasuredChain)
     models = [MachineModel(m) for m in (left, right)]
     pairs = (model.degrees for model in models)
     ranks = [profile(model, Representation.TF, 0, FRESH).rank for model in models]
-    small, large = ordered(evidence.left, evidence.right, ranks[0] < ranks[1])
+    small, large = order(evidence.left, evidence.right, ranks[0] < ranks[1])
     is_stated = (evidence.left, evidence.right) in list(zip(*pairs, strict=True))
     return is_stated and exceed(small, large)
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import nmod_poly
 
-from disting.behaviour.sample import drawn
+from disting.behaviour.sample import draw_point
 from disting.errors import InputError, shown
 from disting.experiments.changes import GENERIC
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
@@ -124,7 +124,7 @@ class Costs:
         return tuple(k for k in self.priced(KINDS) if n_masses > 1 or not k.holds)
 
 
-def measured(chain: Chain, *items: Item) -> MeasuredChain:
+def measure_with(chain: Chain, *items: Item) -> MeasuredChain:
     """The chain as it is and with these further experiments.
 
     Where force and sensor are at one place, to move the one or the other is the same (reciprocity:
@@ -145,7 +145,7 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     differentiations; a lag stands between both. NEW is proven: what differs at a point modulo a
     prime differs.
     """
-    both = measured(chain, item)
+    both = measure_with(chain, item)
     plain, further = both.entries
     if further.is_silent:
         return Gain.SILENT
@@ -154,7 +154,7 @@ def gain(chain: Chain, item: Item) -> Gain | None:
         return Gain.REPEATS
     if not further.experiment.changes and _seen(plain) == _seen(further):
         return Gain.REPEATS
-    where = drawn(MachineModel(both), "gain")
+    where = draw_point(MachineModel(both), "gain")
     first, second = where.quotients
     if second is None:
         return Gain.SILENT

@@ -35,11 +35,13 @@ class Named:
     places: Places = ()
 
 
-def named(text: str) -> Named:
+def parse_experiment(text: str) -> Named:
     """What `sensor=3/2,lock=1` says; raises InputError.
 
-    >>> named("sensor=3/2-1,lock=1").places, named("inertia=1:0.5").experiment.text
-    (((3, 2),), 'inertia 1/2 at mass 1')
+    >>> parse_experiment("sensor=3/2-1,lock=1").places
+    ((3, 2),)
+    >>> parse_experiment("inertia=1:0.5").experiment.text
+    'inertia 1/2 at mass 1'
     """
     ports: dict[str, Any] = {}
     changes: list[Change[int]] = []
@@ -103,7 +105,7 @@ def ways(
     return [tuple(sorted((fixed | item).items())) for item in numberings]
 
 
-def moved(experiment: Experiment, places: Places) -> Experiment:
+def move(experiment: Experiment, places: Places) -> Experiment:
     """The experiment at the places of the right chain; raises KeyError for a mass without one."""
     return experiment.moved(dict(places).__getitem__)
 

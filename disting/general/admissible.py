@@ -20,7 +20,7 @@ from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import BOTH, Explicit, Inequality, NoEquivalent, Witnesses
 from disting.evidence.kind import PointText
-from disting.general import listed, newton
+from disting.general import fibre_lists, newton
 from disting.general.combination import excludes, is_tried
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
@@ -212,10 +212,10 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
     ]
     for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
         given, other = (left, right) if left_given else (right, left)
-        found = listed.having(given, values, other)
+        found = fibre_lists.having(given, values, other)
         if found:
             having.append((left_given, _written(values), _rounded(other, found)))
-        elif listed.lacking(given, values, other):
+        elif fibre_lists.lacking(given, values, other):
             lacking.append((left_given, _written(values), ()))
         if having and lacking:
             return _witnesses(left, right, having[0], lacking[0], Domain.POSITIVE)

@@ -15,7 +15,7 @@ from disting.fibres.ideals import (
     PolynomialMap,
     StackedMap,
     decide_matched,
-    matched,
+    match_maps,
     stacked_maps,
 )
 from disting.general.matrix_model import AnyModel, MatrixModel
@@ -25,7 +25,7 @@ from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.network.element import Sort
 from disting.network.network import Network
-from disting.questions.same.exact import SAFETY, decided
+from disting.questions.same.exact import SAFETY, as_finding
 
 LIMITS = Limits(safety=SAFETY, long=True)
 M = TypeVar("M", Model, AnyModel)
@@ -153,7 +153,7 @@ def with_names(note: str, left: str, right: str) -> str:
 def same(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     """The exact decision, for equal ranks and degrees."""
     maps = maps_of(left, right)
-    return decided(decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=LIMITS))
+    return as_finding(decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=LIMITS))
 
 
 def maps_of(left: AnyModel, right: AnyModel) -> tuple[PolynomialMap, PolynomialMap]:
@@ -162,7 +162,7 @@ def maps_of(left: AnyModel, right: AnyModel) -> tuple[PolynomialMap, PolynomialM
     """
     (here, *more), (there, *others) = left.entries, right.entries
     if not more and not others:
-        return matched(coefficient_map(here), coefficient_map(there))
+        return match_maps(coefficient_map(here), coefficient_map(there))
     one, other = _stacked(left, right)
     return one, other
 

@@ -21,7 +21,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from disting.algebra.certainty import Certainty, Size, about, enough, prime, residues, safety
 from disting.algebra.notation import latex, latex_symbol, text
-from disting.algebra.symbols import RationalFunction, factored, variables
+from disting.algebra.symbols import RationalFunction, factorise, variables
 from disting.errors import ContradictionError
 from disting.general.any_model import on_one_variable
 from disting.general.field import Step, letters
@@ -69,7 +69,7 @@ class ClosedForm:
         every = [v for s in self.steps for v in (s.root or (s.value,))]
         every += [v for _, v in self.values]
         sides = (side for v in every for side in (v.num, v.den))
-        return sum(letters(f) for side in sides for f, _ in factored(side)[1])
+        return sum(letters(f) for side in sides for f, _ in factorise(side)[1])
 
     def at(self, point: Sequence[float]) -> dict[str, complex]:
         """The values at rounded ones of the given parameters."""

@@ -26,7 +26,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
-from disting.general.listed import is_in_one_variable, is_regular
+from disting.general.fibre_lists import is_in_one_variable, is_regular
 from disting.general.model import Model, Terms
 from disting.general.target import value_at
 

@@ -21,7 +21,7 @@ from typing import Any
 
 from flint import ctx, fmpz_mpoly, fmpz_poly
 
-from disting.algebra.symbols import factored
+from disting.algebra.symbols import factorise
 from disting.general.cases import cases_of
 from disting.general.elimination import Case, inequalities
 from disting.general.orthant import Orthant, TooMuch, value_at
@@ -96,7 +96,7 @@ def _are_apart(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly, at: int) -> bo
         return bool(ring.sign(other))
     if len(one) * len(other) * degrees**2 < SIZE:
         resultant = one.resultant(other, at)
-        if resultant and all(map(ring.sign, (f for f, _ in factored(resultant)[1]))):
+        if resultant and all(map(ring.sign, (f for f, _ in factorise(resultant)[1]))):
             return True
     everything = Orthant(0, ring.n_given + 1, Domain.POSITIVE)
     pair = tuple(_moved(ring, everything, e, at) for e in (one, other))

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 from flint import fmpz_mpoly
 
-from disting.algebra.symbols import RationalFunction, factored
+from disting.algebra.symbols import RationalFunction, factorise
 from disting.general.orthant import Orthant, TooMuch
 
 SIZE = 200_000  # product of numbers of terms and degrees of both: below, less than a second
@@ -63,7 +63,7 @@ def branches(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly) -> Branches | No
         raise TooMuch(f"a resultant of polynomials of {len(one)} and {len(other)} terms")
     line, contents = _line(ring, one, other, at)
     open_, closed, generic = list[Branch](), list[fmpz_mpoly](), list[fmpz_mpoly]()
-    for factor, _ in factored(one.resultant(other, at))[1]:
+    for factor, _ in factorise(one.resultant(other, at))[1]:
         if not factor.degrees()[kept]:
             generic.append(factor)
         elif ring.sign(factor):
@@ -178,7 +178,7 @@ def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | s
 def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
     """The distinct irreducible factors that contain unknowns."""
     every = [
-        f for polynomial in polynomials for f, _ in factored(polynomial)[1] if ring.occurring([f])
+        f for polynomial in polynomials for f, _ in factorise(polynomial)[1] if ring.occurring([f])
     ]
     return tuple(f for i, f in enumerate(every) if f not in every[:i])
 

@@ -17,7 +17,7 @@ from typing import Any
 
 from flint import fmpz_mpoly
 
-from disting.algebra.symbols import RationalFunction, coefficients, factored, symbols
+from disting.algebra.symbols import RationalFunction, coefficients, factorise, symbols
 from disting.general.orthant import TooMuch
 
 QUADRATIC = 2
@@ -248,7 +248,7 @@ class Field(Arithmetic):
             return [polynomial]
         return [
             tuple(RationalFunction(c, self.one.num) for c in coefficients(f, " "))
-            for f, power in factored(whole)[1]
+            for f, power in factorise(whole)[1]
             for _ in range(power)
             if f.degrees()[-1]
         ]

@@ -6,10 +6,10 @@ from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.symbols import RationalFunction
 from disting.evidence.general import ZERO, Explicit, Formula, NoEquivalent
-from disting.general.between import End, Path
 from disting.general.boundary import Boundary, at_boundary, equivalents_without
 from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of, polynomial_text, text_of, tree
+from disting.general.intermediate_value import End, Path
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.orthant import THOROUGH, Effort

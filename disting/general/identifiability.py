@@ -9,7 +9,7 @@ j has a smaller rank. With full column rank all are.
 
 from dataclasses import dataclass, replace
 
-from disting.algebra.certainty import Certainty, graded
+from disting.algebra.certainty import Certainty, grade_of
 from disting.errors import of_type
 from disting.general.any_model import cells_of, map_of
 from disting.general.exponents import determined, may_be_others
@@ -68,7 +68,7 @@ def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> Loc
     of_type(model, AnyModel, "of transfer functions it is asked of a Model or a MatrixModel")
     found = local(behaviour_of(model), settings)
     return LocalIdentifiability(
-        model.parameters, found.rank, found.names, *graded(not found.safety, found.safety)
+        model.parameters, found.rank, found.names, *grade_of(not found.safety, found.safety)
     )
 
 

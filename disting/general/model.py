@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.notation import quotient, text_in_s
-from disting.algebra.symbols import RationalFunction, renamed, symbols
-from disting.behaviour.expanded import expanded
+from disting.algebra.symbols import RationalFunction, rename_symbols, symbols
+from disting.behaviour.expansion import expand
 from disting.errors import InputError
 from disting.general.entries import (
     frequency,
@@ -132,7 +132,7 @@ class Model(Shown):
             raise InputError(f"{name} is the name of another chain; call this one otherwise")
         parameters = tuple(sorted(chain.parameters))
         ring = symbols(["s", *parameters])
-        num, den = (renamed(part, ring, {}) for part in expanded(chain.structure))
+        num, den = (rename_symbols(part, ring, {}) for part in expand(chain.structure))
         made = _model(RationalFunction(num, den), parameters, name or name_of(chain))
         object.__setattr__(made, "chain", chain)
         if not chain.lag:

@@ -13,8 +13,8 @@ from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
 from disting.evidence.model_samples import SeenPair, seen
-from disting.fibres.ideals import Limits, seen_again
-from disting.general import listed, newton
+from disting.fibres.ideals import Limits, find_again
+from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
 from disting.general.any_model import is_renamed, maps_of
 from disting.general.combination import excludes
@@ -59,7 +59,7 @@ def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
             return _differ(evidence, left, right)
         case Solved() | Refuted():
             # normalised coordinates are those of a chain
-            return not evidence.is_normalised and seen_again(evidence, *maps_of(left, right), AGAIN)
+            return not evidence.is_normalised and find_again(evidence, *maps_of(left, right), AGAIN)
         case Theorem():
             return evidence.name == "Foster and Cauer" and are_one_ports(left, right)
         case Explicit():
@@ -132,7 +132,7 @@ def _has(
 ) -> bool:
     if domain is Domain.POSITIVE and newton.having(given, values, other, near):
         return True
-    if domain is Domain.POSITIVE and listed.having(given, values, other):
+    if domain is Domain.POSITIVE and fibre_lists.having(given, values, other):
         return True
     return any(one.having(values) for one in ways_again(given, other, domain))
 
@@ -147,7 +147,7 @@ def _has_none(
             for shown in (excludes_around, excludes)
         ):
             return True
-        if listed.lacking(given, values, other):
+        if fibre_lists.lacking(given, values, other):
             return True
     return any(one.lacking(values) for one in ways_again(given, other, domain))
 

@@ -19,7 +19,7 @@ from disting.model.question import Settings
 from disting.network.branches import branches, rest_of, taken_away
 from disting.network.minors import Places, is_minor, left_out, minors
 from disting.network.network import Network
-from disting.questions.inclusion.profiles import by_profiles, inside, ordered
+from disting.questions.inclusion.profiles import by_profiles, inside, order
 
 IMAGE_NOT_ASKED = "of general models only limits are asked for"
 NOT_SETTLED = "neither missing elements nor the profiles settle it"
@@ -33,7 +33,7 @@ def inclusions_of(
     left_is_smaller: bool,
 ) -> Inclusions:
     """Both statements on two models of unequal rank."""
-    closure = _by_minors(*ordered(left, right, left_is_smaller), left_is_smaller)
+    closure = _by_minors(*order(left, right, left_is_smaller), left_is_smaller)
     if closure is None and _by_degrees(left, right):
         closure = _by_profiles(profiles, left_is_smaller)
     if closure is None:
@@ -122,5 +122,5 @@ def _by_degrees(left: AnyModel, right: AnyModel) -> bool:
 def _by_profiles(
     profiles: tuple[Profile, Profile], left_is_smaller: bool
 ) -> InclusionFinding | None:
-    small, large = ordered(*profiles, left_is_smaller)
+    small, large = order(*profiles, left_is_smaller)
     return by_profiles(small, large, left_is_smaller=left_is_smaller)

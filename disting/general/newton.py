@@ -34,7 +34,7 @@ from itertools import chain
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mat
 
 from disting.errors import InputError
-from disting.general.listed import is_in_one_variable
+from disting.general.fibre_lists import is_in_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.relations import Relation, coefficients, relations, slope

@@ -33,7 +33,7 @@ from dataclasses import replace
 
 from flint import fmpz_mpoly
 
-from disting.algebra.symbols import RationalFunction, factored
+from disting.algebra.symbols import RationalFunction, factorise
 from disting.general.cases import cases_of
 from disting.general.elimination import Case
 from disting.general.model import Model, Terms
@@ -109,7 +109,7 @@ def _foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFun
     )
     if max(len(top), len(bottom)) > ring.terms:
         return None
-    for factor, power in factored(bottom)[1]:
+    for factor, power in factorise(bottom)[1]:
         if not factor.degrees()[ring.path]:
             continue
         if factor.degrees()[ring.path] > 1 or power > 1:

@@ -19,7 +19,7 @@ from typing import Any
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.symbols import RationalFunction, factored
+from disting.algebra.symbols import RationalFunction, factorise
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.question import Domain
@@ -63,7 +63,7 @@ BRIEF = Effort(points=10, listed=3, orders=6, degree=1, parts=0, unknowns=10, te
 @dataclass(frozen=True)
 class Orthant:
     """The ring Z[p, q, t] with its admissible values; t is a path's parameter, positive like
-    the rest (see `between`).
+    the rest (see `intermediate_value`).
     """
 
     n_given: int
@@ -202,7 +202,7 @@ class Orthant:
             raise TooMuch(
                 f"a polynomial of {len(polynomial)} terms and degree {polynomial.total_degree()}"
             )
-        number, factors = factored(polynomial)
+        number, factors = factorise(polynomial)
         sign, kept = 1 if number > 0 else -1, []
         for factor, power in factors:
             seen = self.sign(factor)

@@ -9,7 +9,7 @@ most of them; of others the exact decision cannot tell that nothing matches.
 
 from collections.abc import Callable
 
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 from disting.behaviour.profile import Profile
 from disting.general.any_model import cells_of, in_powers
 from disting.general.matrix_model import AnyModel
@@ -45,4 +45,4 @@ def _shape(model: AnyModel) -> list[list[tuple[int, int]]]:
 def told(profile: Profile) -> str:
     """All that conditions compare, as text."""
     p = profile
-    return written((p.degrees, sorted(p.form), p.constants, p.rank, p.matroid))
+    return full_text((p.degrees, sorted(p.form), p.constants, p.rank, p.matroid))

@@ -25,7 +25,7 @@ regular. If the signs of the determinants there do not add up to 0, N gives all 
 Proof. K is connected and oriented: the k and 0 < a_1 < a_2 < .. are coordinates. The values U for
 which N has order n are an open set of (0, oo)^d, and the map from U to K is proper: of values whose
 functions converge to F in K let those of each element converge in [0, oo] for a part of them. By
-the theorem of `listed` F is the function of the network in which elements that tend to 0 are
+the theorem of `fibre_lists` F is the function of the network in which elements that tend to 0 are
 deleted and those that tend to oo contracted. Its functions are in K(m, c', z') with m at most that
 of generic ones; c' and z' are those of all its values: they are 0 where elements of the one kind,
 or of the other one, alone join the ends of the port. So F is none of them, unless no element tends
@@ -44,7 +44,7 @@ from functools import lru_cache
 from itertools import combinations, product
 
 from disting.errors import InputError
-from disting.general.listed import goal_of, one_less, orientation, positive
+from disting.general.fibre_lists import goal_of, one_less, orientation, positive
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import placed_network

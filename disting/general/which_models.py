@@ -1,9 +1,10 @@
 """Which given models have an admissible equivalent in another one: all, none, or some; each with
 its proof.
 
-ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`, `between`), or
-as many roots for all p as for one (`counts`). NEVER: no case is left (`cases`), or none that has a
-root. Points with and without equivalents in open sets around them are looked for with `robust`.
+ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`,
+`intermediate_value`), or as many roots for all p as for one (`counts`). NEVER: no case is left
+(`cases`), or none that has a root. Points with and without equivalents in open sets around them are
+looked for with `robust`.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -11,10 +12,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice
 
-from disting.general.between import Path, by_count, odd_path, path, without_equations
 from disting.general.cases import orders, searched
 from disting.general.counts import at_roots, number_of_roots
 from disting.general.elimination import Case
+from disting.general.intermediate_value import Path, by_count, odd_path, path, without_equations
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import BRIEF, THOROUGH, Effort, Orthant, TooMuch
 from disting.general.robust import Parted, Point, having, lacking, searched_cases

@@ -7,7 +7,7 @@ from itertools import combinations
 from disting.catalogs.dampers import DamperSets, spelled
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.paper.claim import Claim, Findings, Found, Seen
+from disting.paper.claim import Claim, Findings, Found, Observation
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 
@@ -44,9 +44,9 @@ def lag(findings: Findings) -> Found:
     )
 
 
-def _with_and_without(extra: str) -> tuple[Seen, ...]:
+def _with_and_without(extra: str) -> tuple[Observation, ...]:
     """The first of the pairs of models without and with an extra."""
-    return (Seen(3, True, ("1", f"1+{extra}")),)
+    return (Observation(3, True, ("1", f"1+{extra}")),)
 
 
 def figure_14(findings: Findings) -> Found:
@@ -64,7 +64,7 @@ def figure_14(findings: Findings) -> Found:
         f" {counts[Relation.INDISTINGUISHABLE]} not; no damper and every single one are told apart"
         f" in {', '.join(f'A{i}' for i in located)} only",
         1 in located and counts[Relation.UNDECIDED] == 0,
-        (Seen(3, True, dampers=True),),
+        (Observation(3, True, dampers=True),),
     )
 
 
@@ -76,7 +76,7 @@ def candidates(findings: Findings) -> Found:
         f"all {len(relations)} pairs of sets of base dampers for 1 to {SIZES[-1]} masses are"
         " distinguishable",
         set(relations) == {Relation.DISTINGUISHABLE},
-        tuple(Seen(n, True, ("1",), dampers=True) for n in SIZES),
+        tuple(Observation(n, True, ("1",), dampers=True) for n in SIZES),
     )
 
 
@@ -88,8 +88,8 @@ def model_a3(findings: Findings) -> Found:
         f"told apart are only no damper and any: {classes}",
         [len(g) for g in groups] == [1, 7],
         (
-            Seen(3, True, ("3", "3+b1"), dampers=True),
-            Seen(3, True, ("3+b1", "3+b2"), dampers=True),
+            Observation(3, True, ("3", "3+b1"), dampers=True),
+            Observation(3, True, ("3+b1", "3+b2"), dampers=True),
         ),
     )
 

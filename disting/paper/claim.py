@@ -20,7 +20,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.question import Domain
-from disting.paper.refit import Refit, refitted
+from disting.paper.refit import Refit, refit
 from disting.simulation import demo
 from disting.verdict.decisions import Decisions, Pair
 from disting.verdict.engine import Engine, Progress, silent
@@ -102,7 +102,7 @@ class Findings:
     @cached_property
     def refit(self) -> Refit:
         """A4 fitted to A1."""
-        return refitted()
+        return refit()
 
 
 class Outcome(StrEnum):
@@ -114,7 +114,7 @@ class Outcome(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class Observation:
     """Where verdicts can be seen: all pairs of a family, one of its models, or two of them.
 
     `models` as their names go on behind the number of masses: 4, 1+b2, 1+lag. With `dampers`,
@@ -135,7 +135,7 @@ class Found:
 
     value: str
     agrees: bool
-    seen: tuple[Seen, ...] = ()
+    seen: tuple[Observation, ...] = ()
 
     @property
     def outcome(self) -> Outcome:
@@ -143,21 +143,23 @@ class Found:
         return Outcome.AGREES if self.agrees else Outcome.DIFFERS
 
 
-def families(*sizes: int, damped: bool = False) -> tuple[Seen, ...]:
+def families(*sizes: int, damped: bool = False) -> tuple[Observation, ...]:
     """All pairs of each family."""
-    return tuple(Seen(n, damped) for n in sizes)
+    return tuple(Observation(n, damped) for n in sizes)
 
 
-def models(n_masses: int, numbers: Iterable[int], *, damped: bool = False) -> tuple[Seen, ...]:
+def models(
+    n_masses: int, numbers: Iterable[int], *, damped: bool = False
+) -> tuple[Observation, ...]:
     """Single models of a family."""
-    return tuple(Seen(n_masses, damped, (str(number),)) for number in numbers)
+    return tuple(Observation(n_masses, damped, (str(number),)) for number in numbers)
 
 
 def pairs(
     n_masses: int, numbers: Iterable[tuple[int, int]], *, damped: bool = False
-) -> tuple[Seen, ...]:
+) -> tuple[Observation, ...]:
     """Pairs of models of a family."""
-    return tuple(Seen(n_masses, damped, (str(i), str(j))) for i, j in numbers)
+    return tuple(Observation(n_masses, damped, (str(i), str(j))) for i, j in numbers)
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,36 +191,36 @@ class Claim:
         return Outcome.DIFFERS if self.about else Outcome.AGREES
 
 
-def counted(decisions: Decisions) -> dict[str, int]:
+def counts_of(decisions: Decisions) -> dict[str, int]:
     """Pairs by deciding condition, undecided ones under ""."""
     return {rule: n for rule, n in decisions.counts().items() if n}
 
 
-def told(counts: dict[str, int]) -> str:
+def in_words(counts: dict[str, int]) -> str:
     """Counts in words.
 
-    >>> told({"1": 26, "": 3})
+    >>> in_words({"1": 26, "": 3})
     '26 by condition 1, 3 undecided'
     """
     decided = [f"{counts[rule]} by {RULES[rule].in_words()}" for rule in sorted(counts) if rule]
     return ", ".join([*decided, f"{counts.get('', 0)} undecided"])
 
 
-def deciding(decisions: Decisions) -> dict[Pair, str]:
+def deciding_rules(decisions: Decisions) -> dict[Pair, str]:
     """The deciding condition of every pair of models, "" where it is undecided."""
     pairs = combinations(range(len(decisions.subjects)), 2)
     return {(i + 1, j + 1): decisions.rule(i, j) for i, j in pairs}
 
 
-def undecided(decisions: Decisions) -> set[Pair]:
+def open_pairs(decisions: Decisions) -> set[Pair]:
     """The pairs that stay open."""
-    return {pair for pair, rule in deciding(decisions).items() if not rule}
+    return {pair for pair, rule in deciding_rules(decisions).items() if not rule}
 
 
-def named(numbers: Sequence[object]) -> str:
+def name_list(numbers: Sequence[object]) -> str:
     """Models, pairs or numbers with commas and a final "and".
 
-    >>> named([1, 4, 7]), named([3])
+    >>> name_list([1, 4, 7]), name_list([3])
     ('1, 4 and 7', '3')
     """
     *first, last = map(str, numbers)

@@ -13,13 +13,13 @@ from disting.paper.claim import (
     Claim,
     Findings,
     Found,
-    Seen,
-    counted,
+    Observation,
+    counts_of,
     families,
-    named,
+    in_words,
+    name_list,
+    open_pairs,
     pairs,
-    told,
-    undecided,
 )
 from disting.paper.damped_claims import MISREAD
 from disting.verdict.decisions import Pair
@@ -35,8 +35,8 @@ def condition_9_holds(findings: Findings) -> Found:
     by_size = {n: _condition_9(findings, n) for n in (3, 4, 5)}
     holds = [Counter(outcomes.values())[Holding.HOLDS] for outcomes in by_size.values()]
     return Found(
-        f"{named([len(outcomes) for outcomes in by_size.values()])} pairs of 3, 4 and 5 masses"
-        f" differ in the gap alone; condition 9 holds for {named(holds)} of them",
+        f"{name_list([len(outcomes) for outcomes in by_size.values()])} pairs of 3, 4 and 5 masses"
+        f" differ in the gap alone; condition 9 holds for {name_list(holds)} of them",
         holds == [0, 1, 6],
         tuple(seen for n, outcomes in by_size.items() for seen in pairs(n, outcomes)),
     )
@@ -57,7 +57,9 @@ def figure_13(findings: Findings) -> Found:
     catalog = findings.catalog(4, damped=False)
     counts = {rule: n for rule, n in catalog.counts(View.COMBINED).items() if n}
     left = sum(v.relation is Relation.UNDECIDED for *_, v in catalog.pairs(View.EXACT))
-    return Found(f"{told(counts)}; the exact decision leaves {left}", counts == FIG_13, families(4))
+    return Found(
+        f"{in_words(counts)}; the exact decision leaves {left}", counts == FIG_13, families(4)
+    )
 
 
 def eight_cases(findings: Findings) -> Found:
@@ -88,9 +90,9 @@ def eleven_and_thirteen(findings: Findings) -> Found:
 
 def condition_6_damped(findings: Findings) -> Found:
     """Damped pairs that condition 6 decides."""
-    decided = [counted(findings.picture(n, True, View.TF))["6"] for n in (3, 4)]
+    decided = [counts_of(findings.picture(n, True, View.TF))["6"] for n in (3, 4)]
     return Found(
-        f"it decides {named(decided)} damped pairs of 3 and 4 masses",
+        f"it decides {name_list(decided)} damped pairs of 3 and 4 masses",
         decided == [0, 0],
         families(3, 4, damped=True),
     )
@@ -99,13 +101,13 @@ def condition_6_damped(findings: Findings) -> Found:
 def superior(findings: Findings) -> Found:
     """Open pairs of 3 masses undamped and damped and of 4 undamped, by representation."""
     cases = ((3, False, 8), (3, True, 7), (4, False, 12))
-    coefficients = [len(undecided(findings.picture(n, damped, View.TF))) for n, damped, _ in cases]
+    coefficients = [len(open_pairs(findings.picture(n, damped, View.TF))) for n, damped, _ in cases]
     series = [
-        len(undecided(findings.picture(n, damped, View.MARKOV, count)))
+        len(open_pairs(findings.picture(n, damped, View.MARKOV, count)))
         for n, damped, count in cases
     ]
     fewer = all(a <= b for a, b in zip(coefficients, series, strict=True))
-    return Found(f"open pairs: {named(coefficients)} against {named(series)}", fewer, CASES)
+    return Found(f"open pairs: {name_list(coefficients)} against {name_list(series)}", fewer, CASES)
 
 
 def conditions_2_and_8(findings: Findings) -> Found:
@@ -125,7 +127,7 @@ def conditions_2_and_8(findings: Findings) -> Found:
         f"they decide {decisive} pairs within the families of 1 to 5 masses; of the fields of Fig."
         f" 14 condition 2 decides {rules['2']} and condition 8 {rules['8']}",
         decisive + rules["2"] + rules["8"] == 0,
-        (Seen(3, True, dampers=True),),
+        (Observation(3, True, dampers=True),),
     )
 
 
@@ -136,8 +138,8 @@ def almost_all(findings: Findings) -> Found:
         [c.counts(view)[""] for c in catalogs] for view in (View.COMBINED, View.EXACT)
     )
     return Found(
-        f"{named(by_conditions)} pairs stay open (3 masses undamped, damped, 4 undamped); "
-        f"with the exact decision {named(exactly)}",
+        f"{name_list(by_conditions)} pairs stay open (3 masses undamped, damped, 4 undamped); "
+        f"with the exact decision {name_list(exactly)}",
         sum(by_conditions) < 0.05 * sum(len(c.family) * (len(c.family) - 1) // 2 for c in catalogs),
         CASES,
     )

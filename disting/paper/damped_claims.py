@@ -9,22 +9,22 @@ from disting.paper.claim import (
     Claim,
     Findings,
     Found,
-    Seen,
-    counted,
-    deciding,
+    Observation,
+    counts_of,
+    deciding_rules,
     families,
+    in_words,
     models,
-    named,
+    name_list,
+    open_pairs,
     pairs,
-    told,
-    undecided,
 )
 from disting.paper.family_claims import coefficients
 from disting.verdict.decisions import Pair
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
-A1_A4 = (*pairs(3, [(1, 4)], damped=True), Seen(3, False, ("1", "4")))
+A1_A4 = (*pairs(3, [(1, 4)], damped=True), Observation(3, False, ("1", "4")))
 
 
 def figure_11(findings: Findings) -> Found:
@@ -36,17 +36,17 @@ def figure_11(findings: Findings) -> Found:
         if (i, j) in _open(findings)
     )
     return Found(
-        f"left: {told(counted(left))}; right: {told(counted(right))}; both together leave"
-        f" {len(_open(findings))}, of which the exact decision finds"
+        f"left: {in_words(counts_of(left))}; right: {in_words(counts_of(right))}; both together"
+        f" leave {len(_open(findings))}, of which the exact decision finds"
         f" {exact[Relation.INDISTINGUISHABLE]} indistinguishable and"
         f" {exact[Relation.DISTINGUISHABLE]} distinguishable",
-        bool(undecided(left)) and bool(undecided(right)),
+        bool(open_pairs(left)) and bool(open_pairs(right)),
         pairs(3, sorted(_open(findings)), damped=True),
     )
 
 
 def _open(findings: Findings) -> set[Pair]:
-    return undecided(findings.picture(3, True, View.COMBINED))
+    return open_pairs(findings.picture(3, True, View.COMBINED))
 
 
 def non_constant(findings: Findings) -> Found:
@@ -55,8 +55,8 @@ def non_constant(findings: Findings) -> Found:
     fewest = [i for i, n in enumerate(damped, 1) if n == 7]
     agrees = (min(damped), max(damped), min(undamped), max(undamped), fewest) == (7, 9, 3, 5, [3])
     return Found(
-        f"{min(damped)} to {max(damped)} damped (7 for A{named(fewest)} only), {min(undamped)} to"
-        f" {max(undamped)} undamped",
+        f"{min(damped)} to {max(damped)} damped (7 for A{name_list(fewest)} only), {min(undamped)}"
+        f" to {max(undamped)} undamped",
         agrees,
         models(3, fewest, damped=True),
     )
@@ -65,8 +65,8 @@ def non_constant(findings: Findings) -> Found:
 def beyond_coefficients(findings: Findings) -> Found:
     """Damped pairs that Markov parameters decide and coefficients do not."""
     series = findings.picture(3, True, View.MARKOV, 7)
-    gained = undecided(findings.picture(3, True, View.TF)) - undecided(series)
-    said = named([f"{i}-{j}" for i, j in sorted(gained)])
+    gained = open_pairs(findings.picture(3, True, View.TF)) - open_pairs(series)
+    said = name_list([f"{i}-{j}" for i, j in sorted(gained)])
     kinds = {series.relation(i - 1, j - 1) for i, j in gained}
     return Found(
         f"{len(gained)} pairs, all distinguishable: {said}",
@@ -77,7 +77,10 @@ def beyond_coefficients(findings: Findings) -> Found:
 
 def figure_12_pair(findings: Findings) -> Found:
     """A1 against A4."""
-    by = [deciding(findings.picture(3, True, *how))[1, 4] for how in ((View.TF,), (View.MARKOV, 7))]
+    by = [
+        deciding_rules(findings.picture(3, True, *how))[1, 4]
+        for how in ((View.TF,), (View.MARKOV, 7))
+    ]
     return Found(
         "open by coefficients, distinguishable by condition 5 on Markov parameters",
         by == ["", DEPENDENCES.name],
@@ -111,7 +114,7 @@ def eight_as_seven(findings: Findings) -> Found:
 
 def fewer_than_seven(findings: Findings) -> Found:
     """Damped, 6 against 7 Markov parameters."""
-    seven, six = (len(undecided(findings.picture(3, True, View.MARKOV, k))) for k in (7, 6))
+    seven, six = (len(open_pairs(findings.picture(3, True, View.MARKOV, k))) for k in (7, 6))
     return Found(f"{six} pairs open with 6, {seven} with 7", six > seven, families(3, damped=True))
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.structure import Indices, violated
-from disting.paper.claim import Claim, Findings, Found, families, models, named
+from disting.paper.claim import Claim, Findings, Found, families, models, name_list
 
 FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 
@@ -14,7 +14,7 @@ def table_2(findings: Findings) -> Found:
     """Sizes of the families."""
     sizes = [len(Family(n, damped=False)) for n in range(1, 11)]
     return Found(
-        f"{named(sizes[:5])}; going on {named(sizes[5:])} for 6 to 10 masses",
+        f"{name_list(sizes[:5])}; going on {name_list(sizes[5:])} for 6 to 10 masses",
         sizes[:5] == [1, 3, 11, 29, 73],
         families(1, 2, 3, 4, 5),
     )
@@ -65,7 +65,7 @@ def collocated(findings: Findings) -> Found:
         for i, c in enumerate(Family(3, damped=False), 1)
         if (c.act_minus, c.act_plus) == (c.meas_minus, c.meas_plus)
     ]
-    return Found(f"models {named(marked)}", marked == same, models(3, marked))
+    return Found(f"models {name_list(marked)}", marked == same, models(3, marked))
 
 
 def coefficients(findings: Findings, *, damped: bool) -> list[int]:

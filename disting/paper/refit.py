@@ -89,7 +89,7 @@ class Refit:
         )
 
 
-def refitted(parameters: Mapping[str, float] = GIVEN) -> Refit:
+def refit(parameters: Mapping[str, float] = GIVEN) -> Refit:
     """The best A4 for the exact response of A1 with the given parameters."""
     family = Family(3, damped=True)
     source, target = family[1], family[4]

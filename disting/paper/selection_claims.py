@@ -6,7 +6,7 @@ from disting.fit.results.selection import CRITERIA, sweep
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.plant import Plant
 from disting.model.chain import Chain
-from disting.paper.claim import Claim, Findings, Found, named
+from disting.paper.claim import Claim, Findings, Found, name_list
 from disting.paper.cost_claims import DRIVE, DRIVE_VALUES, OMEGA, TABLE_1
 
 STEP = 1e-5
@@ -28,7 +28,7 @@ def sizes(findings: Findings) -> Found:
         len(Chain(n, damped=True, ground_dampers=b, dead_time=True).parameters)
         for n, b in named_models
     ]
-    return Found(named(counts), counts == [9, 12, 9, 6])
+    return Found(name_list(counts), counts == [9, 12, 9, 6])
 
 
 def table_1(findings: Findings) -> Found:

@@ -14,12 +14,12 @@ from disting.paper.claim import (
     Claim,
     Findings,
     Found,
-    counted,
+    counts_of,
     families,
+    in_words,
     models,
+    open_pairs,
     pairs,
-    told,
-    undecided,
 )
 from disting.verdict.query import View
 from disting.verdict.result import Relation
@@ -45,8 +45,8 @@ def same_pictures(findings: Findings) -> Found:
 
 def figure_10_left(findings: Findings) -> Found:
     """Undamped, transfer functions."""
-    counts = counted(findings.picture(3, False, View.TF))
-    return Found(told(counts), "" not in counts, families(3))
+    counts = counts_of(findings.picture(3, False, View.TF))
+    return Found(in_words(counts), "" not in counts, families(3))
 
 
 def figure_10_right(findings: Findings) -> Found:
@@ -61,29 +61,29 @@ def figure_10_right(findings: Findings) -> Found:
         if by.relation(i, j) is Relation.INDISTINGUISHABLE
     }
     return Found(
-        f"{told(counted(series))}: exactly the {len(same)} indistinguishable pairs",
-        undecided(series) == same,
+        f"{in_words(counts_of(series))}: exactly the {len(same)} indistinguishable pairs",
+        open_pairs(series) == same,
         pairs(3, sorted(same)),
     )
 
 
 def fewer_than_eight(findings: Findings) -> Found:
     """Undamped, 7 against 8 Markov parameters."""
-    eight, seven = (len(undecided(findings.picture(3, False, View.MARKOV, k))) for k in (8, 7))
+    eight, seven = (len(open_pairs(findings.picture(3, False, View.MARKOV, k))) for k in (8, 7))
     return Found(f"{seven} pairs open with 7, {eight} with 8", seven > eight, families(3))
 
 
 def all_twelve(findings: Findings) -> Found:
     """Undamped, all 12 Markov parameters."""
-    counts = counted(findings.picture(3, False, View.MARKOV))
+    counts = counts_of(findings.picture(3, False, View.MARKOV))
     return Found(
-        f"all 12 are computed modulo primes: {told(counts)}", "6" not in counts, families(3)
+        f"all 12 are computed modulo primes: {in_words(counts)}", "6" not in counts, families(3)
     )
 
 
 def no_additional_information(findings: Findings) -> Found:
     """Undamped pairs that only Markov parameters decide."""
-    gained = undecided(findings.picture(3, False, View.TF)) - undecided(
+    gained = open_pairs(findings.picture(3, False, View.TF)) - open_pairs(
         findings.picture(3, False, View.MARKOV, 8)
     )
     return Found(f"{len(gained)} pairs more", not gained, pairs(3, sorted(gained)) or families(3))

@@ -26,10 +26,10 @@ from disting.algebra.symbols import (
     symbols,
     terms,
 )
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expand
 from disting.equivalence import explicit_map
 from disting.equivalence.duplicates import Assignment
-from disting.equivalence.reached import Piece
+from disting.equivalence.reach import Piece
 from disting.equivalence.theorems import images
 from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of, tree
@@ -92,7 +92,7 @@ def written(chain: Chain) -> TransferFunction:
     \end{align}
     """
     stiffness = chain.damped and chain.n_masses > LARGEST_SPELLED_OUT
-    found = expanded((replace(chain, damped=False) if stiffness else chain).structure)
+    found = expand((replace(chain, damped=False) if stiffness else chain).structure)
     names = ("B", "A") if stiffness else ("b", "a")
     sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
     return _transfer(sides, stiffness=stiffness)

@@ -27,7 +27,7 @@ from disting.report.listing import Card, Listing
 from disting.report.model import told_apart
 from disting.report.page_drawing import held
 from disting.report.words import plural
-from disting.verdict.meaning import shown as shows
+from disting.verdict.meaning import meaning_sentence as shows
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, permutations
 
-from disting.equivalence.reached import REACHED, Reached
+from disting.equivalence.reach import REACHED, Reach
 from disting.errors import InputError
 from disting.general.any_model import unnamed
 from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
@@ -35,7 +35,7 @@ class JudgedList:
     family: tuple[AnyModel, ...]
     decisions: Mapping[View, Decisions]
     identifiabilities: tuple[GlobalIdentifiability, ...]
-    conditions: Mapping[tuple[int, int], Reached]
+    conditions: Mapping[tuple[int, int], Reach]
 
     def relation(self, left: int, right: int, view: View) -> Relation:
         """Relation of two models."""
@@ -45,7 +45,7 @@ class JudgedList:
         """The verdict with its evidence."""
         return self.decisions[view].verdict(left - 1, right - 1)
 
-    def reached(self, given: int, other: int) -> Reached | None:
+    def reached(self, given: int, other: int) -> Reach | None:
         """Which positive values of the one model have equivalents in the other one, where only
         some have, and the conditions are short.
         """
@@ -212,7 +212,7 @@ def _conditions(
     engine: Engine,
     executor: Executor | None,
     progress: Progress,
-) -> dict[tuple[int, int], Reached]:
+) -> dict[tuple[int, int], Reach]:
     """Of the pairs that are the same for some positive values, both ways."""
     asked = {
         (i + 1, j + 1): (unnamed(subjects[i].subject), unnamed(subjects[j].subject))

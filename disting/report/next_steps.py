@@ -13,8 +13,8 @@ from disting.catalogs.next_files import SHIPPED_SIZES, NextCatalog, name_of, nex
 from disting.experiments.menu import Item
 from disting.model.chain import Chain
 from disting.report.experiment_drawing import Sketch, sketch
-from disting.verdict.further import Further
-from disting.verdict.further_words import anywhere, conclusion, in_words, left_over
+from disting.verdict.next_experiments import Further
+from disting.verdict.next_words import anywhere, conclusion, in_words, left_over
 from disting.verdict.query import View
 
 

@@ -49,7 +49,7 @@ from disting.report.words import (
     title,
     totals,
 )
-from disting.verdict.further_words import anywhere
+from disting.verdict.next_words import anywhere
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 

@@ -20,7 +20,7 @@ from disting.evidence.positive import Share
 from disting.model.question import Domain
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID, VIEW_TITLES, Decided, raised
-from disting.verdict.meaning import RESPONSE, shown
+from disting.verdict.meaning import RESPONSE, meaning_sentence
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
 
@@ -162,7 +162,7 @@ def _entry(verdict: Verdict, what: str, reached: str) -> Entry:
         certainty,
         verdict.domain,
     )
-    sentence = shown(replace(verdict, left="{L}", right="{R}"), what)
+    sentence = meaning_sentence(replace(verdict, left="{L}", right="{R}"), what)
     aside = ", special values aside" * verdict.has_exceptions
     return *graded, f"{sentence} {reached}".strip(), why, formula, verdict.rule, more, aside
 

@@ -164,11 +164,11 @@ def audit(left: AnySide, right: AnySide, query: Query) -> Verdict:
     """Run every condition in every representation; raise ContradictionError where two decide
     differently.
     """
-    agreed(left.name, right.name, steps(left, right, query))
+    refuse_contradictions(left.name, right.name, steps(left, right, query))
     return decide(left, right, query)
 
 
-def agreed(left: str, right: str, every: Iterable[Step]) -> None:
+def refuse_contradictions(left: str, right: str, every: Iterable[Step]) -> None:
     """Raise ContradictionError where two steps decide differently."""
     deciding = [step for step in every if step.relation is not Relation.UNDECIDED]
     if len({step.relation for step in deciding}) > 1:

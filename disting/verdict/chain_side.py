@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import is_renaming
+from disting.behaviour.expansion import is_renaming
 from disting.conditions.finding import Finding, Outcome, positive_ways
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import EXACT
@@ -43,7 +43,7 @@ from disting.questions.same.exact import exact_again, exact_finding, resting_on_
 from disting.questions.same.real_and_positive import (
     LACKING,
     POSITIVELY,
-    Asked,
+    Answerers,
     needs_counts,
     real_finding,
     witness_ways,
@@ -150,7 +150,7 @@ class ComparedChain(Side[Chain]):
         """Whether two models that are the same over complex parameters are so over this domain."""
         if domain is Domain.POSITIVE:
             return positive_ways(self.positive(other), other.positive(self))
-        asked = Asked(self._positive, self._lacking, self._identifiability)
+        asked = Answerers(self._positive, self._lacking, self._identifiability)
         return real_finding(self.canonical.chain, other.canonical.chain, asked)
 
     def inclusions(self, other: "ComparedChain") -> Inclusions:

@@ -15,7 +15,7 @@ from itertools import combinations
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.determinants import OutOfTimeError
-from disting.behaviour.expanded import coefficients_have_rank, rank_is_at_most
+from disting.behaviour.expansion import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type
@@ -44,7 +44,7 @@ from disting.verdict.sides import (
     Given,
     both_places,
     model_of,
-    models_named,
+    models_of_names,
     plain_sides,
     sides_of,
 )
@@ -71,7 +71,7 @@ def prove(
     >>> compare(a[1], a[7]).certainty.value, prove(compare(a[1], a[7]), a[1], a[7]).certainty.value
     ('bounded', 'proven')
     """
-    sides = sides_of(*models_named(left, right, damped, sensor), (), Engine())
+    sides = sides_of(*models_of_names(left, right, damped, sensor), (), Engine())
     return proven_again(verdict, sides.left, sides.right, seconds)
 
 
@@ -177,7 +177,7 @@ def compare(
     'distinguishable'
     """
     query, engine = asked_of(query, engine)
-    a, b = models_named(left, right, damped, sensor)
+    a, b = models_of_names(left, right, damped, sensor)
     sides = sides_of(a, b, both_places(experiments), engine)
     verdict = engine.verdict(sides.left, sides.right, query, audited=audit)
     return replace(verdict, notes=(*verdict.notes, *sides.notes))
@@ -199,7 +199,7 @@ def findings(
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
-    a, b = models_named(left, right, damped, sensor)
+    a, b = models_of_names(left, right, damped, sensor)
     query, engine = asked_of(query, engine)
     return tuple(steps(*plain_sides(a, b, engine), query))
 

@@ -16,7 +16,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 from disting.behaviour.profile import Profile, profile, profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
@@ -38,9 +38,9 @@ from disting.questions.identifiability.answer import Identifiability
 from disting.store.code import digest
 from disting.store.scheduling import mapped as mapped
 from disting.store.store import Store
+from disting.verdict.all_pairs import decisions
 from disting.verdict.cascade import audit, decide
 from disting.verdict.chain_side import ComparedChain
-from disting.verdict.deciding import decisions
 from disting.verdict.decisions import Decisions, Part
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
@@ -137,7 +137,7 @@ class Engine:
         """
         if audited:
             return _read_back(json.dumps(audit(left, right, query).to_dict()))
-        content = [*left.content, *right.content, written(query), self.settings.to_dict()]
+        content = [*left.content, *right.content, full_text(query), self.settings.to_dict()]
         key = _key("verdict", *map(str, content))
         texts = self.store.get_many([key])
         if key not in texts:
@@ -226,7 +226,7 @@ class Engine:
         """Bring the profiles of these models into memory: from the store, the rest computed,
         each batch stored at once.
         """
-        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=written)}
+        keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=full_text)}
         self.memo |= self._stored([key for key in keys if key not in self.memo])
         missing = [key for key in keys if key not in self.memo]
         done = len(keys) - len(missing)
@@ -270,12 +270,12 @@ class Engine:
 
 def profile_key(what: Model, r: Representation, count: int, settings: Settings) -> str:
     """Content address of a profile."""
-    return _key("profile", written(what), r.value, str(count), written(settings))
+    return _key("profile", full_text(what), r.value, str(count), full_text(settings))
 
 
 def question_key(question: Question[Any], models: Models, settings: Settings) -> str:
     """Content address of an answer."""
-    return _key(question.name, *map(written, models), written(settings))
+    return _key(question.name, *map(full_text, models), full_text(settings))
 
 
 def compute(

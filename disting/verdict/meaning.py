@@ -25,7 +25,7 @@ PARTS = {
 }  # of a machine, and of any other model
 
 
-def shown(verdict: Verdict, what: str = RESPONSE, everywhere: bool = False) -> str:
+def meaning_sentence(verdict: Verdict, what: str = RESPONSE, everywhere: bool = False) -> str:
     """What a measurement of either model shows, or, where nothing is decided, why and what helps.
     `what` is measured: a response, of circuits an impedance. `everywhere`: special values, of which
     the verdict does not speak, are known to be no exception.

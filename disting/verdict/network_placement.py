@@ -32,9 +32,9 @@ from disting.network.element import Port, Sort
 from disting.network.network import Network
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.everywhere import Answer
-from disting.verdict.further import Further, places_of
+from disting.verdict.next_experiments import Further, places_of
 from disting.verdict.placement_record import Spot, answer_of
+from disting.verdict.placement_verdicts import Answer
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
 
@@ -49,19 +49,19 @@ QUERY = Query(View.EXACT, inclusion=False)
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class MeasuredNetwork:
     """A network with what one further experiment shows: `model`, and what is gained by it."""
 
     model: MatrixModel
     gain: Gain
 
 
-def measured(network: Network, kind: Kind, node: int, name: str) -> Measured:
+def measure(network: Network, kind: Kind, node: int, name: str) -> MeasuredNetwork:
     """The network as it is and with one kind of further experiment at a node; raises InputError.
 
     >>> from disting.model.kinds import LOCK
     >>> from disting.network import network_of
-    >>> print(measured(network_of("1~2; F1; S1"), LOCK, 2, "").model.rows[1][0])
+    >>> print(measure(network_of("1~2; F1; S1"), LOCK, 2, "").model.rows[1][0])
     G(s) = s**2/(k12 + m1*s**2)
     """
     port = Port(node, network.reference)
@@ -76,7 +76,7 @@ def measured(network: Network, kind: Kind, node: int, name: str) -> Measured:
     rows = [*now, *(tuple(cells[i : i + width]) for i in range(0, len(cells), width))]
     powers = network_powers(cells + [x for row in now for x in row], network)
     model = of_ratios(rows, network.parameters, name, powers)
-    return Measured(model, _gain(kind, whole, now, more))
+    return MeasuredNetwork(model, _gain(kind, whole, now, more))
 
 
 def _shown(kind: Kind, whole: Ratios, network: Network) -> Ratios:
@@ -201,7 +201,7 @@ def further_networks(
     for kind in costs.priced(MENUS[networks[0].sort]):
         if kind.holds and max(map(len, places)) < 2:
             continue
-        machines = [measured(networks[k], kind, i, f"{names[k]} at {i}") for k, i in spots]
+        machines = [measure(networks[k], kind, i, f"{names[k]} at {i}") for k, i in spots]
         sides = engine.general_subjects([m.model for m in machines])
         decided = engine.decisions(sides, QUERY, executor=executor, progress=progress)
         tables[kind] = NetworkTable(places, spots, tuple(m.gain for m in machines), decided)

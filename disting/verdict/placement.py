@@ -1,7 +1,7 @@
 """One kind of further experiment on a group of structures that one measurement cannot tell apart:
 every mass of every structure against every mass of every other one.
 
-A spot is a mass of a structure at which the experiment is made. As in `grouping`, no pair is
+A spot is a mass of a structure at which the experiment is made. As in `class_search`, no pair is
 looked at where a bucket decides:
 
 0. A spot is looked at as the standard form of its machine (`equal_machines`): a force moved is a
@@ -25,7 +25,7 @@ from dataclasses import dataclass, field
 from math import ceil, log2
 
 from disting.algebra.certainty import Certainty
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome
@@ -36,23 +36,23 @@ from disting.experiments.equal_machines import standard
 from disting.experiments.exact import QUICKLY
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
-from disting.experiments.menu import Gain, Item, gain, measured
+from disting.experiments.menu import Gain, Item, gain, measure_with
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
 from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.placement_record import REPEATS, TESTS, Placed
+from disting.verdict.placement_record import REPEATS, TESTS, Placement
 
 
-def placed(
+def place(
     chains: Sequence[Chain],
     kind: Kind,
     engine: Engine,
     *,
     executor: Executor | None = None,
     progress: Progress = silent,
-) -> Placed:
+) -> Placement:
     """What this kind of experiment leaves together of chains of one size that are
     indistinguishable, over complex parameters, as they are measured now.
     """
@@ -92,7 +92,7 @@ class _Work:
             for i in range(1, n + 1):
                 item = Item(kind, i)
                 name = f"structure {number}, mass {i}"
-                form = standard(measured(chain, item))
+                form = standard(measure_with(chain, item))
                 sides.append(by_form.setdefault(form, engine.measured_subject(name, form)))
                 gained = gain(chain, item)
                 gains.append(gained or Gain.NEW)
@@ -159,7 +159,7 @@ class _Work:
 
     def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
         """Both machines, in an order that does not depend on that of the structures."""
-        low, high = sorted((self.sides[s].measured for s in (a, b)), key=written)
+        low, high = sorted((self.sides[s].measured for s in (a, b)), key=full_text)
         return low, high
 
     def _members(self, roots: Iterable[int]) -> list[int]:
@@ -172,7 +172,7 @@ class _Work:
         if rule:
             self.links[first] = self.links[s] = f"{rule}/{first}"
 
-    def finished(self) -> Placed:
+    def finished(self) -> Placement:
         """What was found; classes are numbered as they come."""
         root = self.buckets.classes.root
         roots = [root(s) for s in range(len(self.sides))]
@@ -182,7 +182,7 @@ class _Work:
             for pairs in (self.open, self.apart)
         )
         lost = ceil(log2(len(self.safeties))) if self.safeties else 0
-        return Placed(
+        return Placement(
             self.kind,
             self.n_masses,
             tuple(self.gains),

@@ -14,7 +14,7 @@ from disting.experiments.menu import Gain
 from disting.model.kinds import Kind
 from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
-from disting.verdict.everywhere import Answer
+from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
 
 Spot = tuple[int, int]
@@ -64,7 +64,7 @@ def answer_of(relations: Set[Relation]) -> Answer:
 
 
 @dataclass(frozen=True)
-class Placed:
+class Placement:
     """What one kind of experiment leaves together.
 
     `gains[s]`: what is gained at spot s, in the order of `spots`; `columns[s][t]`: its bucket in
@@ -96,7 +96,7 @@ class Placed:
         """How many structures there are."""
         return len(self.gains) // self.n_masses
 
-    def only(self, structures: Sequence[int]) -> "Placed":
+    def only(self, structures: Sequence[int]) -> "Placement":
         """Some of the structures, counted from 0, in this order."""
         at = [self._at((k, i)) for k in structures for i in range(1, self.n_masses + 1)]
         return replace(

@@ -24,7 +24,7 @@ Given = Chain | AnyModel | Network | str
 NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
-def models_named(
+def models_of_names(
     left: Given,
     right: Given,
     damped: bool | None,

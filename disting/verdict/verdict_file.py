@@ -31,7 +31,7 @@ from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.sides import Sides, both_places, models_named, sides_of
+from disting.verdict.sides import Sides, both_places, models_of_names, sides_of
 
 FORMAT = Format.VERDICT.value
 PLAIN = ("left", "right", "relation")  # by which a verdict without its models is known
@@ -43,7 +43,7 @@ Places = Sequence[Experiment | tuple[Experiment, Experiment]]
 
 
 @dataclass(frozen=True, slots=True)
-class Stored:
+class StoredVerdict:
     """What a file says: two models, the experiments on the left and on the right one (none: as they
     are), what was asked with which settings, the verdict, and that over complex parameters where it
     is told apart.
@@ -78,7 +78,7 @@ def verdict_file(
     >>> data["left"], data["models"][1]["name"], data["relation"], data["settings"]["seed"]
     ('3:1', '3:4', 'distinguishable', 'disting')
     """
-    models = models_named(left, right, damped, sensor)
+    models = models_of_names(left, right, damped, sensor)
     (query, engine), both = asked_of(query, engine), both_places(experiments)
     verdict = compare(*models, experiments=both, query=query, engine=engine)
     beside = (
@@ -86,10 +86,10 @@ def verdict_file(
         if has_more(verdict)
         else None
     )
-    return as_file(Stored(models, both, query, engine.settings, verdict, beside))
+    return as_file(StoredVerdict(models, both, query, engine.settings, verdict, beside))
 
 
-def as_file(stored: Stored) -> dict[str, Any]:
+def as_file(stored: StoredVerdict) -> dict[str, Any]:
     """The file of a verdict that is there: lists, texts, numbers, as they are read again.
 
     Words that no check compares are left out: what was given up, and why something is not known.
@@ -134,7 +134,7 @@ def exact(query: Query) -> Query:
     return Query(View.EXACT, query.conditions, query.markov, query.inclusion)
 
 
-def read_file(data: object, beside: Collection[str] = ()) -> Stored:
+def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
     """Inverse of `verdict_file`. Raises InputError for what is no such file, or is damaged, and for
     keys that it has not; `beside` = those that stand there for another reason.
     """
@@ -156,7 +156,7 @@ def read_file(data: object, beside: Collection[str] = ()) -> Stored:
         ) from None
 
 
-def differing(data: dict[str, Any], stored: Stored, sides: Sides) -> str:
+def difference(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> str:
     """What a file tells otherwise than what it tells follows from, such as its sentence; "" if
     nothing. `sides` are what its models are, beside each other.
     """
@@ -211,7 +211,7 @@ def same_plain(stored: object, again: object) -> bool:
     return stored == again and isinstance(stored, bool) == isinstance(again, bool)
 
 
-def _stored(data: dict[str, Any]) -> Stored:
+def _stored(data: dict[str, Any]) -> StoredVerdict:
     a, b = map(_model, data["models"])
     pairs = data.get("experiments", [])
     if len(pairs) > MOST_EXPERIMENTS:
@@ -222,7 +222,7 @@ def _stored(data: dict[str, Any]) -> Stored:
     if not VERSION.fullmatch(data["program"]):
         raise InputError(f"{shown(data['program'])} is no version")
     beside = data["over_complex"]
-    return Stored(
+    return StoredVerdict(
         models=(a, b),
         experiments=experiments,
         query=_query(data["query"]),

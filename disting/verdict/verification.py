@@ -20,14 +20,18 @@ from disting.model.presentation import summary
 from disting.model.question import Domain
 from disting.verdict.claim_checks import CHECKS, LIMITS, SHARES, Check, Claim
 from disting.verdict.engine import Engine
-from disting.verdict.everywhere import FORMAT as EVERYWHERE, differing_everywhere, read_everywhere
+from disting.verdict.placement_verdicts import (
+    FORMAT as EVERYWHERE,
+    differing_everywhere,
+    read_everywhere,
+)
 from disting.verdict.result import Relation
 from disting.verdict.sides import Sides
 from disting.verdict.verdict_file import (
     DAMAGED,
-    Stored,
+    StoredVerdict,
     as_file,
-    differing,
+    difference,
     exact,
     has_more,
     read_file,
@@ -126,7 +130,7 @@ def verify(verdict: dict[str, Any] | str | Path) -> Verification:
     return whole
 
 
-def _verified(data: dict[str, Any], stored: Stored) -> Verification:
+def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
     """What all checks find; those that take too long leave it open, if nothing is wrong."""
     unseen, seen = list[str](), list[str]()
     written = [
@@ -161,7 +165,7 @@ def _verified(data: dict[str, Any], stored: Stored) -> Verification:
     )
 
 
-def _whose(stored: Stored, sides: Sides) -> str:
+def _whose(stored: StoredVerdict, sides: Sides) -> str:
     """Whose models they are: a model of one's own may have a name that reads like a chain's."""
     names = (sides.left.name, sides.right.name)
     own = [n for n, m in zip(names, stored.models, strict=True) if not isinstance(m, Chain)]
@@ -180,7 +184,7 @@ def _kind_of(name: str) -> str:
 
 
 def _checks(
-    data: dict[str, Any], stored: Stored, sides: Sides
+    data: dict[str, Any], stored: StoredVerdict, sides: Sides
 ) -> Iterator[tuple[str, Callable[[], Iterator[str]]]]:
     """Yield what is looked at, "" where there is nothing of it, with what yields what does not
     hold, cheap things first.
@@ -205,8 +209,8 @@ def _named(what: str, claim: Claim, check: Check) -> tuple[str, Callable[[], Ite
     return f"{what}{where}" if looked_at else "", partial(check, claim)
 
 
-def _disagreeing(data: dict[str, Any], stored: Stored, sides: Sides) -> Iterator[str]:
-    other = differing(data, stored, sides)
+def _disagreeing(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> Iterator[str]:
+    other = difference(data, stored, sides)
     if other:
         yield _not_agreeing(other)
     if stored.verdict.domain is not stored.query.view.domain:
@@ -219,7 +223,7 @@ def _not_agreeing(what: str) -> str:
     return f"what it says does not agree with its evidence and models ({what})"
 
 
-def _false_equality(stored: Stored) -> Iterator[str]:
+def _false_equality(stored: StoredVerdict) -> Iterator[str]:
     """Yield what is told of complex parameters and not found there."""
     v, beside = stored.verdict, stored.over_complex
     over_complex = v if beside is None else beside

@@ -9,7 +9,7 @@ from flint import Ordering, fmpz_mpoly_ctx
 from hypothesis import assume, given, settings, strategies as st
 
 from disting.algebra.colouring import colouring, renamings
-from disting.algebra.symbols import coefficients, renamed, symbols
+from disting.algebra.symbols import coefficients, rename_symbols, symbols
 
 P = 2**61 - 1
 NAMES = ("p", "q", "r", "t")
@@ -143,7 +143,7 @@ def test_one_wrong_function_spoils_a_renaming(left, planted):
 def test_symbols_renamed_and_their_coefficients():
     ring, other = symbols(["s", "m1", "k1"]), symbols(["s", "k2", "m2"])
     f = 3 * ring["s"] ** 2 * ring["m1"] + ring["k1"] * ring["m1"] - 2
-    g = renamed(f, other, {"m1": "m2", "k1": "k2"})
+    g = rename_symbols(f, other, {"m1": "m2", "k1": "k2"})
     assert g == 3 * other["s"] ** 2 * other["m2"] + other["k2"] * other["m2"] - 2
     assert [str(c) for c in coefficients(g, "s")] == ["k2*m2 - 2", "0", "3*m2"]
     assert [str(c) for c in coefficients(g, "m2")] == ["-2", "3*s^2 + k2"]

@@ -5,7 +5,7 @@ from itertools import combinations
 
 from disting import Chain, Experiment, Family, Model, Query, Settings, View
 from disting.algebra.certainty import about
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 from disting.behaviour.sample import Representation
 from disting.experiments.experiment import MeasuredChain
 from disting.verdict.engine import profile_key
@@ -20,16 +20,16 @@ CHAIN = (
 def test_a_chain_is_written_as_the_shipped_catalogues_saw_it():
     """Their evidence holds at points that are drawn by labels with this text."""
     chain = Chain(2, meas_plus=2, damped=True, ground_dampers=(1,))
-    assert written(chain) == CHAIN
+    assert full_text(chain) == CHAIN
     assert about("label", chain) == "label:cf4e88e3ae912a6cd8c00a4044409dbf"
 
 
 def test_what_is_inside_is_written_too():
     measured = MeasuredChain(Chain(1, damped=False), (Experiment(inertias={1: "1/2"}),))
-    text = written([{"a": (measured, 1.5)}])
+    text = full_text([{"a": (measured, 1.5)}])
     assert text.startswith("[{'a': (MeasuredChain(chain=Chain(n_masses=1, ")
     assert "inertias=((1, Fraction(1, 2)),)" in text and text.endswith(", 1.5)}]")
-    assert written(((Fraction(1, 2),),)) == "((Fraction(1, 2),),)" and written(()) == "()"
+    assert full_text(((Fraction(1, 2),),)) == "((Fraction(1, 2),),)" and full_text(()) == "()"
 
 
 def test_models_that_look_alike_have_texts_and_keys_of_their_own():
@@ -38,11 +38,11 @@ def test_models_that_look_alike_have_texts_and_keys_of_their_own():
         Model.from_transfer_function([f"{k}*a"], [1, "b"], name="same name") for k in (1, 2, 3)
     ]
     assert len({repr(m) for m in models}) == 1
-    assert len({written(m) for m in models}) == 3
+    assert len({full_text(m) for m in models}) == 3
     assert len({profile_key(m, Representation.TF, 0, Settings()) for m in models}) == 3
 
 
 def test_all_chains_of_a_size_differ_in_text():
     chains = [*Family(4, damped=False), *Family(4, damped=True)]
-    assert all(written(a) != written(b) for a, b in combinations(chains, 2))
-    assert written(Query()) != written(Query(View.EXACT))
+    assert all(full_text(a) != full_text(b) for a, b in combinations(chains, 2))
+    assert full_text(Query()) != full_text(Query(View.EXACT))

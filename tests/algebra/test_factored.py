@@ -6,7 +6,7 @@ import pytest
 import sympy
 from hypothesis import given, settings, strategies as st
 
-from disting.algebra.symbols import factored, symbols
+from disting.algebra.symbols import factorise, symbols
 
 X, Y = symbols(["x", "y"]).values()
 SIZES = [2**30, 2**31, 2**32, 2**62, 2**63, 2**64, 2**200]
@@ -14,7 +14,7 @@ SIZES = [2**30, 2**31, 2**32, 2**62, 2**63, 2**64, 2**200]
 
 @pytest.mark.parametrize("size", SIZES)
 def test_literal_factors_of_every_size(size):
-    number, found = factored(-12 * (X + size) * (X - size) * (X + size + 1) * (size * X + Y) ** 2)
+    number, found = factorise(-12 * (X + size) * (X - size) * (X + size + 1) * (size * X + Y) ** 2)
     assert number == -12
     assert set(map(str, (f for f, e in found if e == 1))) == {
         f"x + {size}",
@@ -25,7 +25,7 @@ def test_literal_factors_of_every_size(size):
 
 
 def test_numbers_have_no_factors():
-    assert factored(0 * X + 2**70) == (2**70, [])
+    assert factorise(0 * X + 2**70) == (2**70, [])
 
 
 numbers = st.integers(-9, 9) | st.sampled_from([s + d for s in SIZES for d in (-1, 0, 1)])
@@ -43,7 +43,7 @@ def test_factors_are_those_of_sympy(sides):
         theirs *= sum(c * x**a * y**b for a, b, c in side)
     if ours.is_zero():
         return
-    number, found = factored(ours)
+    number, found = factorise(ours)
     assert prod((f**e for f, e in found), start=0 * X + number) == ours
     _, wanted = sympy.factor_list(sympy.expand(theirs), x, y)
     spelled = {(sympy.sympify(str(f).replace("^", "**")).expand(), e) for f, e in found}

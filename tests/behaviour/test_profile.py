@@ -14,7 +14,7 @@ from disting.algebra.certainty import Size, prime, safety
 from disting.algebra.matroid import rank_in
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, degrees, is_sign_free
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expand
 from disting.behaviour.profile import (
     Unsearched,
     from_samples,
@@ -22,7 +22,7 @@ from disting.behaviour.profile import (
     profile_from_json,
     profile_to_json,
 )
-from disting.behaviour.sample import Representation, drawn, samples
+from disting.behaviour.sample import Representation, draw_point, samples
 from tests.conditions.handmade import LARGE, SMALL, sample
 from tests.laws.strategies import chains
 from tests.oracles import sympy_twin as twin
@@ -39,7 +39,7 @@ def of(chain, representation=TF, count=0, chosen=None):
 
 def written(structure):
     """Label -> coefficient as text, not normalised."""
-    sides = zip("ba", expanded(structure), strict=True)
+    sides = zip("ba", expand(structure), strict=True)
     return {
         f"{letter}{i}": str(c)
         for letter, part in sides
@@ -174,7 +174,7 @@ def test_statements_share_the_error_bound():
 @given(chains(max_masses=4))
 def test_minor_size_bounds_the_polynomials(chain):
     """Degree N + 1 and coefficients that sum to 2^(3 N + 4) at most, before normalisation."""
-    pair, n = expanded(chain.structure), chain.n_masses
+    pair, n = expand(chain.structure), chain.n_masses
     for part in pair:
         powers = [sum(monomial[1:]) for monomial in part.monoms()]
         assert max(powers) <= n + 1
@@ -332,5 +332,5 @@ def test_degrees_do_not_depend_on_the_luck_of_a_point(chain, seed):
         for letter in "ba"
     )
     assert degrees(chain.structure) == expected
-    where = drawn(ChainModel(chain.structure), f"small:{seed}", 9)
+    where = draw_point(ChainModel(chain.structure), f"small:{seed}", 9)
     assert (where.quotients[0].num.degree(), where.quotients[0].den.degree()) == expected

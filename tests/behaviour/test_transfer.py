@@ -13,7 +13,7 @@ from disting import Chain, Family, Sensor
 from disting.algebra.certainty import residues
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, quotient
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expand
 from disting.behaviour.sample import Representation, at_point, seen_at
 from tests.laws.strategies import chains
 from tests.oracles import sympy_twin as twin
@@ -52,7 +52,7 @@ def as_fractions(chain):
     oracle's field.
     """
     field = twin.transfer_function(chain).numerator[0].field
-    pair = expanded(chain.structure)
+    pair = expand(chain.structure)
     tops, bottoms = (
         [field.ring.from_dict(without_s(c)) for c in coefficients(part, "s")] for part in pair
     )
@@ -221,7 +221,7 @@ def test_markov_parameters_and_their_derivatives_are_the_series_at_infinity(chai
 @given(chains(max_masses=5))
 def test_derivatives_are_those_of_the_expanded_formulas(chain):
     """(c/l)' = (c' l - c l')/l^2 for each coefficient c and the leading one l."""
-    tops, bottoms = (coefficients(part, "s") for part in expanded(chain.structure))
+    tops, bottoms = (coefficients(part, "s") for part in expand(chain.structure))
     tf = seen(chain)
     *others, leading = bottoms
     numbers = [0, *point(chain)]
@@ -266,7 +266,7 @@ def test_a_dead_time_is_one_more_invariant():
     "chain", [*THREE, *Family(4, damped=False), *Family(4, damped=True)], ids=str
 )
 def test_numerator_and_denominator_are_coprime(chain):
-    num, den = expanded(chain.structure)
+    num, den = expand(chain.structure)
     assert isinstance(num, fmpz_mpoly)
     assert num.gcd(den).total_degree() == 0
 
@@ -326,7 +326,7 @@ def test_the_transfer_function_of_two_masses_written_out():
     """
     found = [
         [str(c) for c in coefficients(part, "s")]
-        for part in expanded(Chain(2, damped=True).structure)
+        for part in expand(Chain(2, damped=True).structure)
     ]
     assert found == [["k12", "d12", "m2"], ["m1*k12 + m2*k12", "m1*d12 + m2*d12", "m1*m2"]]
 

@@ -15,7 +15,7 @@ import pytest
 from disting import Chain, Engine, Query, View, compare
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import profile
-from disting.behaviour.sample import Representation, drawn
+from disting.behaviour.sample import Representation, draw_point
 from disting.errors import InputError
 from disting.general.any_model import of_network
 from disting.general.network_model import behaviour_of
@@ -129,7 +129,7 @@ def profiled(network):
 
 def one_profile(model):
     """Nothing kept from before."""
-    drawn.cache_clear()
+    draw_point.cache_clear()
     return profile.__wrapped__(model, Representation.TF, 0, Settings())
 
 

@@ -14,8 +14,8 @@ from disting import Engine, Experiment, Family, Query, View, compare
 from disting.algebra.certainty import prime, residues
 from disting.experiments.exact import LIMITS, by_ideals, exact_finding
 from disting.experiments.experiment import MeasuredChain
-from disting.experiments.maps import matched
-from disting.fibres.ideals.fibre_ideal import evaluated
+from disting.experiments.maps import match_maps
+from disting.fibres.ideals.fibre_ideal import evaluate
 from disting.model.question import Settings
 from tests.bench import singular
 from tests.bench.measure import alternating, table
@@ -57,7 +57,7 @@ def test_two_experiments_beside_one(benchmark) -> None:
 
 def ideal(left: MeasuredChain, right: MeasuredChain) -> str:
     """A program for Singular: the basis of the fibre of the right map over a point of the left."""
-    given, other = matched(left, right)
+    given, other = match_maps(left, right)
     modulus = prime("bench", 31)
     point = residues("bench", len(given.parameters), modulus)
     names = [f"x{i}" for i in range(len(other.parameters))]
@@ -69,7 +69,7 @@ def ideal(left: MeasuredChain, right: MeasuredChain) -> str:
             )
             for powers, c in theirs
         )
-        equations.append(f"{'+'.join(terms)}-{evaluated(mine, point, modulus)}")
+        equations.append(f"{'+'.join(terms)}-{evaluate(mine, point, modulus)}")
     return (
         f"ring r = {modulus}, ({','.join(names)}), dp;\nideal i = {','.join(equations)};\n"
         "ideal g = groebner(i); print(reduce(poly(1), g) == 0); quit;\n"

@@ -47,7 +47,7 @@ from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import finding_holds
 from disting.questions.same.low_cost import quick_finding, quick_profile
 from disting.store.scheduling import executor
-from disting.verdict.grouping import classes
+from disting.verdict.class_search import classes
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
 MODELS = {3: 88, 4: 464, 5: 2336}

@@ -19,8 +19,8 @@ from disting.catalogs.next_files import (
 )
 from disting.errors import CatalogError
 from disting.verdict.engine import Engine
-from disting.verdict.further import further
-from disting.verdict.further_words import to_dict
+from disting.verdict.next_experiments import further
+from disting.verdict.next_words import to_dict
 from disting.verdict.query import View
 
 FAMILIES = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]

@@ -8,7 +8,7 @@ from math import pi
 import pytest
 
 from disting.fit.plan.fit_file import named_by
-from disting.fit.plan.further import bench_of, foretold
+from disting.fit.plan.next_experiment import bench_of, foretold
 from disting.model.chain import Chain
 from disting.model.kinds import SENSOR
 from tests.cli.process import called

@@ -14,7 +14,7 @@ from disting import (
 )
 from disting.experiments.changes import Change
 from disting.experiments.experiment import MeasuredChain
-from disting.experiments.machine_model import MachineModel, expanded, shape
+from disting.experiments.machine_model import MachineModel, expand, shape
 from disting.model.kinds import BRAKE, LOCK, SENSOR
 from tests.experiments.plain_stack import S, coefficients, transfer
 
@@ -165,7 +165,7 @@ def test_transfer_functions_are_those_of_the_dynamic_stiffness_matrix(chain, cha
     numbers = {name: Rational(7 * i + 3, i + 2) for i, name in enumerate(chain.parameters)}
     plain = coefficients(*transfer(chain, numbers, **changes))
     entry = MeasuredChain(chain, (Experiment(**changes),)).entries[0]
-    sides = (Poly(sympify(str(p)).subs(numbers), S, domain="QQ") for p in expanded(entry))
+    sides = (Poly(sympify(str(p)).subs(numbers), S, domain="QQ") for p in expand(entry))
     num, den = sides
     ours = [[c / den.LC() for c in p.all_coeffs()[::-1]] for p in (num, den)]
     assert ours == plain

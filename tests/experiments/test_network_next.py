@@ -18,9 +18,9 @@ from disting.model.kinds import ALL_KINDS, CIRCUIT_KINDS, COMPARTMENT_KINDS, KIN
 from disting.network import network_of
 from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
-from disting.verdict.further import further, places_of
-from disting.verdict.further_words import rows
-from disting.verdict.network_placement import further_networks, measured
+from disting.verdict.network_placement import further_networks, measure
+from disting.verdict.next_experiments import further, places_of
+from disting.verdict.next_words import rows
 from disting.verdict.result import Relation
 
 EVERY = Costs.read("spring=2,brake=2")
@@ -86,7 +86,7 @@ def test_what_is_measured_against_a_matrix_that_is_written_out(text, data):
     node = data.draw(st.sampled_from(places_of(network)))
     at = {p: sympy.Rational(data.draw(st.integers(1, 9)), 7) for p in network.parameters}
     root = sympy.Rational(data.draw(st.integers(2, 9)), 5)  # s^(1/2)
-    shown = [x for row in measured(network, kind, node, "n").model.rows for x in row]
+    shown = [x for row in measure(network, kind, node, "n").model.rows for x in row]
     values = [None if x is None else value(x, at, root) for x in shown]
     outputs, inputs = network.shape
     now = [x for row in by_hand(network, at, root) for x in row]

@@ -15,13 +15,13 @@ from disting.catalogs.next_files import next_catalog
 from disting.cli.run import main
 from disting.errors import InputError
 from disting.experiments.machine_model import MachineModel
-from disting.experiments.menu import Costs, Gain, Item, gain, measured
+from disting.experiments.menu import Costs, Gain, Item, gain, measure_with
 from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.model.names import chain_of
 from disting.verdict.engine import Engine
-from disting.verdict.everywhere import Answer
-from disting.verdict.further import Further, further
-from disting.verdict.further_words import conclusion, rows
+from disting.verdict.next_experiments import Further, further
+from disting.verdict.next_words import conclusion, rows
+from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
 from tests.experiments.plain_stack import has_equivalent
 from tests.experiments.test_truth import SAME
@@ -104,20 +104,20 @@ def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
     determinable parameters.
     """
     chain, settings = Family(3, damped)[number], Engine().settings
-    as_it_is = profile(MachineModel(measured(chain)), Representation.TF, 0, settings).rank
+    as_it_is = profile(MachineModel(measure_with(chain)), Representation.TF, 0, settings).rank
     for kind, at in product(KINDS, (1, 2, 3)):
         known = gain(chain, Item(kind, at))
         assert known is not None
         if known is not Gain.NEW:
             more = profile(
-                MachineModel(measured(chain, Item(kind, at))), Representation.TF, 0, settings
+                MachineModel(measure_with(chain, Item(kind, at))), Representation.TF, 0, settings
             )
             assert more.rank == as_it_is
 
 
 def test_the_force_moved_is_the_sensor_moved_where_both_are_at_one_place():
-    assert measured(A[1], Item(FORCE, 2)) == measured(A[1], Item(SENSOR, 2))
-    assert measured(A[2], Item(FORCE, 2)) != measured(A[2], Item(SENSOR, 2))
+    assert measure_with(A[1], Item(FORCE, 2)) == measure_with(A[1], Item(SENSOR, 2))
+    assert measure_with(A[2], Item(FORCE, 2)) != measure_with(A[2], Item(SENSOR, 2))
 
 
 def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):

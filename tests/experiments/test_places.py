@@ -4,7 +4,7 @@ import pytest
 
 from disting import Chain, Engine, Experiment, Family, InputError, Query, View, compare_everywhere
 from disting.cli import main
-from disting.experiments.places import moved, named, ways
+from disting.experiments.places import move, parse_experiment, ways
 from disting.verdict.sides import sides_of
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Standing, verify
@@ -29,7 +29,7 @@ COMPLEX = Query(View.EXACT)
     ],
 )
 def test_what_is_written(text, experiment, places):
-    found = named(text)
+    found = parse_experiment(text)
     assert (found.experiment, found.places) == (experiment, places)
 
 
@@ -50,20 +50,20 @@ def test_what_is_written(text, experiment, places):
 )
 def test_what_cannot_be_read_is_refused(text, said):
     with pytest.raises(InputError, match=said):
-        named(text)
+        parse_experiment(text)
 
 
 def test_places_that_are_not_known_are_all_that_are_left_over():
-    asked = [named("sensor=3"), named("lock=1/2")]
+    asked = [parse_experiment("sensor=3"), parse_experiment("lock=1/2")]
     assert ways(A[1], A[11], asked) == [((1, 2), (3, 1)), ((1, 2), (3, 3))]
     assert ways(A[1], A[11], asked, ((3, 3),)) == [((1, 2), (3, 3))]
-    assert ways(A[1], A[11], [named("quantity=position")]) == [()]
+    assert ways(A[1], A[11], [parse_experiment("quantity=position")]) == [()]
 
 
 def test_experiments_move_with_their_places():
-    one = named("force=1,sensor=3-2,lock=4,inertia=3:1,spring=2:1").experiment
-    there = moved(one, ((1, 4), (2, 3), (3, 2), (4, 1)))
-    assert there == named("force=4,sensor=2-3,lock=1,inertia=2:1,spring=3:1").experiment
+    one = parse_experiment("force=1,sensor=3-2,lock=4,inertia=3:1,spring=2:1").experiment
+    there = move(one, ((1, 4), (2, 3), (3, 2), (4, 1)))
+    assert there == parse_experiment("force=4,sensor=2-3,lock=1,inertia=2:1,spring=3:1").experiment
 
 
 @pytest.mark.parametrize(

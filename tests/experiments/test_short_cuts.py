@@ -15,8 +15,8 @@ from disting.experiments.equal_machines import same_by_rows, standard
 from disting.experiments.exact import LIMITS, by_ideals, by_parts
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import by_list
-from disting.experiments.maps import matched
-from disting.experiments.menu import Costs, Item, measured
+from disting.experiments.maps import match_maps
+from disting.experiments.menu import Costs, Item, measure_with
 from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.verdict.result import Relation
 from tests.experiments.plain_stack import keywords, transfer
@@ -59,7 +59,7 @@ def test_the_standard_form_shows_the_same(number, kind):
     chain = U[number]
     values = {p: Rational(7 * k + 3, 5 + k) for k, p in enumerate(chain.parameters)}
     for at in (1, 2, 3):
-        given = measured(chain, Item(kind, at))
+        given = measure_with(chain, Item(kind, at))
         form = standard(given)
         ways = (values, reflected(chain, values))
         assert any(shows_the_same(given, form, values, there) for there in ways)
@@ -67,10 +67,10 @@ def test_the_standard_form_shows_the_same(number, kind):
 
 
 def test_a_force_moved_is_a_sensor_moved_in_the_exchanged_machine():
-    there = standard(measured(A[2], Item(FORCE, 3)))
-    assert there == standard(measured(A[5], Item(SENSOR, 1)))
+    there = standard(measure_with(A[2], Item(FORCE, 3)))
+    assert there == standard(measure_with(A[5], Item(SENSOR, 1)))
     assert [e.force for e in there.experiments] == [None, None]
-    assert standard(measured(A[2], Item(FORCE, 2))) != there
+    assert standard(measure_with(A[2], Item(FORCE, 2))) != there
 
 
 def test_reciprocity_of_one_row_alone_is_none_of_the_machine():
@@ -83,7 +83,7 @@ def test_reciprocity_of_one_row_alone_is_none_of_the_machine():
 def spots(numbers, kind):
     for a, b in combinations(numbers, 2):
         for i, j in product((1, 2, 3), repeat=2):
-            yield (a, i), (b, j), [measured(U[m], Item(kind, at)) for m, at in ((a, i), (b, j))]
+            yield (a, i), (b, j), [measure_with(U[m], Item(kind, at)) for m, at in ((a, i), (b, j))]
 
 
 @pytest.mark.parametrize("kind", Costs().kinds(3))
@@ -104,10 +104,10 @@ def test_rows_and_parts_never_contradict_the_tables(kind):
 )
 def test_rows_say_what_ideals_say(kind, i, j):
     """Two ports of a full grounded row, and what is done in the free row that both share."""
-    pair = [measured(U[m], Item(kind, at)) for m, at in ((8, i), (11, j))]
+    pair = [measure_with(U[m], Item(kind, at)) for m, at in ((8, i), (11, j))]
     assert same_by_rows(*pair)
     assert isinstance(by_ideals(*pair, Settings(), LIMITS).evidence, Solved)
-    elsewhere = measured(U[11], Item(kind, 1 if j != 1 else 2))
+    elsewhere = measure_with(U[11], Item(kind, 1 if j != 1 else 2))
     assert not same_by_rows(pair[0], elsewhere)
 
 
@@ -117,7 +117,7 @@ def test_an_inertia_in_the_coordinates_of_its_mass(pair, i, j, same):
         MeasuredChain(A[m], (AS_IT_IS, Experiment(inertias={at: 1})))
         for m, at in zip(pair, (i, j), strict=True)
     ]
-    maps = matched(*both)
+    maps = match_maps(*both)
     assert all(m.parts[0] == 1 and not any("scale" in p for p in m.parameters) for m in maps)
     told_apart = by_parts(*both, Settings())
     assert told_apart is None or not same
@@ -131,13 +131,13 @@ def test_inertias_of_two_sizes_are_not_compared_by_their_masses():
         MeasuredChain(A[m], (AS_IT_IS, Experiment(inertias={2: size})))
         for m, size in ((2, 1), (5, 2))
     ]
-    assert all(any("scale" in p for p in m.parameters) for m in matched(*both))
+    assert all(any("scale" in p for p in m.parameters) for m in match_maps(*both))
 
 
 def test_five_damped_masses_have_bounds():
     """Without the coordinates of the mass, primes of 64 bits gave none, and nothing decided."""
     chain = Family(5, damped=True)[44]
-    one, two, four = (measured(chain, Item(INERTIA, at)) for at in (1, 2, 4))
+    one, two, four = (measure_with(chain, Item(INERTIA, at)) for at in (1, 2, 4))
     found = by_ideals(one, two, Settings(), LIMITS)
     assert isinstance(found.evidence, Refuted) and found.safety >= LEAST_SAFETY
     by_ranks = by_parts(one, four, Settings())
@@ -146,7 +146,7 @@ def test_five_damped_masses_have_bounds():
 
 def test_a_shared_list_says_what_a_list_of_its_own_says():
     for i, j in product((1, 2, 3), repeat=2):
-        pair = [measured(A[m], Item(INERTIA, at)) for m, at in ((2, i), (5, j))]
+        pair = [measure_with(A[m], Item(INERTIA, at)) for m, at in ((2, i), (5, j))]
         shared, own = by_list(*pair, Settings(), shared=True), by_list(*pair, Settings())
         assert (shared is None) == (own is None)
         if shared is not None:

@@ -9,7 +9,7 @@ import pytest
 from disting.equivalence import equivalents
 from disting.experiments.menu import Costs, Item
 from disting.fit.plan.fit_file import named_by
-from disting.fit.plan.further import (
+from disting.fit.plan.next_experiment import (
     MOVES,
     STILL,
     Bench,

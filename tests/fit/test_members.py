@@ -22,7 +22,7 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.model.symmetry import forms
-from disting.report.fit.onward import commands, renamed
+from disting.report.fit.links import commands, renamed
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines
 from tests.fit.drives import OMEGA, response

@@ -27,7 +27,7 @@ from disting.fit.search.data import Whitened
 from disting.measurement import FrequencyResponse, TimeSeries, mean_of
 from disting.model.chain import Chain
 from disting.model.question import Settings
-from disting.report.fit.onward import commands
+from disting.report.fit.links import commands
 from disting.report.fit.sentences import suspicions
 from tests.cli.process import called
 from tests.fit.monte_carlo import (

@@ -9,7 +9,7 @@ import pytest
 from disting import Relation, compare
 from disting.algebra.certainty import prime
 from disting.behaviour.profile import profile
-from disting.behaviour.sample import Representation, drawn, samples
+from disting.behaviour.sample import Representation, draw_point, samples
 from disting.fibres.ideals import decide
 from disting.general.any_model import coefficient_map
 from disting.general.behaviour import GeneralModel
@@ -29,7 +29,7 @@ def first_order(factor):
 def moduli(model):
     """Every prime that the model is looked at with."""
     kept = [s.modulus for s in samples(GeneralModel(model), Representation.TF, 0, 3, "disting")]
-    return {*kept, drawn(GeneralModel(model), "disting:search", 31).modulus}
+    return {*kept, draw_point(GeneralModel(model), "disting:search", 31).modulus}
 
 
 def test_a_model_of_the_primes_of_the_seed_alone():

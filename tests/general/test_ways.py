@@ -19,11 +19,11 @@ from disting.evidence.general import Explicit
 from disting.general.admissible import points
 from disting.general.alternatives import alternatives
 from disting.general.any_model import of_network
-from disting.general.between import path
 from disting.general.cases import Search
 from disting.general.elimination import Case
 from disting.general.forms import over_positive
 from disting.general.formulas import fit, is_explicit
+from disting.general.intermediate_value import path
 from disting.general.model import Model
 from disting.general.model_evidence import confirms, confirms_models
 from disting.general.orthant import BRIEF, Effort, Orthant, value_at

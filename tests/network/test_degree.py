@@ -9,7 +9,7 @@ import pytest
 
 from disting import compare, verify
 from disting.general.any_model import of_network
-from disting.general.listed import goal_of, orientation, positive
+from disting.general.fibre_lists import goal_of, orientation, positive
 from disting.general.replacement import covers, full_set, set_of
 from disting.network.notation import network_of
 from disting.verdict.verdict_file import verdict_file

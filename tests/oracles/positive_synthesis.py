@@ -33,14 +33,14 @@ from disting.fibres.synthesis.branch import (
     Leaf,
     Receptance,
     roots,
-    shifted,
+    shift,
 )
 from disting.fibres.synthesis.fibre import PRECISIONS, fibre
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
 from disting.fibres.synthesis.task import Status, Target, is_regular, target
 from disting.fibres.synthesis.theorems import exact_rows, is_untested
-from disting.fibres.synthesis.undamped import neighbours_at
+from disting.fibres.synthesis.undamped_rows import neighbours_at
 from disting.model.chain import Chain
 from disting.model.question import Answer
 from disting.model.row import Row, grounded_and_free
@@ -120,7 +120,7 @@ def _over_splits(whole: Target, grounded: Row | None, free: Row) -> Answer:
     test occurs.
     """
     data = whole.balls
-    poles = roots(shifted(data.denominator, -1), whole.denominator.degree() - 1)
+    poles = roots(shift(data.denominator, -1), whole.denominator.degree() - 1)
     if not _real(poles):
         return Answer.NO if _certainly_not_real(poles) else Answer.UNKNOWN
     if grounded is None:

@@ -14,7 +14,7 @@ from flint import Ordering, fmpq_mat, fmpz_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.own_process import run_limited
 from disting.fibres.ideals.fibre_ideal import derivative
-from disting.fibres.ideals.system import CoefficientMap, Terms, matched
+from disting.fibres.ideals.system import CoefficientMap, Terms, match_maps
 
 
 class Emptiness(StrEnum):
@@ -40,7 +40,7 @@ def fibre_over_rationals(
     generic point of equal images, and is no statement about this point alone. Coordinates of a
     scale factor, where one is needed, are 1.
     """
-    left, right = matched(given, other)
+    left, right = match_maps(given, other)
     values = [*point, *[1] * (len(left.parameters) - len(point))]
     generators = [list(g.items()) for g in integer_fibre(left, right, values, equal_rank)]
     ended = run_limited(_is_one, (generators, len(right.parameters)), seconds, megabytes)

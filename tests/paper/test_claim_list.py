@@ -9,7 +9,7 @@ import pytest
 
 from disting.fit.search.candidates import figure_1
 from disting.paper import CLAIMS, Claim, Findings, Found, Outcome
-from disting.paper.refit import GIVEN, refitted
+from disting.paper.refit import GIVEN, refit
 
 FOUND = {
     "weights": "π² a line for either",
@@ -165,7 +165,7 @@ def test_each_difference_has_a_label_of_its_own():
     ],
 )
 def test_a4_with_the_antiresonances_of_a1_has_other_dampings(d12, d23):
-    found = refitted({**GIVEN, "d12": d12, "d23": d23})
+    found = refit({**GIVEN, "d12": d12, "d23": d23})
     assert [m.name for m in found.modes] == [
         "antiresonance 1",
         "antiresonance 2",
@@ -178,7 +178,7 @@ def test_a4_with_the_antiresonances_of_a1_has_other_dampings(d12, d23):
 
 def test_dampers_in_proportion_to_the_springs_can_be_matched():
     """D = beta K: all damping ratios are beta omega / 2, and A4 needs the same beta only."""
-    found = refitted({**GIVEN, "d12": 0.1, "d23": 0.1})
+    found = refit({**GIVEN, "d12": 0.1, "d23": 0.1})
     assert found.j < 1e-12
     assert max(m.misdamped for m in found.modes) < 1e-6
     beta = 1e-4

@@ -20,7 +20,7 @@ from disting.general.model_files import ModelList
 from disting.measurement import FrequencyResponse
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
-from disting.report.fit.onward import Site
+from disting.report.fit.links import Site
 from disting.report.fit.style import Drawn
 from disting.report.listing import Listing, judged
 from disting.report.model_list import write_model_list

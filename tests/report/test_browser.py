@@ -13,7 +13,7 @@ import pytest
 import disting
 from disting.catalogs import catalog
 from disting.report import page, write_report
-from disting.verdict.meaning import shown
+from disting.verdict.meaning import meaning_sentence
 from disting.verdict.query import View
 from tests.cli.process import called
 from tests.report.links import follow_link
@@ -72,7 +72,7 @@ def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignor
     assert verdict.evidence is not None
     assert tab.inner_text("#detail h3") == "A1 and A4"
     here = replace(verdict, left="A1", right="A4")  # as a page of one size calls them
-    assert tab.inner_text("#detail .shown") == shown(here)
+    assert tab.inner_text("#detail .shown") == meaning_sentence(here)
     assert not tab.is_visible("#detail .why")
     tab.click("#detail summary")
     assert tab.inner_text("#detail .why") == verdict.evidence.sentence("A1", "A4")

@@ -16,7 +16,7 @@ from disting.report.fit.left_words import MEASURED_COLUMNS
 from disting.report.fit.write import COLUMNS as CANDIDATES
 from disting.report.model_list import COLUMNS as MODELS
 from disting.simulation.excitation import HEADER as SPECTRUM
-from disting.verdict.further_words import CSV_COLUMNS as NEXT
+from disting.verdict.next_words import CSV_COLUMNS as NEXT
 from tests.cli.process import called
 
 from .guide_blocks import TEXTS, blocks

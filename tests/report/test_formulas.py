@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 import sympy
 
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expand
 from disting.catalogs import catalog
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -77,7 +77,7 @@ def test_the_typeset_coefficients_are_those_of_the_transfer_function(family: Fam
         for label, parts in found.lines:
             letter, power = re.findall(r"<mi>(.)</mi><mn>(\d+)</mn>", label)[0]
             sums[letter.lower()] += read(parts).subs(stiffness) * s ** int(power)
-        num, den = (sympy.sympify(str(p).replace("^", "**")) for p in expanded(chain.structure))
+        num, den = (sympy.sympify(str(p).replace("^", "**")) for p in expand(chain.structure))
         assert found.stiffness == (chain.damped and chain.n_masses == 4)
         assert sympy.expand(sums["b"] * den - sums["a"] * num) == 0
 

@@ -12,7 +12,7 @@ from disting.catalogs import Catalog, catalog
 from disting.report import index, page
 from disting.report.payload import packed, script_json
 from disting.report.words import VIEW_TITLES
-from disting.verdict.meaning import shown
+from disting.verdict.meaning import meaning_sentence
 from disting.verdict.query import View
 from tests.report.outline import Outline
 
@@ -108,7 +108,7 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> No
             verdict.representation,
         )
         named = said.replace("{L}", verdict.left).replace("{R}", verdict.right)
-        assert named == shown(verdict)
+        assert named == meaning_sentence(verdict)
         assert bool(aside) == verdict.has_exceptions and bool(sure) == bool(verdict.sure)
         if verdict.evidence:
             assert (

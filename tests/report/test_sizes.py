@@ -27,7 +27,7 @@ from disting.report.sizes import (
     limits,
     sizes_page,
 )
-from disting.verdict.meaning import shown
+from disting.verdict.meaning import meaning_sentence
 from disting.verdict.query import View
 from tests.cli.process import called
 from tests.report.barriers import barriers
@@ -147,7 +147,7 @@ def test_a_pair_is_explained_and_can_be_taken_away(visit, found: SizesCatalog) -
     tab = visit(PAGE + "#3:4-2:1")
     verdict = found.verdict(2, 8)
     assert tab.inner_text("#detail h3") == "2:1 and 3:4"
-    assert tab.inner_text('#detail [data-slot="shown"]') == shown(verdict)
+    assert tab.inner_text('#detail [data-slot="shown"]') == meaning_sentence(verdict)
     assert "2:1 is a limit of 3:4" in tab.inner_text('#detail [data-slot="limit"]')
     tab.click("#detail [data-slot=limits] summary")
     assert verdict.inclusions is not None and verdict.inclusions.closure.evidence

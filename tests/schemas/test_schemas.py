@@ -17,7 +17,7 @@ from disting.errors import InputError
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, Share
 from disting.fit.networks import fit_networks
-from disting.fit.plan.further import Standing
+from disting.fit.plan.next_experiment import Standing
 from disting.fit.plan.power import Answer
 from disting.fit.plan.rival import Limit, Trust
 from disting.fit.search.setup import Setup
@@ -31,7 +31,7 @@ from disting.network.families import FAMILIES, family_of
 from disting.network.notation import network_of
 from disting.schemas import Format, schema
 from disting.simulation import Bench, demo, simulate
-from disting.verdict import everywhere
+from disting.verdict import placement_verdicts
 from disting.verdict.result import Relation
 from tests.cli.process import called
 from tests.cli.test_fit_joint import column, written
@@ -216,7 +216,7 @@ def test_words_of_the_schemas_are_those_of_the_program() -> None:
     (share,) = [s for s in defined["share"]["anyOf"] if s["properties"]]
     assert share["properties"]["share"]["enum"] == [s.value for s in Share]
     answer = schema(Format.EVERYWHERE)["properties"]["answer"]["enum"]
-    assert answer == [a.value for a in everywhere.Answer]
+    assert answer == [a.value for a in placement_verdicts.Answer]
     listing = schema(Format.EQUIVALENTS)["properties"]["listings"]["items"]["properties"]
     signs = listing["equivalents"]["items"]["properties"]["signs"]["enum"]
     assert signs == [s.value for s in Signs]

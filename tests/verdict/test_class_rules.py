@@ -13,8 +13,8 @@ from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import condition_8, condition_9
 from disting.questions.same.low_cost import QUICKLY
+from disting.verdict.class_search import classes
 from disting.verdict.engine import question_key
-from disting.verdict.grouping import classes
 
 ENGINE = Engine()
 

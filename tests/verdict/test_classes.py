@@ -32,8 +32,8 @@ from disting.errors import ContradictionError
 from disting.model.question import Settings
 from disting.questions.same.low_cost import QUICKLY, quick_finding, quick_profile
 from disting.store.scheduling import executor
+from disting.verdict.class_search import classes
 from disting.verdict.engine import question_key
-from disting.verdict.grouping import classes
 
 SAME, APART, OPEN = Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE, Relation.UNDECIDED
 ENGINE = Engine()

@@ -22,7 +22,7 @@ from disting import (
 from disting.algebra.determinants import OutOfTimeError, rank
 from disting.algebra.symbols import symbols
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import coefficients_have_rank, rank_is_at_most
+from disting.behaviour.expansion import coefficients_have_rank, rank_is_at_most
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.general.any_model import of_network
@@ -95,9 +95,9 @@ def test_markov_ranks_are_proven_too(model):
 
 def _oracle_rows(structure, labels):
     """Gradients of Markov parameters by SymPy, as polynomials after clearing denominators."""
-    from disting.behaviour.expanded import expanded
+    from disting.behaviour.expansion import expand
 
-    whole = expanded(structure)
+    whole = expand(structure)
     s = sympy.Symbol("s")
     num, den = (sympy.Poly(sympy.sympify(str(p).replace("^", "**")), s) for p in whole)
     m, lead, a = den.degree(), den.LC(), den.all_coeffs()

@@ -19,7 +19,7 @@ from disting import (
     explicit_map,
     transfer_function,
 )
-from disting.verdict.meaning import shown
+from disting.verdict.meaning import meaning_sentence
 from disting.verdict.result import Verdict
 
 SURE = re.compile(r"(Proven( \([^)]+\))?|Probability of error at most 2\^-\d{3})\.$")
@@ -53,7 +53,7 @@ def test_general_models_are_no_machines():
     other = Model.from_transfer_function("d", "s**2 + e*s + f", name="circuit")
     for view in View:
         verdict = compare(one, other, query=Query(view))
-        said = f"{verdict.sentence} {shown(verdict)}"
+        said = f"{verdict.sentence} {meaning_sentence(verdict)}"
         assert not re.search("damped|machine|curve|acceleration", said), said
         assert verdict.to_dict()["left_premise"] == {}
 
@@ -78,7 +78,9 @@ def test_fosters_theorem_leaves_special_values_out_because_it_must():
     family = Family(3, damped=False)
     verdict = compare(family[1], family[4])
     assert verdict.sure == "proven (Foster's theorem)" and verdict.has_exceptions
-    assert "special values aside" in verdict.sentence and "special values" in shown(verdict)
+    assert "special values aside" in verdict.sentence and "special values" in meaning_sentence(
+        verdict
+    )
     alike = {"m1": 1, "m2": 2, "m3": 1, "k12": 3, "k23": 3}
     assert degrees(family[4], alike) == (2, 2) and degrees(family[4], alike | {"m3": 2}) == (4, 4)
     for k, values in enumerate(({}, {"m3": 2}, {"k23": 7}, {"m2": 1, "k12": 1})):
@@ -91,7 +93,7 @@ def test_where_nothing_is_left_out_nothing_is_said(i, j, why):
     family = Family(3)
     verdict = compare(family[i], family[j])
     assert verdict.sure == f"proven ({why})" and not verdict.has_exceptions
-    assert "special" not in verdict.sentence + shown(verdict)
+    assert "special" not in verdict.sentence + meaning_sentence(verdict)
     back_and_forth = explicit_map(family[i], family[j]), explicit_map(family[j], family[i])
     for found, chain, other in zip(back_and_forth, (i, j), (j, i), strict=True):
         here = dict.fromkeys(family[chain].parameters, 1)

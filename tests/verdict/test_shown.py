@@ -14,7 +14,7 @@ from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Counts, Ranks
 from disting.experiments.experiment import Experiment
 from disting.model.names import chain_of
-from disting.verdict.meaning import shown
+from disting.verdict.meaning import meaning_sentence
 from disting.verdict.result import Relation
 
 SIZES = [(n, damped) for n in (2, 3) for damped in (False, True)]
@@ -37,7 +37,7 @@ def test_the_steeper_curve_is_steeper(n, damped):
             said = re.match(
                 r"Towards .* of (\d+:\d+) falls by (\d+) dB a decade more than that of (\d+:\d+): \3 has"
                 r" (one|\d+) zeros? more",
-                shown(verdict),
+                meaning_sentence(verdict),
             )
             steep, flat = (family[int(said[at].partition(":")[2])] for at in (1, 3))
             assert {steep, flat} == {family[left], family[right]}
@@ -51,7 +51,7 @@ def test_the_steeper_curve_is_steeper(n, damped):
 def test_every_pair_has_a_sentence_that_names_both(n, damped):
     for view in View:
         for _, _, verdict in catalog(n, damped=damped).pairs(view):
-            said = shown(verdict)
+            said = meaning_sentence(verdict)
             assert said.endswith(".") and {verdict.left, verdict.right} <= set(
                 re.findall(r"\d+:\d+", said)
             )
@@ -64,7 +64,7 @@ def test_the_model_of_smaller_rank_satisfies_more_equations():
         if isinstance(verdict.evidence, Ranks):
             ranks = {verdict.left: verdict.evidence.left, verdict.right: verdict.evidence.right}
             fewer, count = re.search(
-                r"very (\S+) response satisfies (an|\d+) equations?", shown(verdict)
+                r"very (\S+) response satisfies (an|\d+) equations?", meaning_sentence(verdict)
             ).groups()
             assert ranks[fewer] == min(ranks.values())
             assert abs(verdict.evidence.left - verdict.evidence.right) == (
@@ -91,7 +91,9 @@ def test_an_equation_in_numbers():
 
     verdict = catalog(3, damped=True).verdict(7, 8)
     assert (rank(7), rank(8)) == (6, 7)
-    assert "very 3:7 response satisfies an equation that a 3:8 response" in shown(verdict)
+    assert "very 3:7 response satisfies an equation that a 3:8 response" in meaning_sentence(
+        verdict
+    )
 
 
 @pytest.mark.parametrize(
@@ -104,21 +106,23 @@ def test_an_equation_in_numbers():
 )
 def test_other_evidence(left, right, said):
     chains = [chain_of(text, Family(1, damped=True)) for text in (left, right)]
-    assert said in shown(compare(*chains))
+    assert said in meaning_sentence(compare(*chains))
 
 
 def test_an_error_is_promised_only_where_neither_is_a_limit_of_the_other():
     verdict = catalog(3, damped=True).verdict(1, 6)
-    assert verdict.closure is Inclusion.NEITHER and "leaves an error" in shown(verdict)
+    assert verdict.closure is Inclusion.NEITHER and "leaves an error" in meaning_sentence(verdict)
     for closure in set(Inclusion) - {Inclusion.NEITHER}:
-        assert "error" not in shown(replace(verdict, closure=closure))
+        assert "error" not in meaning_sentence(replace(verdict, closure=closure))
 
 
 def test_a_sensor_that_stands_still():
     chain = Family(2, damped=True)[1]
     verdict = compare(chain, chain, experiments=[(Experiment(locked=1), Experiment(locked=2))])
     assert verdict.relation is Relation.DISTINGUISHABLE
-    assert re.search(r"sensor of .+ locked never moves, that of .+ locked does", shown(verdict))
+    assert re.search(
+        r"sensor of .+ locked never moves, that of .+ locked does", meaning_sentence(verdict)
+    )
 
 
 TOO_LARGE = "ask smaller ones of the same kind"
@@ -140,7 +144,7 @@ def test_what_is_not_known_says_why_and_what_helps(models, asked, remedy):
     """Conditions that are silent, models that are too large, positive values alone that are open."""
     verdict = compare(*models, **asked)
     assert verdict.relation is Relation.UNDECIDED
-    said = shown(verdict)
+    said = meaning_sentence(verdict)
     assert said.startswith("Not known: ") and all(name in said for name in models)
     assert remedy in said and sum(words in said for words in REMEDIES) == 1
 
@@ -148,4 +152,4 @@ def test_what_is_not_known_says_why_and_what_helps(models, asked, remedy):
 def test_what_took_too_long_says_what_helps():
     silent = compare("3:1", "3:11", query=Query(View.COMBINED))
     late = replace(silent, notes=(f"{EXACT.in_words()} was abandoned: out of time (60 s)",))
-    assert TOO_LARGE in shown(late) and TOO_LARGE not in shown(silent)
+    assert TOO_LARGE in meaning_sentence(late) and TOO_LARGE not in meaning_sentence(silent)

@@ -6,7 +6,7 @@ apart first (`by_two_rows`). Independent of `disting.fibres.synthesis`.
 """
 
 from disting.evidence.kinds import Decision as Decision
-from disting.fibres.ideals.by_shares import chains_told_apart as chains_told_apart
+from disting.fibres.ideals.by_shares import tell_chains_apart as tell_chains_apart
 from disting.fibres.ideals.by_two_rows import (
     confirms_by_rows as confirms_by_rows,
     included_by_rows as included_by_rows,
@@ -14,9 +14,9 @@ from disting.fibres.ideals.by_two_rows import (
 )
 from disting.fibres.ideals.confirm import (
     confirms as confirms,
+    find_again as find_again,
     refuted_at as refuted_at,
     safety_of as safety_of,
-    seen_again as seen_again,
 )
 from disting.fibres.ideals.full_rows import same_by_full_rows as same_by_full_rows
 from disting.fibres.ideals.membership import (
@@ -26,7 +26,7 @@ from disting.fibres.ideals.membership import (
 )
 from disting.fibres.ideals.one_value import one_value as one_value
 from disting.fibres.ideals.shares import MOST as MOST, TRIES as TRIES, Try as Try
-from disting.fibres.ideals.stacked import (
+from disting.fibres.ideals.stacked_map import (
     Fraction as Fraction,
     StackedMap as StackedMap,
     stacked_maps as stacked_maps,
@@ -36,6 +36,6 @@ from disting.fibres.ideals.system import (
     PolynomialMap as PolynomialMap,
     Terms as Terms,
     coefficient_map as coefficient_map,
-    matched as matched,
-    normalised as normalised,
+    match_maps as match_maps,
+    normalise as normalise,
 )

@@ -21,14 +21,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from disting.evidence.ideals import Shared
-from disting.fibres.ideals.factored import factored
-from disting.fibres.ideals.shares import TRIES, Try, told_apart
+from disting.fibres.ideals.factored_map import row_factors
+from disting.fibres.ideals.shares import TRIES, Try, tell_apart
 from disting.fibres.ideals.splits import gap, poles_are_inseparable
 from disting.model.row import rows_of
 from disting.model.structure import Structure
 
 
-def chains_told_apart(
+def tell_chains_apart(
     a: Structure, b: Structure, seed: str, tries: Sequence[Try] = TRIES
 ) -> tuple[Shared, int] | None:
     """Evidence that two chains with dampers, of equal rank and size, have different closures, and
@@ -36,20 +36,20 @@ def chains_told_apart(
 
     >>> from disting.model.chain import Chain
     >>> chains = (Chain(3, 0, 0, 1, 0, 3, damped=True, ground_dampers=(m,)) for m in (1, 2))
-    >>> chains_told_apart(*(c.structure for c in chains), "doc") is None  # they are the same
+    >>> tell_chains_apart(*(c.structure for c in chains), "doc") is None  # they are the same
     True
     """
     if not _comparable(a, b):
         return None
     pairs = zip(rows_of(a), rows_of(b), strict=True)
-    maps = [(row, factored(row), factored(other)) for row, other in pairs]
+    maps = [(row, row_factors(row), row_factors(other)) for row, other in pairs]
     unequal = [m for m in maps if m[1].name != m[2].name]
     if len(unequal) != 1:
         return None
     row, mine, theirs = unequal[0]
     if row.is_whole:
-        return told_apart(mine, theirs, seed, tries)
-    shared = told_apart(mine, theirs, seed, tries) if _stay_together(a, b, seed) else None
+        return tell_apart(mine, theirs, seed, tries)
+    shared = tell_apart(mine, theirs, seed, tries) if _stay_together(a, b, seed) else None
     return shared and (replace(shared[0], part=row.name), shared[1])
 
 
@@ -67,7 +67,7 @@ def _stay_together(a: Structure, b: Structure, seed: str) -> bool:
     """Whether the poles of the rows of both are inseparable, and no other set is as large as
     the grounded row's.
     """
-    free = factored(rows_of(a)[-1])
+    free = row_factors(rows_of(a)[-1])
     return len(free.poles) != 2 * gap(a) and all(
         poles_are_inseparable(s, f"shares:{seed}:poles") for s in (a, b)
     )

@@ -1,7 +1,7 @@
 """What one or more fibres show, checked without the search that found it.
 
-The labels of the evidence stand for random primes and points (`fibre_ideal.drawn`). The error bound
-is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
+The labels of the evidence stand for random primes and points (`fibre_ideal.draw_point`). The error
+bound is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
 
 Contradictions by plain Macaulay matrices: slow, simple, and independent of the search for
 Gröbner bases.
@@ -19,9 +19,9 @@ from flint import fmpz_mpoly, nmod_poly
 from disting.algebra.groebner.modular import Sparse, matrix as modular_matrix
 from disting.evidence.ideals import Refuted, Solved
 from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
-from disting.fibres.ideals.fibre_ideal import agree, drawn, fibre_ideal
+from disting.fibres.ideals.fibre_ideal import agree, draw_point, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
-from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
+from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, match_maps
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
@@ -70,7 +70,7 @@ def _echelon(
     ]
 
 
-def seen_again(
+def find_again(
     evidence: Solved | Refuted,
     left: PolynomialMap,
     right: PolynomialMap,
@@ -90,7 +90,7 @@ def seen_again(
     if isinstance(evidence, Solved) or _is_small(evidence.degree, unknowns):
         return check(evidence, left, right)  # type: ignore[arg-type]
     if by_maps:
-        left, right = matched(left, right)  # type: ignore[arg-type]
+        left, right = match_maps(left, right)  # type: ignore[arg-type]
     return refuted_at(labels_of("verify", left, right, 1), evidence, left, right, limits)
 
 
@@ -123,7 +123,7 @@ def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: Coefficien
     degree 5: minutes).
     """
     if isinstance(evidence, Refuted):
-        return bool(evidence.labels) and confirms_matched(evidence, *matched(left, right))
+        return bool(evidence.labels) and confirms_matched(evidence, *match_maps(left, right))
     model, other = (left, right) if evidence.left_given else (right, left)
     runs = zip(evidence.labels, evidence.solutions, strict=True)
     return bool(evidence.labels) and all(_agree(model, other, label, q) for label, q in runs)
@@ -136,7 +136,7 @@ def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: Pol
         runs = zip(evidence.labels, evidence.solutions, strict=True)
         return bool(evidence.labels) and all(
             len(q) == len(other.parameters) and agree(model, point, other, q, modulus)
-            for (modulus, point), q in ((drawn(model, label), q) for label, q in runs)
+            for (modulus, point), q in ((draw_point(model, label), q) for label, q in runs)
         )
     bits = bits_of(model, other, evidence.tangent)
     ideals = (fibre_ideal(model, other, label, evidence.tangent, bits) for label in evidence.labels)
@@ -172,7 +172,7 @@ def _agree(
 ) -> bool:
     if not len(other.parameters) <= len(solution) <= len(other.parameters) + 1:
         return False
-    modulus, point = drawn(model, label)
+    modulus, point = draw_point(model, label)
     num1, den1 = _at(model, point, modulus)
     num2, den2 = _at(other, solution[: len(other.parameters)], modulus)
     return den2.degree() == den1.degree() >= 0 and num1 * den2 == num2 * den1

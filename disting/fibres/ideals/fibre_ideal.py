@@ -49,10 +49,10 @@ def fibre_ideal(
 
     Both maps have coordinates that can be compared (see `system.matched`).
     """
-    modulus, point = drawn(model, label, bits)
+    modulus, point = draw_point(model, label, bits)
     origin = residues(f"slice:{label}", len(other.parameters), modulus)
     fixed = _slice(other, origin, modulus) if equal_rank else {}
-    targets = [evaluated(c, point, modulus) for c in model.coordinates]
+    targets = [evaluate(c, point, modulus) for c in model.coordinates]
     zero = (0,) * len(other.parameters)
     equations = [
         dict(c) | {zero: dict(c).get(zero, 0) - y}
@@ -62,7 +62,7 @@ def fibre_ideal(
         equations += _tangents(model, other, point, modulus)
     kept = [i for i, name in enumerate(other.parameters) if name not in fixed]
     values = [fixed.get(name, 0) for name in other.parameters]
-    reduced = (restricted(e, kept, values, modulus) for e in equations)
+    reduced = (restrict(e, kept, values, modulus) for e in equations)
     return FibreIdeal(
         modulus=modulus,
         point=point,
@@ -72,7 +72,7 @@ def fibre_ideal(
     )
 
 
-def drawn(model: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
+def draw_point(model: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
     """The random prime and point that a label stands for; values are drawn by name, so a scale
     factor changes no other.
 
@@ -87,11 +87,11 @@ def generic_rank(model: PolynomialMap, label: str) -> int:
     """Rank of the Jacobian matrix at a random point: a lower bound of the generic rank, and
     equal to it but for bad luck.
     """
-    modulus, point = drawn(model, about(label, model.content))
+    modulus, point = draw_point(model, about(label, model.content))
     return int(jacobian(model, point, modulus).rank())
 
 
-def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> int:
+def evaluate(terms: Terms, point: Sequence[int], modulus: int) -> int:
     """Value of a polynomial modulo a prime."""
     total = 0
     for exponents, number in terms:
@@ -106,7 +106,7 @@ def sides_at(
     model: CoefficientMap, point: Sequence[int], modulus: int
 ) -> tuple[list[int], list[int]]:
     """Coefficients of numerator and denominator at a point modulo a prime."""
-    values = [evaluated(c, point, modulus) for c in model.coordinates]
+    values = [evaluate(c, point, modulus) for c in model.coordinates]
     count = len(model.numerator)
     return values[:count], [*values[count:], *[1] * model.is_monic]
 
@@ -122,7 +122,7 @@ def agree(
     modulo a prime.
     """
     pairs = zip(model.coordinates, other.coordinates, strict=True)
-    return all(evaluated(a, point, modulus) == evaluated(b, values, modulus) for a, b in pairs)
+    return all(evaluate(a, point, modulus) == evaluate(b, values, modulus) for a, b in pairs)
 
 
 def derivative(terms: Terms, at: int) -> Terms:
@@ -205,7 +205,7 @@ def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulu
     return {e: c for e, c in total.items() if c}
 
 
-def restricted(polynomial: Sparse, kept: list[int], values: list[int], modulus: int) -> Sparse:
+def restrict(polynomial: Sparse, kept: list[int], values: list[int], modulus: int) -> Sparse:
     """The fixed parameters replaced by their values."""
     total: Sparse = {}
     for exponents, number in polynomial.items():

@@ -35,7 +35,7 @@ from disting.fibres.ideals.fibre_ideal import (
     fibre_ideal,
     generic_rank,
 )
-from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, matched
+from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, match_maps
 from disting.model.question import Membership
 
 # draws for one solution modulo the prime: each square root that it needs halves the chance that
@@ -132,7 +132,7 @@ def decide(
     if model.degrees[1] != other.degrees[1]:
         return _unknown("the numbers of poles differ")
     return decide_matched(
-        *matched(model, other), equal_rank=equal_rank, seed=seed, limits=limits, members=members
+        *match_maps(model, other), equal_rank=equal_rank, seed=seed, limits=limits, members=members
     )
 
 

@@ -1,5 +1,5 @@
 """Two rows of masses of equal rank told apart by sharing out the roots of the numerator (see
-`factored`).
+`factored_map`).
 
 At a point p0 of one row where all roots of N lie in the field, an equivalent of the other row
 shares them out among its joints between the ports, its theta and its phi. If every share is
@@ -36,9 +36,15 @@ from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
 from disting.algebra.groebner.modular import Sparse, long_polynomial
 from disting.evidence.ideals import Shared
 from disting.fibres.ideals.bounds import safety_of_empty
-from disting.fibres.ideals.factored import FactoredMap, FactoredValues, Share, shared_fibre, values
-from disting.fibres.ideals.fibre_ideal import evaluated
-from disting.fibres.ideals.system import Terms, matched
+from disting.fibres.ideals.factored_map import (
+    FactoredMap,
+    FactoredValues,
+    Share,
+    shared_fibre,
+    values,
+)
+from disting.fibres.ideals.fibre_ideal import evaluate
+from disting.fibres.ideals.system import Terms, match_maps
 
 BITS = 192  # of the prime: one point gives more than 100 bits
 DRAWS = 1 << 14  # points looked at until the roots lie in the field: one in 720 for six roots
@@ -54,7 +60,7 @@ class _SolvableError(Exception):
     pass
 
 
-def told_apart(
+def tell_apart(
     left: FactoredMap, right: FactoredMap, seed: str, tries: Sequence[Try] = TRIES
 ) -> tuple[Shared, int] | None:
     """Evidence that two rows of equal rank have different closures, and its bits; None where
@@ -76,7 +82,7 @@ def told_apart(
         except _SolvableError:
             return None
         if way is not None and is_refuted:
-            bits = safety_of_empty(*matched(model.whole, other.whole), True, BITS)
+            bits = safety_of_empty(*match_maps(model.whole, other.whole), True, BITS)
             shared = Shared(
                 left_given=left_given,
                 part="",
@@ -256,4 +262,4 @@ def _roots(factor: fmpz_mod_poly) -> list[int]:
 
 
 def _monic(coordinates: Sequence[Terms], point: Sequence[int], modulus: int) -> fmpz_mod_poly:
-    return long_polynomial([*(evaluated(c, point, modulus) for c in coordinates), 1], modulus)
+    return long_polynomial([*(evaluate(c, point, modulus) for c in coordinates), 1], modulus)

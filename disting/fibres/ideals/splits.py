@@ -44,14 +44,14 @@ from functools import cache, lru_cache
 from flint import nmod_mat, nmod_poly
 
 from disting.algebra.certainty import about, prime, residues
-from disting.algebra.symbols import coefficients, renamed, symbols
+from disting.algebra.symbols import coefficients, rename_symbols, symbols
 from disting.fibres.ideals.fibre_ideal import sides_at
 from disting.fibres.ideals.system import (
     REMEMBERED,
     CoefficientMap,
     receptance_map,
     receptance_of_row,
-    separated,
+    separate,
     unknowns,
 )
 from disting.model.row import rows_of
@@ -158,12 +158,12 @@ def _without_rigid_body(structure: Structure, whole: bool = False) -> Coefficien
     ring = symbols(["s", *names])
     num, den = receptance_of_row(free, ring)
     rest = den // ring["s"] ** 2
-    at_zero = [renamed(coefficients(p, "s")[0], ring, {}) for p in (num, rest)]
+    at_zero = [rename_symbols(coefficients(p, "s")[0], ring, {}) for p in (num, rest)]
     num, den = (num * at_zero[1] - rest * at_zero[0]) // ring["s"] ** 2, rest * at_zero[1]
     for row in grounded * whole:
         other_num, other_den = receptance_of_row(row, ring)
         num, den = num * other_den + other_num * den, den * other_den
-    return separated(names, num, den)
+    return separate(names, num, den)
 
 
 def _with_rigid_body(structure: Structure) -> CoefficientMap:
@@ -173,12 +173,12 @@ def _with_rigid_body(structure: Structure) -> CoefficientMap:
     grounded, names = rows_of(structure)[0], unknowns(rows_of(structure)[0])
     ring = symbols(["s", *names, "c"])
     num, den = receptance_of_row(grounded, ring)
-    return separated((*names, "c"), num * ring["s"] ** 2 + ring["c"] * den, den * ring["s"] ** 2)
+    return separate((*names, "c"), num * ring["s"] ** 2 + ring["c"] * den, den * ring["s"] ** 2)
 
 
 def _rigid_body() -> CoefficientMap:
     ring = symbols(["s", "c"])
-    return separated(("c",), ring["c"], ring["s"] ** 2)
+    return separate(("c",), ring["c"], ring["s"] ** 2)
 
 
 @cache

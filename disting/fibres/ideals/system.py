@@ -2,7 +2,7 @@
 
 A model with one input and one output is the map Phi: parameters -> coefficients of numerator and
 denominator, polynomials with integer coefficients. For chains there are two: `coefficient_map` in
-the parameters themselves, and `normalised` in fewer and better ones. There row i of M s^2 + D s +
+the parameters themselves, and `normalise` in fewer and better ones. There row i of M s^2 + D s +
 K is divided by m_i; with c_i, d_i for spring and damper between masses i and i+1
 
     u_i = c_i/m_i,  e_i = d_i/m_i,  r_i = m_i/m_(i+1),  u_0 = c_0/m_1,  e_0 = d_0/m_1,  f_i =
@@ -30,8 +30,8 @@ from typing import Protocol
 from flint import fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.certainty import digest
-from disting.algebra.symbols import renamed, symbols
-from disting.behaviour.expanded import expanded
+from disting.algebra.symbols import rename_symbols, symbols
+from disting.behaviour.expansion import expand
 from disting.errors import InputError
 from disting.model.row import Row, rows_of
 from disting.model.structure import Structure
@@ -126,7 +126,7 @@ class CoefficientMap:
 
         def lifted(polynomials: Sequence[fmpz_mpoly]) -> tuple[fmpz_mpoly, ...]:
             """In the larger ring, times the new parameter."""
-            return tuple(renamed(p, ring, {}) * ring[SCALE] for p in polynomials)
+            return tuple(rename_symbols(p, ring, {}) * ring[SCALE] for p in polynomials)
 
         return CoefficientMap(
             (*self.parameters, SCALE), lifted(self.numerator), lifted(self.denominator)
@@ -141,15 +141,15 @@ def coefficient_map(structure: Structure) -> CoefficientMap:
     ['m1']
     """
     names = tuple(p for p in structure.parameters if p != "Td")
-    return separated(names, *expanded(structure))
+    return separate(names, *expand(structure))
 
 
 @lru_cache(maxsize=REMEMBERED)
-def normalised(structure: Structure) -> CoefficientMap:
+def normalise(structure: Structure) -> CoefficientMap:
     """The map of a chain in the unknowns of this module's text: monic and linear in each of them.
 
     >>> from disting.model.chain import Chain
-    >>> m = normalised(Chain(2, damped=True).structure)
+    >>> m = normalise(Chain(2, damped=True).structure)
     >>> m.parameters, [str(a) for a in m.denominator]
     (('u1', 'e1', 'r1', 'g1'), ['u1*r1 + u1', 'e1*r1 + e1', '1'])
     """
@@ -162,10 +162,12 @@ def normalised(structure: Structure) -> CoefficientMap:
         den = den * (ring["s"] + ring["lag"])
     num = num * ring["s"] ** structure.sensor_order
     power = min(min(e[0] for e in p.monoms()) for p in (num, den))
-    return separated(names, num // ring["s"] ** power, den // ring["s"] ** power)
+    return separate(names, num // ring["s"] ** power, den // ring["s"] ** power)
 
 
-def matched(model: CoefficientMap, other: CoefficientMap) -> tuple[CoefficientMap, CoefficientMap]:
+def match_maps(
+    model: CoefficientMap, other: CoefficientMap
+) -> tuple[CoefficientMap, CoefficientMap]:
     """Both maps in a form in which equal transfer functions are equal coefficients, as many in
     both, zeros included.
 
@@ -191,7 +193,7 @@ def _padded(model: CoefficientMap, count: int) -> CoefficientMap:
     return model if numerator == model.numerator else replace(model, numerator=numerator)
 
 
-def separated(names: tuple[str, ...], num: fmpz_mpoly, den: fmpz_mpoly) -> CoefficientMap:
+def separate(names: tuple[str, ...], num: fmpz_mpoly, den: fmpz_mpoly) -> CoefficientMap:
     """The map of a fraction of polynomials in s, the first symbol, and the names."""
     context = next(iter(symbols(names).values())).context()
     return CoefficientMap(names, *(_powers_of_s(p, context) for p in (num, den)))
@@ -269,7 +271,7 @@ def determinants(
 def receptance_map(row: Row) -> CoefficientMap:
     """The receptance of a row as a map of its unknowns."""
     names = unknowns(row)
-    return separated(names, *receptance_of_row(row, symbols(["s", *names])))
+    return separate(names, *receptance_of_row(row, symbols(["s", *names])))
 
 
 def _minors(

@@ -70,7 +70,7 @@ def cut(p: Poly, degree: int) -> Poly:
     return acb_poly([p[i] for i in range(degree + 1)])
 
 
-def shifted(p: Poly, power: int) -> Poly:
+def shift(p: Poly, power: int) -> Poly:
     """p times x**power; for a negative power the lowest coefficients, zero by theory, are
     dropped.
     """
@@ -115,7 +115,7 @@ def roots(p: Poly, degree: int, excluded: Callable[[Ball], bool] = lambda z: Fal
     return [z if better is None else better for z, better in zip(isolated, sharp, strict=True)]
 
 
-def enclosed(p: Poly, degree: int) -> list[Ball]:
+def enclose(p: Poly, degree: int) -> list[Ball]:
     """Like `roots`, in a fraction of the time, but wide balls: enough to refute."""
     isolated = [] if is_boundary(p[degree]) else _isolated(p, _ENCLOSED)
     if not isolated:
@@ -219,7 +219,7 @@ Leaf = RowValues | Dead
 NONZERO, BOUNDARY, OPEN = (Dead(reason) for reason in Reason)
 
 
-def mirrored(leaf: Leaf) -> Leaf:
+def mirror(leaf: Leaf) -> Leaf:
     """The same numbers read from right to left."""
     if not isinstance(leaf, RowValues):
         return leaf
@@ -228,7 +228,7 @@ def mirrored(leaf: Leaf) -> Leaf:
     )
 
 
-def combined(
+def combine(
     left: Iterable[Leaf],
     right: Callable[[], Iterable[Leaf]],
     join: Callable[[RowValues, RowValues], Leaf],

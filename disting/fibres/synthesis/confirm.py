@@ -73,7 +73,7 @@ def _system(chain: Chain, values: dict[str, Ball], target: Target) -> tuple[list
     """Residual and Jacobian of all coefficients, scaled by the given ones; rows that are zero
     by theory are left out.
     """
-    raw = evaluated(chain, values)
+    raw = evaluate(chain, values)
     top = raw.den.degree()
     residual: list[Ball] = []
     jacobian: Matrix = []
@@ -119,7 +119,7 @@ def _independent(jacobian: Matrix, scales: Iterable[arb]) -> list[int]:
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class CheckedValues:
     """Parameter values whose receptance agrees with the target within the balls; `width` as in
     Solution.
     """
@@ -129,12 +129,14 @@ class Checked:
     width: float
 
 
-def evaluated(chain: Chain, values: dict[str, Ball]) -> Rational[acb_poly]:
+def evaluate(chain: Chain, values: dict[str, Ball]) -> Rational[acb_poly]:
     """Receptance and gradients over balls."""
     return receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
 
 
-def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) -> Checked | Dead:
+def check(
+    chain: Chain, values: dict[str, Ball], gauges: int, target: Target
+) -> CheckedValues | Dead:
     """Compare every coefficient, the denominator made monic; a ball without the given
     coefficient refutes the candidate.
     """
@@ -152,7 +154,7 @@ def checked(chain: Chain, values: dict[str, Ball], gauges: int, target: Target) 
             width = max(width, float(gap.abs_upper() / acb(coefficient or largest).abs_lower()))
     if width > TOLERANCE:
         raise Imprecise("a solution is not sharp enough")
-    return Checked(values, gauges, width)
+    return CheckedValues(values, gauges, width)
 
 
 def _padded(polynomial: Exact, degree: int) -> list[fmpq]:
@@ -163,8 +165,8 @@ def _lifted(values: dict[str, Ball]) -> dict[str, acb_poly]:
     return {name: acb_poly([value]) for name, value in values.items()}
 
 
-def listed(
-    chain: Chain, leaves: list[Checked], target: Target, *, complete: bool, confirm: bool
+def list_solutions(
+    chain: Chain, leaves: list[CheckedValues], target: Target, *, complete: bool, confirm: bool
 ) -> tuple[Solution, ...]:
     """Solutions with their properties. A complete list is closed under conjugation; otherwise
     nothing is known to be real.
@@ -184,7 +186,7 @@ def listed(
     )
 
 
-def _solution(c: Checked, others: list[Balls]) -> Solution:
+def _solution(c: CheckedValues, others: list[Balls]) -> Solution:
     """`others` are the candidates for its conjugate; with itself among them nothing is proven."""
     real = _real(c.values, others)
     return Solution(

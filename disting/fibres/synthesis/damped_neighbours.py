@@ -40,14 +40,14 @@ from disting.fibres.synthesis.branch import (
     Receptance,
     RowValues,
     circle,
-    combined,
+    combine,
     cut,
-    enclosed,
+    enclose,
     is_boundary,
     poly,
     product,
     roots,
-    shifted,
+    shift,
     through,
     vanishes,
 )
@@ -110,7 +110,7 @@ def inner_neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
     speaks for all its conjugates.
     """
     zeros, gain = zeros_of(data, row.numerator_degree), data.gain(row)
-    seen: dict[int, list[Seen]] = {}
+    seen: dict[int, list[SubsetSums]] = {}
     for same in conjugate_ways([kind for kind, _ in zeros], 2 * (row.a - 1)):
         for way in same:
             (rho,), left, right = ([zeros[i][1] for i in some] for some in ((way[0],), *way[1:]))
@@ -122,7 +122,7 @@ def inner_neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
                 break
 
 
-def _branch(branch: Branch, seen: list["Seen"]) -> Iterator[Leaf]:
+def _branch(branch: Branch, seen: list["SubsetSums"]) -> Iterator[Leaf]:
     """Every candidate for d; `seen` is filled once for all ways with this rho."""
     if is_boundary(branch.rho):
         yield BOUNDARY
@@ -140,7 +140,7 @@ def _quickly(branch: Branch, d: Ball) -> Iterable[Leaf]:
     """
     with ctx.workprec(min(QUICK_BITS, ctx.prec)):
         try:
-            leaves = list(_with_damper(branch, d, enclosed))
+            leaves = list(_with_damper(branch, d, enclose))
         except Imprecise:
             leaves = []
     return (
@@ -151,7 +151,7 @@ def _quickly(branch: Branch, d: Ball) -> Iterable[Leaf]:
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class SubsetSums:
     """What E tells of one d and rho: G_d(0)^K d^-L, and the sum of 1/z for every subset of the
     roots of G_d.
     """
@@ -164,13 +164,13 @@ class Seen:
         return reduce(mul, (sigma + total for total in self.sums), self.factor)
 
 
-def _seen(branch: Branch, d: Ball) -> Seen:
+def _seen(branch: Branch, d: Ball) -> SubsetSums:
     nodes, size = branch.row.n_masses, 2 * (branch.row.n_masses - branch.row.a)
     whole = branch.grounded(d)
     loose = not branch.row.grounded and not branch.row.ground_dampers
     power = comb(2 * nodes - 1, size - 1) - comb(2 * nodes - 2, size - 1) if loose else 0
     sums = subset_sums([1 / z for z in roots(whole, 2 * nodes)], size)
-    return Seen(whole[0] ** comb(2 * nodes - 1, size - 1) / d**power, sums)
+    return SubsetSums(whole[0] ** comb(2 * nodes - 1, size - 1) / d**power, sums)
 
 
 def subset_sums(items: list[Ball], size: int) -> list[Ball]:
@@ -268,14 +268,14 @@ def _sides(branch: Branch, d: Ball, theta: Poly, phi: Poly) -> Iterator[Leaf]:
         )
 
     if not branch.row.ground_dampers:
-        yield from combined(peel(w_left), lambda: peel(w_right), join)
+        yield from combine(peel(w_left), lambda: peel(w_right), join)
         return
     dampers = tuple(i in branch.row.ground_dampers for i in range(a, 0, -1))
     node = friction.Node(
         w_left.numerator, w_left.denominator, dampers[0], dampers[1:], w_left.wall, False
     )
-    for b, leaf in friction.behind(node):
-        yield from combined([leaf], lambda: peel(w_right), partial(join_damped, b))
+    for b, leaf in friction.solve_behind(node):
+        yield from combine([leaf], lambda: peel(w_right), partial(join_damped, b))
 
 
 def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, row: Row | None) -> Stiffness:
@@ -283,7 +283,7 @@ def _side(whole: Poly, zeros: Poly, mass: Ball, nu: int, row: Row | None) -> Sti
     side, with its dampers in W.
     """
     wall, poles_at_zero = (row.grounded, row.poles_at_zero(2)) if row else (False, 2)
-    numerator = cut(whole - mass * shifted(zeros, 2), 2 * nu + 1)
+    numerator = cut(whole - mass * shift(zeros, 2), 2 * nu + 1)
     return Stiffness(
         numerator=numerator if wall else grounded_at_zero(numerator, poles_at_zero),
         denominator=zeros,

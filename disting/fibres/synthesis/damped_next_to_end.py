@@ -33,7 +33,7 @@ from disting.fibres.synthesis.branch import (
     poly,
     product,
     roots,
-    shifted,
+    shift,
     splits,
     vanishes,
 )
@@ -66,7 +66,7 @@ class Branch:
         return (
             self.data.denominator
             if self.row.grounded
-            else shifted(self.data.denominator, -self.row.poles_at_zero(2))
+            else shift(self.data.denominator, -self.row.poles_at_zero(2))
         )
 
     @property
@@ -106,7 +106,7 @@ def is_untested(row: Row) -> bool:
 
 
 def _branch(branch: Branch) -> Iterator[Leaf]:
-    u, v = (reduced(p, branch.rho, branch.beta) for p in (branch.upper, branch.lower))
+    u, v = (reduce_modulo(p, branch.rho, branch.beta) for p in (branch.upper, branch.lower))
     tested = not branch.row.grounded and not branch.row.ground_dampers
     degree = 2 * branch.row.n_masses - (4 if tested else 3)
     determinant = cut(u.slope * v.offset - u.offset * v.slope, degree)
@@ -114,7 +114,7 @@ def _branch(branch: Branch) -> Iterator[Leaf]:
         if not vanishes(determinant[0], branch.upper[0] * branch.lower[0]):
             yield NONZERO
             return
-        determinant, degree = shifted(determinant, -1), degree - 1
+        determinant, degree = shift(determinant, -1), degree - 1
     yield from (
         _any_ratio(branch, u, v)
         if degree < 0
@@ -134,7 +134,7 @@ def _any_ratio(branch: Branch, u: Linear, v: Linear) -> Iterator[Leaf]:
         yield replace(leaf, gauges=1) if isinstance(leaf, RowValues) else leaf
 
 
-def reduced(p: Poly, rho: Ball, beta: Ball = friction.NOTHING) -> Linear:
+def reduce_modulo(p: Poly, rho: Ball, beta: Ball = friction.NOTHING) -> Linear:
     """p modulo s^2 + beta s + t (s + rho), from s^(k+1) = s s^k.
 
     slope' = (rho - beta - t) slope + offset, offset' = -rho (rho - beta) slope - rho offset.
@@ -173,7 +173,7 @@ def _with_ratio(branch: Branch, u: Linear, v: Linear, t: Ball) -> Iterator[Leaf]
         yield from (_attached(leaf, m_a, friction.NOTHING, spring, last) for leaf in peel(w))
         return
     dampers = tuple(i in branch.row.ground_dampers for i in range(w.masses + 1, 0, -1))
-    for b, leaf in friction.behind(
+    for b, leaf in friction.solve_behind(
         friction.Node(w.numerator, w.denominator, dampers[0], dampers[1:], w.wall, False)
     ):
         yield BOUNDARY if dampers[0] and is_boundary(b) else _attached(leaf, m_a, b, spring, last)
@@ -189,9 +189,9 @@ def _left(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
         branch.row.poles_at_zero(2),
     )
     denominator = product(branch.others)
-    driven = shifted(poly([branch.beta, 1]) * branch.data.numerator, 1)
+    driven = shift(poly([branch.beta, 1]) * branch.data.numerator, 1)
     quotient = (branch.data.denominator - m_b * driven) // branch.swing(t)
-    numerator = cut(m_a * (quotient - shifted(denominator, 2)), 2 * nu + 1)
+    numerator = cut(m_a * (quotient - shift(denominator, 2)), 2 * nu + 1)
     return Stiffness(
         numerator=numerator if wall else grounded_at_zero(numerator, poles_at_zero),
         denominator=denominator,

@@ -35,13 +35,13 @@ from disting.fibres.synthesis.branch import (
     Reason,
     Receptance,
     RowValues,
-    combined,
+    combine,
     poly,
     product,
     roots,
-    shifted,
+    shift,
 )
-from disting.fibres.synthesis.confirm import Checked, checked, listed
+from disting.fibres.synthesis.confirm import CheckedValues, check, list_solutions
 from disting.fibres.synthesis.methods import synthesise
 from disting.fibres.synthesis.poles import Split, pole_splits
 from disting.fibres.synthesis.task import (
@@ -134,7 +134,7 @@ def _searched(chain: Chain, target: Target, confirm: bool) -> Fibre:
     return Fibre(Status.DEGENERATE, precision_bits=PRECISIONS[-1], reason=reason)
 
 
-def _solutions(chain: Chain, target: Target) -> Iterator[Checked | Dead]:
+def _solutions(chain: Chain, target: Target) -> Iterator[CheckedValues | Dead]:
     """Every leaf, both rows multiplied out."""
     folded = target.folded(_q(chain))
     low = poles_at_zero(folded)
@@ -146,9 +146,9 @@ def _solutions(chain: Chain, target: Target) -> Iterator[Checked | Dead]:
 
 def _multiplied(
     chain: Chain, rows: RowValues, time: dict[str, Ball], target: Target
-) -> Checked | Dead:
+) -> CheckedValues | Dead:
     """The numbers checked; a member of a family that fails refutes nothing but itself."""
-    result = checked(chain, _named(rows, chain) | time, rows.gauges, target)
+    result = check(chain, _named(rows, chain) | time, rows.gauges, target)
     return BOUNDARY if rows.gauges and isinstance(result, Dead) else result
 
 
@@ -168,7 +168,7 @@ def _leaves(chain: Chain, data: Receptance, low: int) -> Iterator[Leaf]:
 
 def _both(split: Split, grounded: Row, free: Row, q: int) -> Iterator[Leaf]:
     """Every grounded row with every free one."""
-    return combined(
+    return combine(
         synthesise(grounded, split.grounded.own(grounded, q)),
         lambda: synthesise(free, split.free.own(free, q)),
         _joined,
@@ -202,12 +202,14 @@ def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solutio
     return replace(solution, values={name: values[name] for name in chain.parameters})
 
 
-def _judged(chain: Chain, target: Target, leaves: list[Checked | Dead], confirm: bool) -> Fibre:
+def _judged(
+    chain: Chain, target: Target, leaves: list[CheckedValues | Dead], confirm: bool
+) -> Fibre:
     """Status from what the branches ended in."""
     count = Counter(leaf.reason for leaf in leaves if isinstance(leaf, Dead))
     tests = Exclusions(count[Reason.NONZERO], count[Reason.BOUNDARY], count[Reason.OPEN])
-    solved = [leaf for leaf in leaves if isinstance(leaf, Checked)]
-    solutions = listed(chain, solved, target, complete=not tests.uncovered, confirm=confirm)
+    solved = [leaf for leaf in leaves if isinstance(leaf, CheckedValues)]
+    solutions = list_solutions(chain, solved, target, complete=not tests.uncovered, confirm=confirm)
     status, reason = _status(solutions, tests)
     return Fibre(status, solutions, tests=tests, reason=reason)
 
@@ -260,9 +262,9 @@ def _halved(chain: Chain, solution: Solution) -> Solution:
 
 def lag_poles(data: Receptance, low: int) -> Iterator[tuple[Receptance, dict[str, Ball]]]:
     """Yield H0 and T1 for every pole but that at 0, of multiplicity `low`."""
-    poles = roots(shifted(data.denominator, -low), data.denominator.degree() - low)
+    poles = roots(shift(data.denominator, -low), data.denominator.degree() - low)
     for i, p in enumerate(poles):
-        rest = shifted(product(poles[:i] + poles[i + 1 :]), low)
+        rest = shift(product(poles[:i] + poles[i + 1 :]), low)
         yield Receptance(data.numerator * poly([-1 / p]), rest), {"T1": -1 / p}
 
 

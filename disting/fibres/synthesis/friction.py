@@ -32,7 +32,7 @@ from disting.fibres.synthesis.branch import (
     is_boundary,
     poly,
     roots,
-    shifted,
+    shift,
     vanishes,
 )
 from disting.fibres.synthesis.peel import Stiffness, peel
@@ -107,7 +107,7 @@ def peel_side(w: Side) -> Iterator[Leaf]:
         )
 
 
-def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
+def solve_behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
     """Yield b (zero without a damper) with all that can be behind the mass."""
     nu = len(node.dampers)
     side = Side(
@@ -129,7 +129,7 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
         if node.damper and side.is_loose
         else node.numerator[2 * nu + 1]
     )
-    rest = node.numerator - b * shifted(node.denominator, 1)
+    rest = node.numerator - b * shift(node.denominator, 1)
     side = replace(
         side,
         numerator=without_low(cut(rest, 2 * nu + (not is_open and not node.elastic)), side),
@@ -142,7 +142,7 @@ def behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
         yield (b - slope(leaf) if isinstance(leaf, RowValues) else NOTHING) if is_open else b, leaf
 
 
-def attached(spring: Poly, mass: Ball, b: Ball, damper: bool, leaf: Leaf) -> Leaf:
+def attach(spring: Poly, mass: Ball, b: Ball, damper: bool, leaf: Leaf) -> Leaf:
     """The same with one more mass and spring in front; at the boundary if the damper cannot be
     told from zero.
     """
@@ -195,7 +195,7 @@ def _damped(w: Side) -> Iterator[Leaf]:
         """Zero where z is the spring's."""
         return w.denominator(z) * d - steepness(z)
 
-    others = shifted(w.numerator, -low)
+    others = shift(w.numerator, -low)
     for z in roots(others, degree - low, lambda z: not excess(z).contains(0)):
         if not vanishes(excess(z), steepness(z)):
             yield NONZERO
@@ -215,7 +215,7 @@ def _open(w: Side) -> Iterator[Leaf]:
             continue
         d = -p(z) / (z * a(z))
         yield from (
-            [BOUNDARY] if is_boundary(d) else _behind(w, p + d * shifted(a, 1), poly([-d * z, d]))
+            [BOUNDARY] if is_boundary(d) else _behind(w, p + d * shift(a, 1), poly([-d * z, d]))
         )
 
 
@@ -232,9 +232,9 @@ def _behind(w: Side, numerator: Poly, spring: Poly) -> Iterator[Leaf]:
         yield BOUNDARY
         return
     mass: Ball = 1 / rest[2 * nu - 2]
-    raw = cut(mass * (delta - mass * shifted(rest, 2)), 2 * nu - 1)
-    raw = raw if w.wall else shifted(shifted(raw, -1), 1)
-    for b, leaf in behind(
+    raw = cut(mass * (delta - mass * shift(rest, 2)), 2 * nu - 1)
+    raw = raw if w.wall else shift(shift(raw, -1), 1)
+    for b, leaf in solve_behind(
         Node(
             numerator=raw,
             denominator=rest * mass,
@@ -244,13 +244,13 @@ def _behind(w: Side, numerator: Poly, spring: Poly) -> Iterator[Leaf]:
             elastic=w.elastic,
         )
     ):
-        yield attached(spring, mass, b, w.dampers[0], leaf)
+        yield attach(spring, mass, b, w.dampers[0], leaf)
 
 
 def without_low(p: Poly, side: Side) -> Poly:
     """p with the low coefficients exactly zero that are so by theory."""
     low = 0 if side.wall else 2 if side.is_loose else 1
-    return shifted(shifted(p, -low), low)
+    return shift(shift(p, -low), low)
 
 
 def _size(p: Poly) -> Ball | arb:

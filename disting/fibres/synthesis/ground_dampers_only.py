@@ -25,7 +25,7 @@ from disting.fibres.synthesis.branch import (
     poly,
     product,
     roots,
-    shifted,
+    shift,
 )
 from disting.model.row import Row
 
@@ -41,10 +41,10 @@ def adapts(row: Row) -> bool:
     )
 
 
-def swinging(row: Row, data: Receptance) -> Iterator[Leaf]:
+def swing_rows(row: Row, data: Receptance) -> Iterator[Leaf]:
     """Yield every row with this receptance, of a family by a sample."""
     beta = friction.random(1)[0] if row.n_masses in row.ground_dampers else friction.NOTHING
-    upper = data.denominator if row.grounded else shifted(data.denominator, -1)
+    upper = data.denominator if row.grounded else shift(data.denominator, -1)
     lower = data.numerator if row.grounded else data.numerator * poly([beta, 1])
     (u1, u0), (v1, v0) = _reduced(upper, beta), _reduced(lower, beta)
     degree = 2 * row.n_masses - 3
@@ -63,7 +63,7 @@ def _reduced(p: Poly, beta: Ball) -> tuple[Poly, Poly]:
     slope, offset, total = poly([]), poly([1]), (poly([]), poly([]))
     for coefficient in p.coeffs():
         total = (total[0] + coefficient * slope, total[1] + coefficient * offset)
-        slope, offset = offset - beta * slope, -shifted(slope, 1)
+        slope, offset = offset - beta * slope, -shift(slope, 1)
     return total
 
 
@@ -82,13 +82,13 @@ def _with_mass(row: Row, data: Receptance, beta: Ball, t: Ball, m_b: Ball) -> It
     nu, gain = row.n_masses - 2, data.gain(row)
     spring, m_a = poly([t * m_b]), t / gain
     zeros = product(roots(data.numerator, row.numerator_degree))
-    quotient = (data.denominator - m_b * shifted(poly([beta, 1]) * data.numerator, 1)) // poly(
+    quotient = (data.denominator - m_b * shift(poly([beta, 1]) * data.numerator, 1)) // poly(
         [t, beta, 1]
     )
-    raw = cut(m_a * (quotient - shifted(zeros, 2)), 2 * nu + 1)
-    raw = raw if row.grounded else shifted(shifted(raw, -1), 1)
+    raw = cut(m_a * (quotient - shift(zeros, 2)), 2 * nu + 1)
+    raw = raw if row.grounded else shift(shift(raw, -1), 1)
     dampers = tuple(i in row.ground_dampers for i in range(row.a, 0, -1))
-    for b, leaf in friction.behind(
+    for b, leaf in friction.solve_behind(
         friction.Node(raw, zeros, dampers[0], dampers[1:], row.grounded, True)
     ):
         yield _joined(row, leaf, (m_a, m_b), (b, beta * m_b), spring)

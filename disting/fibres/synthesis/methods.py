@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Iterator
 
-from disting.fibres.synthesis.branch import OPEN, Leaf, Receptance, mirrored
-from disting.fibres.synthesis.collocated import collocated, driving_point
+from disting.fibres.synthesis.branch import OPEN, Leaf, Receptance, mirror
 from disting.fibres.synthesis.damped_neighbours import inner_neighbours, serves
 from disting.fibres.synthesis.damped_next_to_end import is_untested, next_to_end
-from disting.fibres.synthesis.ground_dampers_only import adapts, swinging
-from disting.fibres.synthesis.undamped import neighbours, to_end
+from disting.fibres.synthesis.driving_point import collocated_rows, driving_point
+from disting.fibres.synthesis.ground_dampers_only import adapts, swing_rows
+from disting.fibres.synthesis.undamped_rows import neighbours, to_end
 from disting.model.row import Row
 
 Method = Callable[[Row, Receptance], Iterator[Leaf]]
@@ -22,7 +22,7 @@ def synthesise(row: Row, data: Receptance) -> Iterator[Leaf]:
     if method is None:
         yield OPEN
     else:
-        yield from (map(mirrored, method(row.mirrored, data)) if turned else method(row, data))
+        yield from (map(mirror, method(row.mirrored, data)) if turned else method(row, data))
 
 
 def is_covered(row: Row) -> bool:
@@ -42,12 +42,12 @@ def method_of(row: Row) -> Method | None:
     True
     """
     if row.distance == 0:
-        return driving_point if row.ground_dampers else collocated
+        return driving_point if row.ground_dampers else collocated_rows
     if row.damped:
         return _damped(row)
     if row.ground_dampers:
         ends = row.distance == 1 and row.b == row.n_masses
-        return swinging if ends and adapts(row) else None
+        return swing_rows if ends and adapts(row) else None
     if row.b == row.n_masses:
         return to_end
     return neighbours if row.distance == 1 else None
@@ -67,9 +67,9 @@ def _rank(row: Row) -> int:
 
 # cheapest first
 _ORDER = (
-    collocated,
+    collocated_rows,
     driving_point,
-    swinging,
+    swing_rows,
     next_to_end,
     to_end,
     neighbours,

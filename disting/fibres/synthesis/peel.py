@@ -21,7 +21,7 @@ from disting.fibres.synthesis.branch import (
     is_boundary,
     poly,
     roots,
-    shifted,
+    shift,
     vanishes,
 )
 
@@ -77,7 +77,7 @@ def _damped(w: Stiffness) -> Iterator[Leaf]:
         """Zero where z is the spring's."""
         return w.denominator(z) * d - slope(z)
 
-    others = shifted(w.numerator, -low)
+    others = shift(w.numerator, -low)
     for z in roots(others, _degree(w) - low, lambda z: not excess(z).contains(0)):
         if not vanishes(excess(z), slope(z)):
             yield NONZERO
@@ -116,7 +116,7 @@ def _remaining(delta: Poly, rest: Poly, mass: Ball, w: Stiffness) -> Poly:
     at a free end.
     """
     q, nu = w.q, w.masses
-    raw = cut(mass * (delta - mass * shifted(rest, q)), 2 * nu - 1 if q == 2 else nu - 1)
+    raw = cut(mass * (delta - mass * shift(rest, q)), 2 * nu - 1 if q == 2 else nu - 1)
     return raw if w.wall else grounded_at_zero(raw, q)
 
 
@@ -124,4 +124,4 @@ def grounded_at_zero(p: Poly, q: int) -> Poly:
     """p with the coefficients s^0 .. s^(q-1) exactly zero: what a free end feels like in a
     motion of the whole.
     """
-    return shifted(shifted(p, -q), q)
+    return shift(shift(p, -q), q)

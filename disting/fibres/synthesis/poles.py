@@ -21,7 +21,7 @@ from disting.fibres.synthesis.branch import (
     cut,
     product,
     roots,
-    shifted,
+    shift,
     splits,
     vanishes,
 )
@@ -63,7 +63,7 @@ def pole_splits(
         fits = _agree(mine, [0 * h for h in markov][: _decay(grounded, q)]) and _agree(
             mine, markov[: _decay(free, q)]
         )
-        d_free = shifted(product([p.at for p in others]), low)
+        d_free = shift(product([p.at for p in others]), low)
         yield (
             _exact_order(_split(data, mine, d_free, grounded, free, q), grounded, free, q)
             if fits
@@ -75,13 +75,13 @@ def _poles(data: Receptance, low: int, degree: int) -> list[Pole]:
     slope = data.denominator.derivative()
     return [
         Pole(z, data.numerator(z) / slope(z))
-        for z in roots(shifted(data.denominator, -low), degree - low)
+        for z in roots(shift(data.denominator, -low), degree - low)
     ]
 
 
 def _markov(data: Receptance, count: int) -> list[Ball]:
     """h_0 .. of H = sum h_i s^(-i-1), from the long division of s^count N by D."""
-    series = shifted(data.numerator, count) // data.denominator
+    series = shift(data.numerator, count) // data.denominator
     return [series[count - 1 - i] for i in range(count)]
 
 

@@ -16,7 +16,7 @@ from itertools import groupby
 
 import numpy as np
 
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 from disting.fit.search.estimate import (
     Estimate,
     Method,
@@ -199,16 +199,16 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
     texts = [
         digest(__name__),
         method,
-        written(chain),
+        full_text(chain),
         *(part.measured.sensor.value for part in cost.parts),
         *(
-            written((setup, len(p.measured)))
+            full_text((setup, len(p.measured)))
             for setup, p in zip(cost.setups_of(chain.structure), cost.parts, strict=True)
         ),
-        written((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
+        full_text((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),
     ]
-    texts += [written(sorted(task.bounds.items())), written(sorted(task.fixed.items()))]
-    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=written)]
+    texts += [full_text(sorted(task.bounds.items())), full_text(sorted(task.fixed.items()))]
+    texts += [estimate_to_json(helpful[c]) for c in sorted(helpful, key=full_text)]
     return sha256(
         b"\0".join([*(np.ascontiguousarray(a).tobytes() for a in arrays), *map(str.encode, texts)])
     ).hexdigest()
@@ -236,7 +236,7 @@ def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estim
 
 def body(chain: Chain) -> tuple[int, str]:
     """Masses, springs and ports: what candidates that exchange their fits have in common."""
-    return chain.n_masses, written(replace(chain, ground_dampers=(), lag=False, dead_time=False))
+    return chain.n_masses, full_text(replace(chain, ground_dampers=(), lag=False, dead_time=False))
 
 
 def _stage(chain: Chain) -> tuple[int, str, int]:

@@ -82,7 +82,7 @@ def identifiabilities(
 
 def as_given(answer: Identifiability, form: Form, chain: Chain) -> Identifiability:
     """The finding on a canonical form in the names of a chain that has this form."""
-    return renamed(answer, {new: old for old, new in form.renaming.items()}, chain)
+    return rename(answer, {new: old for old, new in form.renaming.items()}, chain)
 
 
 def _canonically(chain: Chain, settings: Settings) -> Identifiability:
@@ -94,7 +94,7 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
     rank_grade = _rank_grade(structure, rank, seen)
     solutions = listing(chain, max(len(t.rows) for t in proof), settings.seed)
     _refuse_contradictions(chain, rank, solutions)
-    level, grade = judged(len(chain.parameters), rank, rank_grade, solutions)
+    level, grade = judge(len(chain.parameters), rank, rank_grade, solutions)
     return Identifiability(
         parameters=chain.parameters,
         rank=rank,
@@ -122,9 +122,7 @@ def _rank_grade(structure: Structure, rank: int, seen: Basis) -> Grade:
     return Certainty.BOUNDED, seen.safety
 
 
-def judged(
-    parameters: int, rank: int, rank_grade: Grade, solutions: Listing
-) -> tuple[Level, Grade]:
+def judge(parameters: int, rank: int, rank_grade: Grade, solutions: Listing) -> tuple[Level, Grade]:
     """Level from rank and listing; GLOBAL only where it is sure that a single solution is the
     only one.
     """
@@ -167,7 +165,7 @@ IDENTIFIABILITY = Question.plain(
 )
 
 
-def renamed(answer: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
+def rename(answer: Identifiability, names: Mapping[str, str], chain: Chain) -> Identifiability:
     """`names` leads from the canonical parameters to those of `chain`, whose order is kept
     everywhere.
     """

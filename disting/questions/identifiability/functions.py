@@ -24,7 +24,7 @@ from disting.algebra.certainty import Size, safety
 from disting.algebra.quotient import matrix
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import expanded
+from disting.behaviour.expansion import expand
 from disting.model.structure import Structure
 from disting.questions.identifiability.parts import Exponents, Formula, monomial
 from disting.questions.identifiability.tangent import (
@@ -115,7 +115,7 @@ class Candidates:
 
     def coefficients(self) -> Iterator[Candidate]:
         """The coefficients of the transfer function, the denominator made monic."""
-        tops, bottoms = (coefficients(part, "s") for part in expanded(self.structure))
+        tops, bottoms = (coefficients(part, "s") for part in expand(self.structure))
         lead = bottoms.pop().to_dict()
         if len(lead) != 1:
             return

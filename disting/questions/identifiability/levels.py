@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass
 from math import ceil, log2
 from typing import Any
 
-from disting.algebra.certainty import Certainty, enough, graded, joint_safety, safety
+from disting.algebra.certainty import Certainty, enough, grade_of, joint_safety, safety
 from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
 from disting.model.presentation import summary
@@ -143,7 +143,7 @@ def local(model: Model, settings: Settings) -> Local:
     seen = list(samples(model, Representation.TF, 0, points, settings.seed))
     rank, columns = identifiable_columns(seen)
     bits = safety(size, len(seen)) - len(seen) - ceil(log2(len(names) + 1))
-    _, left = graded(rank == len(names), bits)
+    _, left = grade_of(rank == len(names), bits)
     return Local(rank, tuple(names[j] for j in columns), left)
 
 
@@ -193,7 +193,7 @@ def by_parameter(
 def joint(safeties: Sequence[int]) -> tuple[Certainty, int]:
     """Grade of what rests on statements of these safeties, 0: proven."""
     bits = joint_safety(s for s in safeties if s)
-    return graded(not any(safeties), bits)
+    return grade_of(not any(safeties), bits)
 
 
 def _rank(seen: Sample, columns: tuple[int, ...]) -> int:

@@ -20,7 +20,7 @@ from flint import fmpz_mat, nmod_mat
 from disting.algebra.certainty import about, prime, residues
 from disting.algebra.quotient import matrix, rational
 from disting.behaviour.chain_model import ChainModel, powers
-from disting.behaviour.sample import Drawn, Representation, at_point, drawn, seen_at
+from disting.behaviour.sample import DrawnPoint, Representation, at_point, draw_point, seen_at
 from disting.model.structure import Structure
 from disting.questions.identifiability.parts import Formula
 
@@ -56,11 +56,12 @@ class Tangent:
         return not any(_dot(gradient, v) % self.modulus for v in self.kernel)
 
 
-def tangent(where: Drawn) -> Tangent:
+def tangent(where: DrawnPoint) -> Tangent:
     """The tangent at a point that was drawn.
 
     >>> from disting.model.chain import Chain
-    >>> found = tangent(drawn(ChainModel(Chain(2, meas_plus=2, damped=False).structure), "doc"))
+    >>> model = ChainModel(Chain(2, meas_plus=2, damped=False).structure)
+    >>> found = tangent(draw_point(model, "doc"))
     >>> found.rank, len(found.kernel)
     (2, 1)
     """
@@ -75,7 +76,7 @@ def tangent(where: Drawn) -> Tangent:
 def proof_tangents(structure: Structure, seed: str, points: int) -> tuple[Tangent, ...]:
     """Independent points, each with its own prime: for statements with an error bound."""
     model = ChainModel(structure)
-    return tuple(tangent(drawn(model, f"identifiability:{seed}:{k}")) for k in range(points))
+    return tuple(tangent(draw_point(model, f"identifiability:{seed}:{k}")) for k in range(points))
 
 
 def search_tangents(structure: Structure, seed: str, count: int) -> Iterator[Tangent]:

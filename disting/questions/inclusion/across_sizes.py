@@ -46,10 +46,10 @@ from disting.model.family import Family
 from disting.model.question import Answerer, Settings
 from disting.model.row import Row, canonical_rows
 from disting.model.symmetry import Form, canonical
-from disting.questions.inclusion.limit_fibre import contained
-from disting.questions.inclusion.limits import follows, reached, room
+from disting.questions.inclusion.limit_fibre import find_contained
+from disting.questions.inclusion.limits import follows, reach, room
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
-from disting.questions.inclusion.profiles import by_elements, exceed, ordered
+from disting.questions.inclusion.profiles import by_elements, exceed, order
 from disting.questions.same.exact import rational_part, theorem
 
 REMEMBERED = 1024  # chains whose twins are kept
@@ -115,7 +115,7 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
         safety = exclusion_safety(large) if len(points) > 1 else 0
         grade = Certainty.BOUNDED if safety else Certainty.PROVEN
         return InclusionFinding(Inclusion.NEITHER, grade, safety, PoleSharing(False, label, points))
-    inside = contained(small, large, settings.seed)
+    inside = find_contained(small, large, settings.seed)
     if inside is None:
         return InclusionFinding(
             Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
@@ -187,10 +187,10 @@ def refuted(small: ChainSide, large: ChainSide, left_is_larger: bool) -> Inclusi
     """
     first, second = small.canonical.chain, large.canonical.chain
     if exceeds(first, second):
-        counts = Counts(*ordered(degrees_of(first), degrees_of(second), not left_is_larger))
+        counts = Counts(*order(degrees_of(first), degrees_of(second), not left_is_larger))
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
     if small.rank >= large.rank:
-        ranks = TooLarge(*ordered(small.rank, large.rank, not left_is_larger))
+        ranks = TooLarge(*order(small.rank, large.rank, not left_is_larger))
         safety = large.profile(Representation.TF, 0).safety
         return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, safety, ranks)
     return None
@@ -215,7 +215,7 @@ def _row_limit(name: str, row: Row, wanted: str, target: Row, counting: bool) ->
     """A way from one row to the other, each of its limits an identity; limits of elements alone
     first.
     """
-    ways = reached(row)
+    ways = reach(row)
     if target in ways and target in follows(row, ways[target]):
         return RowLimit(name, wanted, ways[target])
     for below, steps in ways.items() if counting else ():

@@ -29,7 +29,7 @@ from dataclasses import replace
 
 from disting.algebra.certainty import about, joint_safety
 from disting.evidence.limits import SUPPORTS, WHOLE, Outside, RowsInside
-from disting.fibres.ideals import normalised
+from disting.fibres.ideals import normalise
 from disting.fibres.ideals.splits import (
     SAME,
     gap,
@@ -44,15 +44,15 @@ from disting.model.chain import Chain, Sensor
 from disting.model.row import FREE, canonical_rows
 from disting.model.structure import Structure
 from disting.questions.inclusion.row_closures import (
-    Shown,
-    Wanted,
+    Proof,
+    Task,
     as_large,
     by_dimension,
     holds,
-    shown,
+    show,
 )
 
-Told = tuple[Wanted, Shown | None]
+Told = tuple[Task, Proof | None]
 """A row, and what settles it at little cost."""
 
 
@@ -71,7 +71,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
         return None
     label = about(seed, small)
     splits = [
-        [(wanted, shown(wanted, label)) for wanted in some]
+        [(wanted, show(wanted, label)) for wanted in some]
         for some in _by_split(structure, other, large).values()
     ]
     for rows in splits:
@@ -87,7 +87,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
     return Outside(True, tuple(proof.step for proof in against)), bits
 
 
-def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Shown] | None:
+def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Proof] | None:
     """What refutes one row of every split, by ideals only where nothing else does; None if a split
     has no such row.
     """
@@ -159,14 +159,14 @@ def _covered(structure: Structure, other: Structure, label: str) -> bool:
     )
 
 
-def _by_split(structure: Structure, other: Structure, large: Chain) -> dict[str, list[Wanted]]:
+def _by_split(structure: Structure, other: Structure, large: Chain) -> dict[str, list[Task]]:
     rows, own_rows = canonical_rows(large.structure), canonical_rows(structure)
     if gap(other) == 0:
-        wanted, searched = normalised(structure), normalised(other)
+        wanted, searched = normalise(structure), normalise(other)
         return {
             WHOLE: (
                 [
-                    Wanted(
+                    Task(
                         split=WHOLE,
                         name=WHOLE,
                         receptance=wanted,
@@ -182,7 +182,7 @@ def _by_split(structure: Structure, other: Structure, large: Chain) -> dict[str,
     for split in splits(structure, gap(other)):
         pairs = zip(split.receptances.named, receptances(other).named, strict=True)
         ways[split.name] = [
-            Wanted(
+            Task(
                 split=split.name,
                 name=name,
                 receptance=wanted,

@@ -29,7 +29,7 @@ from disting.evidence.limits import (
     RowsInside,
 )
 from disting.evidence.model_samples import POINTS
-from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalised
+from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalise
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
@@ -45,7 +45,7 @@ from disting.questions.inclusion.closures import confirms_rows
 from disting.questions.inclusion.limit_fibre import contains
 from disting.questions.inclusion.limits import Room, follows, room
 from disting.questions.inclusion.pole_sharing import excludes
-from disting.questions.inclusion.profiles import confirms_missing, exceed, ordered
+from disting.questions.inclusion.profiles import confirms_missing, exceed, order
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part
 
@@ -63,7 +63,7 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
     left_is_smaller = (a.n_masses, left.rank) < (b.n_masses, right.rank)
     match evidence:
         case Counts() if of_one_size:
-            small, large = ordered(evidence.left, evidence.right, left_is_smaller)
+            small, large = order(evidence.left, evidence.right, left_is_smaller)
             return exceed(small, large) and fresh.confirms(evidence, "tf", a, b)
         case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre() | Counts():
             return not of_one_size and _across_sizes(evidence, left, right)
@@ -74,7 +74,7 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
         case DeadTime():
             return (a.dead_time, b.dead_time) == (evidence.left_given, not evidence.left_given)
         case LargerProjection():
-            first, second = ordered(evidence.left, evidence.right, left_is_smaller)
+            first, second = order(evidence.left, evidence.right, left_is_smaller)
             return first > second and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
         case FullImage():
             larger, free = (a if evidence.left_is_larger else b), evidence.free
@@ -82,7 +82,7 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
             return same and fresh.confirms(FreeChoice(evidence.rank, free), "tf", larger, larger)
         case RelativeDegrees():
             larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
-            degrees = ordered(evidence.left, evidence.right, not evidence.left_is_larger)
+            degrees = order(evidence.left, evidence.right, not evidence.left_is_larger)
             is_turned = evidence.left_is_larger != left_is_smaller
             return is_turned and _fall_apart(smaller, larger, *degrees)
         case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():
@@ -118,7 +118,7 @@ def _across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainS
     smaller, larger = small.canonical.chain, large.canonical.chain
     match evidence:
         case Counts():
-            same = (evidence.left, evidence.right) == ordered(
+            same = (evidence.left, evidence.right) == order(
                 degrees_of(smaller), degrees_of(larger), not left_is_larger
             )
             return same and exceeds(smaller, larger) and fewer_poles(smaller, larger)
@@ -182,7 +182,7 @@ def _is_large(evidence: Refuted, a: Chain, b: Chain) -> bool:
 
 def _refuted_again(a: Chain, b: Chain, evidence: Refuted) -> bool:
     """Whether the decision is the same at fresh points and primes."""
-    coordinates = normalised if evidence.is_normalised else coefficient_map
+    coordinates = normalise if evidence.is_normalised else coefficient_map
     chain, other = (
         coordinates(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a))
     )

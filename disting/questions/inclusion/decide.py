@@ -40,7 +40,7 @@ from disting.fibres.ideals import (
     coefficient_map,
     decide as decide_ideal,
     included_by_rows,
-    normalised,
+    normalise,
 )
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question, Settings
@@ -173,7 +173,7 @@ def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
     """The model of the smaller rank searched in the other by the ideal of one fibre."""
     structures = (rational_part(small), rational_part(large))
     reason = ""
-    for coordinates in (normalised, coefficient_map):
+    for coordinates in (normalise, coefficient_map):
         whole = decide_ideal(
             *map(coordinates, structures),
             equal_rank=False,
@@ -181,7 +181,7 @@ def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
             limits=INCLUSION_LIMITS,
         )
         if whole.evidence is not None and whole.safety >= INCLUSION_LIMITS.safety:
-            evidence = replace(whole.evidence, is_normalised=coordinates is normalised)
+            evidence = replace(whole.evidence, is_normalised=coordinates is normalise)
             return _read(whole.membership, whole.safety, evidence)
         reason = whole.reason
     unknown = InclusionFinding(

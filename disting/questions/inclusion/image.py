@@ -23,7 +23,7 @@ from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.behaviour.chain_model import powers
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.ideals import Refuted
-from disting.fibres.ideals import Limits, decide, normalised, refuted_by_rows
+from disting.fibres.ideals import Limits, decide, normalise, refuted_by_rows
 from disting.fibres.synthesis.decide import (
     DRAWS,
     member,
@@ -71,7 +71,7 @@ def _by_ideal(
     small: Chain, large: Chain, settings: Settings, otherwise: InclusionFinding
 ) -> InclusionFinding:
     """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
-    maps = (normalised(rational_part(c)) for c in (small, large))
+    maps = (normalise(rational_part(c)) for c in (small, large))
     decided = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
     if not isinstance(decided.evidence, Refuted) or decided.safety < LEAST_SAFETY:
         return otherwise

@@ -24,7 +24,7 @@ from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
 from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
-from disting.questions.inclusion.limits import Step, follows, least_rank, most_rank, reached
+from disting.questions.inclusion.limits import Step, follows, least_rank, most_rank, reach
 
 LIMITS = Limits(seconds=60.0, entries=30_000, safety=104)  # of the ideal of one fibre
 MODELS = 12  # that are tried for a pair
@@ -42,7 +42,7 @@ class Contained:
     safety: int
 
 
-def contained(small: Chain, large: Chain, seed: str) -> Contained | None:
+def find_contained(small: Chain, large: Chain, seed: str) -> Contained | None:
     """A way from the larger chain to models among which those of the smaller one are; None if
     none is found.
     """
@@ -101,7 +101,7 @@ def joined(rows: Sequence[Row]) -> Structure:
 def _results(target: Structure, large: Chain) -> Iterator[tuple[RowSteps, tuple[Row, ...]]]:
     """Limits of the rows with the powers of s of the smaller chain and at least its rank."""
     ways = [
-        [(name, below, path) for below, path in reached(row).items()]
+        [(name, below, path) for below, path in reach(row).items()]
         for name, row in canonical_rows(large.structure).items()
     ]
     for chosen in (

@@ -43,7 +43,7 @@ from functools import lru_cache
 
 from disting.algebra.symbols import Polynomial, coefficients, symbols
 from disting.behaviour.chain_model import ChainModel, Powers, powers
-from disting.behaviour.sample import Representation, drawn, seen_at
+from disting.behaviour.sample import Representation, draw_point, seen_at
 from disting.behaviour.transfer import plain_receptance
 from disting.model.row import Row, rows_of
 from disting.model.structure import Damper, Element, GroundDamper, Mass, Spring, Structure
@@ -103,7 +103,9 @@ def most_rank(structure: Structure) -> int:
 
 
 def _rank_at(structure: Structure, label: str) -> int:
-    return int(seen_at(drawn(ChainModel(structure), label), Representation.TF, 0).jacobian.rank())
+    return int(
+        seen_at(draw_point(ChainModel(structure), label), Representation.TF, 0).jacobian.rank()
+    )
 
 
 def _same_mass(small: Structure, large: Structure) -> bool:
@@ -142,10 +144,10 @@ class Specialised:
         return self.element.parameter, self.limit
 
 
-def specialised(row: Row) -> Iterator[Specialised]:
+def specialise(row: Row) -> Iterator[Specialised]:
     """Yield every row that one limit of one element leads to.
 
-    >>> sorted(s.step for s in specialised(Row(2, False, 1, 1)))
+    >>> sorted(s.step for s in specialise(Row(2, False, 1, 1)))
     [('k12', '0'), ('k12', '∞'), ('m2', '∞')]
     """
     n = row.n_masses
@@ -164,14 +166,14 @@ def specialised(row: Row) -> Iterator[Specialised]:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def reached(row: Row) -> dict[Row, tuple[Step, ...]]:
+def reach(row: Row) -> dict[Row, tuple[Step, ...]]:
     """All canonical rows that limits of a canonical row lead to, itself included, each with a
     shortest way there.
     """
     ways: dict[Row, tuple[Step, ...]] = {row: ()}
     level = [row]
     while level:
-        ends = [(s.row.canonical, (*ways[at], s.step)) for at in level for s in specialised(at)]
+        ends = [(s.row.canonical, (*ways[at], s.step)) for at in level for s in specialise(at)]
         level = []
         for below, steps in ends:
             if below not in ways:
@@ -184,7 +186,7 @@ def follows(row: Row, steps: tuple[Step, ...]) -> set[Row]:
     """The canonical rows that these steps lead to, each limit proven as an identity."""
     rows = {row}
     for step in steps:
-        ends = [(at, s) for at in rows for s in specialised(at) if s.step == step]
+        ends = [(at, s) for at in rows for s in specialise(at) if s.step == step]
         rows = {s.row.canonical for at, s in ends if is_limit(at, s)}
     return rows
 
@@ -194,7 +196,7 @@ def is_limit(row: Row, s: Specialised) -> bool:
     """N_1/D_1 or N_0/D_0 against the new row's transfer function: an identity of polynomials in s
     and all parameters.
 
-    >>> all(is_limit(row, s) for row in (Row(2, False, 1, 1),) for s in specialised(row))
+    >>> all(is_limit(row, s) for row in (Row(2, False, 1, 1),) for s in specialise(row))
     True
     """
     moved = _moved(row, s)

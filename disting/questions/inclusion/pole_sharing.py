@@ -43,7 +43,7 @@ from disting.questions.inclusion.profiles import row_falls
 from disting.questions.inclusion.row_equations import RowEquation, equation_safety, row_equation
 from disting.questions.inclusion.split_poles import (
     Split,
-    accelerated,
+    accelerate,
     model_at,
     poles_of,
     polynomial_of,
@@ -111,7 +111,7 @@ def excludes(small: Chain, large: Chain, label: str, points: Points) -> bool:
     """Whether these parameters of the smaller chain refute its inclusion, all of them if there
     is more than one.
     """
-    count = len(accelerated(small).parameters)
+    count = len(accelerate(small).parameters)
     if (
         not _covered(small, large)
         or len(points) not in (1, TRIALS)

@@ -113,14 +113,14 @@ def by_profiles(
 ) -> InclusionFinding | None:
     """What degrees, ranks of projections and a full image settle; None if nothing."""
     if exceed(small.degrees, large.degrees):
-        counts = Counts(*ordered(small.degrees, large.degrees, left_is_smaller))
+        counts = Counts(*order(small.degrees, large.degrees, left_is_smaller))
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
     if small.degrees[1::2] != large.degrees[1::2]:
         return None
     safety = min(small.safety, large.safety) - 1
     rows = _larger_rows(small, large)
     if rows is not None:
-        ranks = ordered(_rank(small, rows), _rank(large, rows), left_is_smaller)
+        ranks = order(_rank(small, rows), _rank(large, rows), left_is_smaller)
         return InclusionFinding(
             Inclusion.NEITHER, Certainty.BOUNDED, safety, LargerProjection(rows, *ranks)
         )
@@ -213,6 +213,6 @@ def inside(left_is_smaller: bool) -> Inclusion:
     return Inclusion.LEFT_IN_RIGHT if left_is_smaller else Inclusion.RIGHT_IN_LEFT
 
 
-def ordered(small: T, large: T, left_is_smaller: bool) -> tuple[T, T]:
+def order(small: T, large: T, left_is_smaller: bool) -> tuple[T, T]:
     """Both in the pair's order."""
     return (small, large) if left_is_smaller else (large, small)

@@ -24,9 +24,9 @@ from disting.algebra.certainty import LEAST_SAFETY, prime, residues
 from disting.behaviour.chain_model import powers
 from disting.evidence.limits import RowLimits, Why
 from disting.fibres.ideals import CoefficientMap, Limits, decide
-from disting.fibres.ideals.factored import factored
+from disting.fibres.ideals.factored_map import row_factors
 from disting.fibres.ideals.fibre_ideal import generic_rank, sides_at
-from disting.fibres.ideals.shares import may_share, told_apart
+from disting.fibres.ideals.shares import may_share, tell_apart
 from disting.model.question import Membership
 from disting.model.row import Row
 from disting.questions.inclusion.row_equations import equation_safety, label_of, row_equation
@@ -48,7 +48,7 @@ Support = tuple[frozenset[int], frozenset[int]]
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class Task:
     """A receptance wanted of a row of the larger chain in one split, with the map and the row that
     are there; `name`: "grounded", "free", "whole". `own`: the row whose receptance it is, if any.
     """
@@ -61,32 +61,32 @@ class Wanted:
     own: Row | None = None
 
 
-class Shown(NamedTuple):
+class Proof(NamedTuple):
     """A step with the bits of its error bound, 0: proven."""
 
     step: RowLimits
     safety: int
 
 
-def shown(wanted: Wanted, label: str) -> Shown | None:
+def show(wanted: Task, label: str) -> Proof | None:
     """What settles a row at little cost, the cheapest first; None if nothing does."""
     named = f"{label}:{label_of(wanted.row)}"
     finding = next(filter(None, (test(wanted, named) for test in _TESTS)), None)
     if finding is None:
         return None
     bits = _safety(wanted.row) if finding[0] is Why.EQUATION else 0
-    return Shown(RowLimits(wanted.split, wanted.name, *finding), bits)
+    return Proof(RowLimits(wanted.split, wanted.name, *finding), bits)
 
 
-def by_dimension(wanted: Wanted, seed: str) -> Shown | None:
+def by_dimension(wanted: Task, seed: str) -> Proof | None:
     """Whether rows of one dimension differ, by ideals: up to some seconds; None if nothing is
     found.
     """
     step = _dimension(wanted, seed)
-    return step and Shown(RowLimits(wanted.split, wanted.name, *step), SAFETY)
+    return step and Proof(RowLimits(wanted.split, wanted.name, *step), SAFETY)
 
 
-def as_large(wanted: Wanted) -> bool:
+def as_large(wanted: Task) -> bool:
     """Whether what is wanted has the largest rank that the row could have, and the row has it."""
     most = _most_rank(wanted.searched)
     return most == generic_rank(wanted.searched, RANKS) and most == _rank_of_function(
@@ -94,7 +94,7 @@ def as_large(wanted: Wanted) -> bool:
     )
 
 
-def holds(step: RowLimits, wanted: Wanted) -> bool:
+def holds(step: RowLimits, wanted: Task) -> bool:
     """Whether a step holds at fresh points; an equation, or that rows differ, is found again."""
     if step.why is Why.COEFFICIENT:
         pairs = zip("ba", _support(wanted.receptance), _support(wanted.searched), strict=True)
@@ -108,17 +108,17 @@ def holds(step: RowLimits, wanted: Wanted) -> bool:
     return _OF[step.why](wanted, "verify") == (step.why, step.detail)
 
 
-def _inside(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+def _inside(wanted: Task, label: str) -> tuple[Why, str] | None:
     return (Why.INSIDE, "") if wanted.receptance == wanted.searched else None
 
 
-def _coefficient(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+def _coefficient(wanted: Task, label: str) -> tuple[Why, str] | None:
     pairs = zip("ba", _support(wanted.receptance), _support(wanted.searched), strict=True)
     more = [f"{letter}{i}" for letter, own, others in pairs for i in sorted(own - others)]
     return (Why.COEFFICIENT, more[-1]) if more else None
 
 
-def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+def _full(wanted: Task, label: str) -> tuple[Why, str] | None:
     if _coefficient(wanted, label) is not None:
         return None
     missing = _coordinates(wanted.searched) - generic_rank(wanted.searched, RANKS)
@@ -127,11 +127,11 @@ def _full(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     return (Why.MOMENTUM, "") if missing == 1 and _keeps_momentum(wanted) else None
 
 
-def _dimension(wanted: Wanted, seed: str, bits: int = SAFETY) -> tuple[Why, str] | None:
+def _dimension(wanted: Task, seed: str, bits: int = SAFETY) -> tuple[Why, str] | None:
     if not as_large(wanted):
         return None
     own, most = wanted.own, _most_rank(wanted.searched)
-    if own is not None and own.damped and may_share(factored(own), factored(wanted.row)):
+    if own is not None and own.damped and may_share(row_factors(own), row_factors(wanted.row)):
         differ = _differ_by_shares(own, wanted.row, seed, bits)
     else:
         differ = _differ_by_ideals(wanted.receptance, wanted.searched, seed, bits)
@@ -141,7 +141,7 @@ def _dimension(wanted: Wanted, seed: str, bits: int = SAFETY) -> tuple[Why, str]
 @lru_cache(maxsize=REMEMBERED)
 def _differ_by_shares(row: Row, searched: Row, seed: str, bits: int) -> bool:
     """Whether two rows of one dimension differ; many pairs of chains ask about the same two."""
-    apart = told_apart(factored(row), factored(searched), seed)
+    apart = tell_apart(row_factors(row), row_factors(searched), seed)
     return apart is not None and apart[1] >= bits
 
 
@@ -155,7 +155,7 @@ def _differ_by_ideals(
     return decided.membership is Membership.EXCLUDED and decided.safety >= bits
 
 
-def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+def _resultant(wanted: Task, label: str) -> tuple[Why, str] | None:
     modulus = prime(label)
     coefficients = _at(wanted.receptance, label, modulus)
     labels = (f"{label}:{k}" for k in range(DRAWS))
@@ -166,7 +166,7 @@ def _resultant(wanted: Wanted, label: str) -> tuple[Why, str] | None:
     return (Why.RESULTANT, "") if any(resultants) or are_no_limits(wanted.row, drawn) else None
 
 
-def _equation(wanted: Wanted, label: str) -> tuple[Why, str] | None:
+def _equation(wanted: Task, label: str) -> tuple[Why, str] | None:
     if (
         wanted.row.n_masses > LARGEST_ROW
         or _coefficient(wanted, label) is not None
@@ -199,7 +199,7 @@ def _coordinates(model: CoefficientMap) -> int:
     return sum(map(len, _support(model))) - 1
 
 
-def _keeps_momentum(wanted: Wanted) -> bool:
+def _keeps_momentum(wanted: Task) -> bool:
     """Whether a_0 = a_1 = 0 and a_2 b_1 = a_3 b_0 hold in both identically, none of the four
     being zero in what is there.
     """
@@ -224,7 +224,7 @@ def _at(model: CoefficientMap, label: str, modulus: int) -> tuple[list[int], lis
     return sides_at(model, residues(label, len(model.parameters), modulus), modulus)
 
 
-def _does_not_vanish(wanted: Wanted, label: str) -> bool:
+def _does_not_vanish(wanted: Task, label: str) -> bool:
     """Whether the row's equation of this label does not hold at a random point of what is
     wanted.
     """

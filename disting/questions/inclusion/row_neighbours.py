@@ -40,7 +40,7 @@ refutes limits, without any chance. That n is irreducible is seen modulo a prime
 
 from collections.abc import Iterable
 
-from disting.algebra.determinants import Modular, interpolated, polynomial, resultant
+from disting.algebra.determinants import Modular, interpolate, polynomial, resultant
 from disting.model.row import Row
 from disting.questions.inclusion.row_resultants import end_equation
 
@@ -93,7 +93,7 @@ def _has_no_common_root(n: Modular, energy: Modular, t: int) -> bool:
     except ZeroDivisionError:
         return False
     first, second = (
-        polynomial(interpolated(side, modulus), modulus)
+        polynomial(interpolate(side, modulus), modulus)
         for side in ([v for v, _ in values[: e + 1]], [v for _, v in values])
     )
     return bool(resultant(first, second, e, degree))

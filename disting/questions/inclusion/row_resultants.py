@@ -75,7 +75,7 @@ others. Where R_e = 0, its value is that on the line R + t x^e at t = 0.
 from itertools import combinations
 from math import comb
 
-from disting.algebra.determinants import Modular, interpolated, polynomial, resultant
+from disting.algebra.determinants import Modular, interpolate, polynomial, resultant
 from disting.algebra.groebner.modular import matrix
 from disting.model.row import Row
 
@@ -155,7 +155,7 @@ def _sums(r: list[int], size: int, power: int, modulus: int) -> int:
     if r[-1]:
         return _product_of_sums(r, size, modulus) * pow(r[-1], power, modulus) % modulus
     values = [_sums([*r[:-1], t], size, power, modulus) for t in range(1, power + 2)]
-    return int(polynomial(interpolated(values, modulus), modulus)(-1))
+    return int(polynomial(interpolate(values, modulus), modulus)(-1))
 
 
 def _product_of_sums(r: list[int], size: int, modulus: int) -> int:
@@ -182,4 +182,4 @@ def _in_x(n: Modular, d: Modular, e: int, power: int, modulus: int) -> list[int]
     """Coefficients of R, interpolated."""
     t = n.derivative().left_shift(power) - e * n.left_shift(power - 1)
     top = e + power - 2
-    return interpolated([resultant(n, x * t - d, e, top) for x in range(e + 1)], modulus)
+    return interpolate([resultant(n, x * t - d, e, top) for x in range(e + 1)], modulus)

@@ -29,7 +29,7 @@ class Split:
 @lru_cache(maxsize=REMEMBERED)
 def split_model(chain: Chain, label: str) -> Split | None:
     """The first point of a sequence at which all poles lie in the prime field and are distinct."""
-    modulus, count = prime(label), len(accelerated(chain).parameters)
+    modulus, count = prime(label), len(accelerate(chain).parameters)
     points = (tuple(residues(f"{label}:{k}:{chain}", count, modulus)) for k in range(ATTEMPTS))
     return next(
         (model for point in points if (model := model_at(chain, point, modulus)) is not None), None
@@ -40,14 +40,14 @@ def model_at(chain: Chain, point: tuple[int, ...], modulus: int) -> Split | None
     """The model at a point; None where poles coincide, lie elsewhere, or are fewer than they
     should be.
     """
-    q = quotient(accelerated(chain).structure, list(point), modulus)
+    q = quotient(accelerate(chain).structure, list(point), modulus)
     n, d = (_in_steps(p, step_of(chain), modulus) for p in (q.num, q.den))
     factors = tuple(f for f, _ in d.factor()[1])
     distinct = len(factors) == d.degree() == poles_of(chain) and all(int(f[0]) for f in factors)
     return Split(n, factors, point) if distinct and int(n[0]) else None
 
 
-def accelerated(chain: Chain) -> Chain:
+def accelerate(chain: Chain) -> Chain:
     """With a sensor of acceleration, whose transfer function is n/d'; without dead time."""
     return replace(chain, sensor=Sensor.ACCELERATION, dead_time=False)
 
@@ -65,7 +65,7 @@ def polynomial_of(coefficients: list[int], modulus: int) -> Modular:
 
 def poles_of(chain: Chain) -> int:
     """Number of poles other than 0, as a function of t."""
-    return degrees(accelerated(chain).structure)[1] // step_of(chain)
+    return degrees(accelerate(chain).structure)[1] // step_of(chain)
 
 
 def step_of(chain: Chain) -> int:

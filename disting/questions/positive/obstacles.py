@@ -48,7 +48,7 @@ from math import inf
 
 from flint import acb, ctx
 
-from disting.fibres.synthesis.branch import Ball, Imprecise, roots, shifted
+from disting.fibres.synthesis.branch import Ball, Imprecise, roots, shift
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.task import Point, Target, target
 from disting.model.chain import Chain
@@ -154,7 +154,7 @@ def _residues(t: Target, low: int) -> list[Ball]:
     """Residues at the non-zero poles; s^low divides the denominator."""
     data, degree = t.balls, t.denominator.degree() - low
     slope = data.denominator.derivative()
-    return [data.numerator(z) / slope(z) for z in roots(shifted(data.denominator, -low), degree)]
+    return [data.numerator(z) / slope(z) for z in roots(shift(data.denominator, -low), degree)]
 
 
 def is_collocated(chain: Chain) -> bool:

@@ -77,13 +77,13 @@ def random_point(chain: Chain, label: str, ranges: Mapping[str, Range] | None = 
     }
 
 
-def spelled(point: Point) -> PointText:
+def spell(point: Point) -> PointText:
     """A point as text."""
     return tuple((name, str(value)) for name, value in point.items())
 
 
 def read(values: PointText) -> Point:
-    """Inverse of `spelled`."""
+    """Inverse of `spell`."""
     return {name: fraction(value) for name, value in values}
 
 

@@ -20,8 +20,8 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, graded
-from disting.algebra.content import written
+from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, grade_of
+from disting.algebra.content import full_text
 from disting.errors import InputError, shown
 from disting.evidence.decision import Excluded
 from disting.evidence.positive import BoxMap, Empirical, Points, PositiveFinding, Share
@@ -42,7 +42,7 @@ from disting.questions.positive.points import (
     is_long,
     random_point,
     read,
-    spelled,
+    spell,
 )
 from disting.questions.positive.shares import is_plain, positive_finding, refuse
 
@@ -144,7 +144,7 @@ def _sampled(chain: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
     points = [random_point(chain, f"ranges:{seed}:{k}", limits.chain) for k in range(tries)]
     answers = [equivalent_within(chain, point, other, limits.other) for point in points]
     empirical = Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))
-    label, length = f"{seed}:{written(chain)}:{written(other)}:{written(limits)}", bits(other)
+    label, length = f"{seed}:{full_text(chain)}:{full_text(other)}:{full_text(limits)}", bits(other)
 
     def near(wanted: Answer) -> Iterator[Point]:
         """Long points near the first places of this answer."""
@@ -159,7 +159,7 @@ def _sampled(chain: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
         for without in near(Answer.NO):
             grade = _lacks_piece(chain, without, other, limits)
             if grade is not None:
-                evidence = Points(spelled(with_one), spelled(without))
+                evidence = Points(spell(with_one), spell(without))
                 return PositiveFinding(Share.SOMETIMES, *grade, evidence, empirical)
     return PositiveFinding(
         Share.UNKNOWN,
@@ -190,7 +190,7 @@ def _lacks_piece(chain: Chain, point: Point, other: Chain, limits: Ranges) -> Gr
     """
     if equivalent_within(chain, point, other, limits.other) is not Answer.NO:
         return None
-    return graded(not other.damped and equivalent(chain, point, other) is Answer.NO, LEAST_SAFETY)
+    return grade_of(not other.damped and equivalent(chain, point, other) is Answer.NO, LEAST_SAFETY)
 
 
 def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:

@@ -8,11 +8,11 @@ pairs of real roots make up any even number.
 Rows. A row of n nodes with ports a <= b has N = nu A B, A and B real of degrees a - 1 and n - b.
 Conversely let N/D be the receptance of a generic real row of the same n and b - a, and N have a
 real factor of degree a - 1. Then there is a real row:
-  - b = a: both sides are rational in the coefficients of A, B and D (see `synthesis.collocated`).
+  - b = a: both sides are rational in the coefficients of A, B, D (see `synthesis.driving_point`).
   - b = a + 1: so they are in those of A, B, Theta, Phi and kappa, where D + kappa N = Theta Phi,
-    Theta of degree a (see `synthesis.undamped`). Theta needs a real root of D + kappa N at most,
-    and kappa = -D(x)/N(x) makes any real x one.
-  - b = n: A = N/nu, and real tau_i can be chosen (see `synthesis.undamped`). a = 1: the mirror
+    Theta of degree a (see `synthesis.undamped_rows`). Theta needs a real root of D + kappa N at
+    most, and kappa = -D(x)/N(x) makes any real x one.
+  - b = n: A = N/nu, and real tau_i can be chosen (see `synthesis.undamped_rows`). a = 1: the mirror
     image of that; at the wall the reversed row (see `synthesis.foster`): its masses t^2 s_i^2 and
     springs are rational, for s_i^2 and s_a s_b J_(a,a+1) .. J_(b-1,b) hold even powers of the
     off-diagonal elements of J alone; t^2 may be any real number.
@@ -47,15 +47,15 @@ from collections.abc import Iterator
 from flint import acb, ctx
 
 from disting.algebra.certainty import residues
-from disting.algebra.content import written
+from disting.algebra.content import full_text
 from disting.evidence.kind import PointText
-from disting.fibres.synthesis.branch import Ball, Imprecise, Poly, product, roots, shifted, splits
+from disting.fibres.synthesis.branch import Ball, Imprecise, Poly, product, roots, shift, splits
 from disting.fibres.synthesis.task import Point, Target, target
 from disting.fibres.synthesis.theorems import is_plain
 from disting.model.chain import Chain
 from disting.model.row import Row
 from disting.questions.positive.obstacles import distances, is_collocated, receptances, rows
-from disting.questions.positive.points import random_point, read, spelled
+from disting.questions.positive.points import random_point, read, spell
 
 TRIES = 1000  # points of mixed signs, a millisecond each; seldom are more than a few needed
 BITS = 192
@@ -87,9 +87,9 @@ def real_witness(chain: Chain, other: Chain, seed: str) -> PointText:
     plain = is_plain(chain) and is_plain(other) and chain.n_masses == other.n_masses
     if not plain or always_real(chain, other):
         return ()
-    label = f"real:{seed}:{written(chain)}:{written(other)}"
+    label = f"real:{seed}:{full_text(chain)}:{full_text(other)}"
     points = (_signed(random_point(chain, f"{label}:{k}"), f"{label}:{k}") for k in range(TRIES))
-    return next((spelled(p) for p in points if lacks_real(chain, p, other)), ())
+    return next((spell(p) for p in points if lacks_real(chain, p, other)), ())
 
 
 def confirms_real(values: PointText, chain: Chain, other: Chain) -> bool:
@@ -145,7 +145,7 @@ def _shared(whole: Target, grounded: Row, free: Row) -> Iterator[list[Factor]]:
     slope = data.denominator.derivative()
     poles = [
         (z, data.numerator(z) / slope(z))
-        for z in roots(shifted(data.denominator, -1), whole.denominator.degree() - 1)
+        for z in roots(shift(data.denominator, -1), whole.denominator.degree() - 1)
     ]
     still = (acb(0), data.numerator[0] / slope[0])
     for mine, others in splits(poles, grounded.n_masses):

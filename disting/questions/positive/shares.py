@@ -52,7 +52,7 @@ from disting.questions.positive.obstacles import (
     rows,
     swap_fails,
 )
-from disting.questions.positive.points import equivalent, random_point, spelled
+from disting.questions.positive.points import equivalent, random_point, spell
 from disting.questions.positive.undamped_rows import Words, words
 
 TRIES = 100  # random points of undamped models, 1 ms each
@@ -194,7 +194,7 @@ def _never(chain: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
     point = rational_point(chain, about(f"positivity:{seed}", chain, other), point_bits(other))
     if swap_fails(chain, other) and only_rows_sum_to_zero(chain, point, 2 * other.gap):
         yield PositiveFinding(
-            Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spelled(point))
+            Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spell(point))
         )
     finding = member(chain, other, seed)
     if finding.membership is Membership.EXCLUDED:
@@ -202,7 +202,7 @@ def _never(chain: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
             Share.NEVER,
             Certainty.BOUNDED,
             safety_of_point(other),
-            EmptyFibre(spelled(finding.point)),
+            EmptyFibre(spell(finding.point)),
         )
 
 
@@ -212,5 +212,5 @@ def _sampled(
     """The first point of each answer, and how many had which."""
     points = [random_point(chain, f"{seed}:{k}") for k in range(tries)]
     answers = [equivalent(chain, point, other) for point in points]
-    first = {answer: spelled(points[answers.index(answer)]) for answer in answers}
+    first = {answer: spell(points[answers.index(answer)]) for answer in answers}
     return first, Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expanded import is_renaming
+from disting.behaviour.expansion import is_renaming
 from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
@@ -16,13 +16,13 @@ from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
     MOST,
-    chains_told_apart,
     coefficient_map,
-    matched,
-    normalised,
+    find_again,
+    match_maps,
+    normalise,
     refuted_at,
     same_by_full_rows,
-    seen_again,
+    tell_chains_apart,
 )
 from disting.fibres.synthesis.decide import Grounds
 from disting.fibres.synthesis.fibre import fibre
@@ -85,8 +85,8 @@ def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
         case Shared():
             return _shares(evidence, a, b)
         case Solved() | Refuted():
-            coordinates = normalised if evidence.is_normalised else coefficient_map
-            return seen_again(
+            coordinates = normalise if evidence.is_normalised else coefficient_map
+            return find_again(
                 evidence, coordinates(rational_part(a)), coordinates(rational_part(b))
             )
         case BothWays():
@@ -138,7 +138,7 @@ def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
 def _shares(evidence: Shared, a: Chain, b: Chain) -> bool:
     """Every share refuted once more, at a fresh point, in the same direction."""
     tries = [(evidence.left_given, MOST)]
-    again = chains_told_apart(rational_part(a), rational_part(b), "verify", tries)
+    again = tell_chains_apart(rational_part(a), rational_part(b), "verify", tries)
     stated = (evidence.part, evidence.shares > 0)
     return again is not None and (again[0].part, again[0].shares > 0) == stated
 
@@ -167,7 +167,7 @@ def finding_holds(finding: Finding, first: Chain, second: Chain, settings: Setti
     if isinstance(evidence, Solved):  # of ideals, only the labels were drawn again
         return Witness().confirms(evidence, "fibre", first, second)
     if isinstance(evidence, Refuted):
-        coordinates = normalised if evidence.is_normalised else coefficient_map
-        maps = matched(*(coordinates(rational_part(chain)) for chain in (first, second)))
+        coordinates = normalise if evidence.is_normalised else coefficient_map
+        maps = match_maps(*(coordinates(rational_part(chain)) for chain in (first, second)))
         return refuted_at(evidence.labels, evidence, *maps)
     return True

@@ -55,11 +55,11 @@ from disting.fibres.ideals import (
     Limits,
     PolynomialMap,
     Try,
-    chains_told_apart,
     coefficient_map,
-    matched,
-    normalised,
+    match_maps,
+    normalise,
     safety_of,
+    tell_chains_apart,
 )
 from disting.fibres.ideals.full_rows import same_by_full_rows
 from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
@@ -98,9 +98,9 @@ def exact_again(evidence: Evidence, a: Chain, b: Chain, settings: Settings) -> F
     these the labels are drawn again.
     """
     if isinstance(evidence, Solved | Refuted):
-        coordinates = normalised if evidence.is_normalised else coefficient_map
+        coordinates = normalise if evidence.is_normalised else coefficient_map
         maps = (coordinates(rational_part(chain)) for chain in (a, b))
-        return by_labels(evidence, *matched(*maps), settings.seed)
+        return by_labels(evidence, *match_maps(*maps), settings.seed)
     if isinstance(evidence, Shared):
         return by_shares(a, b, settings, [(evidence.left_given, MOST)])
     method = METHODS.get(type(evidence))
@@ -113,7 +113,7 @@ def by_labels(
     """What the ideals at these labels say of two models of equal rank, if the seed draws them."""
     is_solved = isinstance(evidence, Solved)
     membership = Membership.MEMBER if is_solved else Membership.EXCLUDED
-    return decided(Decision(membership, safety_of(evidence, left, right, seed), evidence))
+    return as_finding(Decision(membership, safety_of(evidence, left, right, seed), evidence))
 
 
 def by_theorem(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -141,7 +141,7 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
     decided_by_fibre = decide(a, b, settings.seed)
     searched = b if decided_by_fibre.direction is Direction.LEFT_IN_RIGHT else a
     decision = decided_by_fibre.decision(safety_of_point(searched))
-    return None if decision.membership is Membership.UNKNOWN else decided(decision)
+    return None if decision.membership is Membership.UNKNOWN else as_finding(decision)
 
 
 def by_full_rows(a: Chain, b: Chain, settings: Settings) -> Finding | None:
@@ -162,7 +162,7 @@ def by_shares(
     """What the shares of the numerator's roots refute; a dead time that both have is a factor
     of its own.
     """
-    apart = chains_told_apart(rational_part(a), rational_part(b), settings.seed, tries)
+    apart = tell_chains_apart(rational_part(a), rational_part(b), settings.seed, tries)
     if apart is None or apart[1] < LEAST_SAFETY:
         return None
     return Finding(
@@ -191,7 +191,7 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     sometimes the other.
     """
     reasons: list[str] = []
-    for coordinates in (coefficient_map, normalised):
+    for coordinates in (coefficient_map, normalise):
         first, second = (coordinates(rational_part(c)) for c in (a, b))
         if first.degrees != second.degrees:
             return Finding(
@@ -199,8 +199,8 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
             )
         decision = ideals.decide(first, second, equal_rank=True, seed=settings.seed, limits=limits)
         if decision.evidence and decision.safety >= limits.safety:
-            evidence = replace(decision.evidence, is_normalised=coordinates is normalised)
-            return decided(replace(decision, evidence=evidence))
+            evidence = replace(decision.evidence, is_normalised=coordinates is normalise)
+            return as_finding(replace(decision, evidence=evidence))
         reasons.append(decision.reason)
     return Finding(
         EXACT,
@@ -209,7 +209,7 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     )
 
 
-def decided(decision: Decision[FibreAt | Solved | Refuted]) -> Finding:
+def as_finding(decision: Decision[FibreAt | Solved | Refuted]) -> Finding:
     """What a fibre tells of two models of equal rank; ABANDONED with the reason if nothing."""
     if decision.membership is Membership.UNKNOWN:
         return Finding(EXACT, Outcome.ABANDONED, note=decision.reason)

@@ -41,7 +41,7 @@ from disting.questions.same.exact import theorem
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class Answerers:
     """Who answers what the real finding rests on: positive equivalents of the one in the other,
     real models of the one without any, and counts of solutions.
     """
@@ -107,7 +107,7 @@ def witness_ways(left: Chain, right: Chain) -> tuple[tuple[Chain, Chain], ...]:
     return tuple(sorted(((left, right), (right, left)), key=lambda pair: pair[0].indices))
 
 
-def real_finding(left: Chain, right: Chain, asked: Asked) -> Finding:
+def real_finding(left: Chain, right: Chain, asked: Answerers) -> Finding:
     """Over real parameters, for pairs of canonical chains that are equal over C."""
     named = rational_map(left, right)
     if named:
@@ -118,7 +118,7 @@ def real_finding(left: Chain, right: Chain, asked: Asked) -> Finding:
     return by_counts(asked.counted(left), asked.counted(right)) if finding is None else finding
 
 
-def _by_witnesses(left: Chain, right: Chain, asked: Asked) -> Finding | None:
+def _by_witnesses(left: Chain, right: Chain, asked: Answerers) -> Finding | None:
     """An open set of real models without real equivalents, and positive ones with a positive
     equivalent.
     """

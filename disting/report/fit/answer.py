@@ -24,7 +24,7 @@ from disting.fit.results.selection import Selection
 from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
-from disting.report.fit.onward import Link, Site, Step, step_to, steps_of
+from disting.report.fit.links import Link, Site, Step, step_to, steps_of
 from disting.report.fit.responses import drawing, fits_of, seen_together
 from disting.report.fit.words import (
     between,

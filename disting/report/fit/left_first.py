@@ -9,7 +9,7 @@ from disting.experiments.menu import Item
 from disting.fit.judge.admissible import KNOWN, UNDETERMINED
 from disting.fit.judge.exclusion import joined
 from disting.fit.plan.fit_file import Named
-from disting.fit.plan.further import Foretold
+from disting.fit.plan.next_experiment import Foretold
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import reference
 from disting.report.fit.left_words import Onward, cheapest_first

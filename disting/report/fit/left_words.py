@@ -9,15 +9,15 @@ from disting.experiments.menu import Costs, Item
 from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL, joined
 from disting.fit.plan.fit_file import Left, Named
-from disting.fit.plan.further import Foretold, Standing, Step, Stood
+from disting.fit.plan.next_experiment import Foretold, Standing, Step, Stood
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import as_listed, reference
 from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
-from disting.verdict.everywhere import Answer
-from disting.verdict.further import Further
-from disting.verdict.further_words import CSV_COLUMNS, rows, to_dict
+from disting.verdict.next_experiments import Further
+from disting.verdict.next_words import CSV_COLUMNS, rows, to_dict
+from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
 
 MEASURED_COLUMNS = ("largest", "frequency", "noncentrality", "power")

@@ -16,7 +16,7 @@ from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.search.candidates import reference
 from disting.model.chain import Chain, text_drawing
 from disting.network.element import Sort
-from disting.report.fit.onward import next_command, plan_command
+from disting.report.fit.links import next_command, plan_command
 from disting.report.fit.words import percent, readable
 from disting.verdict.result import Relation
 

@@ -17,7 +17,7 @@ from disting.report.environment import render
 from disting.report.fit.answer import answer, parameter_rows, result_row, shown_set
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
-from disting.report.fit.onward import Site, next_steps
+from disting.report.fit.links import Site, next_steps
 from disting.report.fit.responses import drawing, seen_together, shown_responses
 from disting.report.fit.sentences import first_lines, suspicions
 from disting.report.fit.style import Drawn

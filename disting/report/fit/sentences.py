@@ -1,5 +1,5 @@
 """What an engineer has to know of a selection, in sentences: the truth first, then what is
-suspicious. The commands that lead on: `onward`.
+suspicious. The commands that lead on: `links`.
 
 Structures are named as the commands read them, such as 2:1+b2+delay.
 """

@@ -23,7 +23,7 @@ from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
 from disting.report.fit.criteria import models_by_threshold, parameters_by_threshold
 from disting.report.fit.left_figure import left_figure
-from disting.report.fit.onward import Site, beside, named_with_values
+from disting.report.fit.links import Site, beside, named_with_values
 from disting.report.fit.residuals import residuals
 from disting.report.fit.responses import responses
 from disting.report.fit.selection_json import candidate_to_dict, selection_to_dict

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from disting.algebra.notation import Expr
-from disting.behaviour.expanded import transfer_function
+from disting.behaviour.expansion import transfer_function
 from disting.fit.results.export import StateSpace, state_space, to_control
 from disting.model.chain import Chain
 from disting.network.network import Network

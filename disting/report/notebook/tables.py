@@ -29,9 +29,9 @@ from disting.report.fit.words import name, readable, response_unit, typeset
 from disting.report.notebook.markup import LONGEST, block, curve, facts, line, matrix, more, table
 from disting.report.words import headline, plural, raised, title
 from disting.verdict.decisions import Decisions
-from disting.verdict.further import Further
-from disting.verdict.further_words import AnyFurther, anywhere, conclusion
-from disting.verdict.meaning import shown as measured
+from disting.verdict.meaning import meaning_sentence as measured
+from disting.verdict.next_experiments import Further
+from disting.verdict.next_words import AnyFurther, anywhere, conclusion
 from disting.verdict.result import Relation, Verdict
 
 COLUMNS = (

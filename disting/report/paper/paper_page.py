@@ -16,7 +16,7 @@ from disting.catalogs.files import name_of
 from disting.files import __version__, write_whole
 from disting.model.family import Family
 from disting.paper import SECTIONS, Claim, Findings, Found, Outcome
-from disting.paper.claim import Seen
+from disting.paper.claim import Observation
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.fit.responses import drawing
@@ -104,10 +104,10 @@ def _line(claim: Claim, findings: Findings, beside: Container[str]) -> Line:
     )
 
 
-def page_of(seen: Seen) -> str:
+def page_of(seen: Observation) -> str:
     """Name of the page of a family; none has models with a lag or a dead time.
 
-    >>> page_of(Seen(3, True)), page_of(Seen(3, True, ("1", "1+lag")))
+    >>> page_of(Observation(3, True)), page_of(Observation(3, True, ("1", "1+lag")))
     ('chains-3-damped', '')
     """
     if any(name.endswith(("lag", "delay")) for name in seen.models):
@@ -115,12 +115,12 @@ def page_of(seen: Seen) -> str:
     return (damper_name if seen.dampers else name_of)(seen.n_masses, seen.damped)
 
 
-def address(seen: Seen) -> str:
+def address(seen: Observation) -> str:
     """Where it can be seen, from the paper's folder.
 
-    >>> address(Seen(3, True, ("1", "4"))), address(Seen(3, False, ("4",)))
+    >>> address(Observation(3, True, ("1", "4"))), address(Observation(3, False, ("4",)))
     ('../chains-3-damped.html#1-4', '../models/3-undamped/4.html')
-    >>> address(Seen(3, True, ("3", "3+b1"), dampers=True))
+    >>> address(Observation(3, True, ("3", "3+b1"), dampers=True))
     '../dampers-3-damped.html#3/3+b1'
     """
     if len(seen.models) == 1 and not seen.dampers:
@@ -132,10 +132,10 @@ def address(seen: Seen) -> str:
     return f"../{page_of(seen)}.html{hash_}"
 
 
-def in_words(seen: Seen) -> str:
+def in_words(seen: Observation) -> str:
     """What a link leads to.
 
-    >>> in_words(Seen(3, True, ("1", "4"))), in_words(Seen(4))
+    >>> in_words(Observation(3, True, ("1", "4"))), in_words(Observation(4))
     ('3:1 and 3:4, damped', 'all pairs of 4 masses, undamped')
     """
     kind = "damped" if seen.damped else "undamped"
@@ -146,10 +146,10 @@ def in_words(seen: Seen) -> str:
     return f"{' and '.join(names) or f'all pairs of {size}'}, {kind}"
 
 
-def command(seen: Seen) -> str:
+def command(seen: Observation) -> str:
     """The command that decides a pair.
 
-    >>> command(Seen(3, True, ("1", "1+lag")))
+    >>> command(Observation(3, True, ("1", "1+lag")))
     'disting compare 3:1 3:1+lag'
     """
     names = " ".join(f"{seen.n_masses}:{name}" for name in seen.models)

@@ -1,13 +1,13 @@
 """Error bounds: their growth, and a prime so small that errors must happen."""
 
-from disting.fibres.ideals import normalised
+from disting.fibres.ideals import normalise
 from disting.fibres.ideals.bounds import safety_of_empty, safety_of_member
 from disting.model.family import Family
 
 
 def ends(n):
     family = Family(n, damped=True)
-    return normalised(family[1].structure), normalised(family[len(family)].structure)
+    return normalise(family[1].structure), normalise(family[len(family)].structure)
 
 
 def test_bounds_shrink_with_size_and_grow_with_the_prime():

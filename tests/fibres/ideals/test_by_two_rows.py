@@ -16,7 +16,7 @@ from disting.fibres.ideals import (
     Limits,
     confirms_by_rows,
     included_by_rows,
-    normalised,
+    normalise,
     refuted_by_rows,
 )
 from disting.fibres.ideals.by_two_rows import not_covered, vanishing
@@ -148,7 +148,7 @@ def test_markov_parameters_agree_with_sympy():
 
 def agrees_with_the_synthesis(n, damped):
     chains = canonicals(n, damped)
-    ranks = {c: generic_rank(normalised(c.structure), "test") for c in chains}
+    ranks = {c: generic_rank(normalise(c.structure), "test") for c in chains}
     refuted = 0
     for small, large in product(chains, chains):
         if not (ranks[small] < ranks[large] and gap(large.structure)):

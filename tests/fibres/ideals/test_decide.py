@@ -15,7 +15,7 @@ from disting.fibres.ideals import (
     coefficient_map,
     confirms,
     decide,
-    normalised as normal,
+    normalise as normal,
 )
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.synthesis.decide import decide as by_synthesis

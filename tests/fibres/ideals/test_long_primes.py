@@ -7,7 +7,7 @@ import pytest
 from disting import compare
 from disting.algebra.certainty import prime
 from disting.algebra.groebner.elimination import Basis, basis_steps
-from disting.fibres.ideals import Limits, normalised
+from disting.fibres.ideals import Limits, normalise
 from disting.fibres.ideals.bounds import LEAST, bits_of, safety_of_empty
 from disting.fibres.ideals.confirm import reaches_one
 from disting.fibres.ideals.fibre_ideal import BITS, LONG_BITS, fibre_ideal
@@ -29,7 +29,7 @@ def basis_of(ideal):
 @pytest.mark.parametrize(("number", "is_empty"), [(6, True), (11, False)])
 def test_they_answer_as_words_do(number, is_empty):
     family = Family(3, damped=True)
-    pair = normalised(family[1].structure), normalised(family[number].structure)
+    pair = normalise(family[1].structure), normalise(family[number].structure)
     short, long = (fibre_ideal(*pair, "long", True, bits) for bits in (BITS, LONG_BITS))
     assert (short.modulus.bit_length(), long.modulus.bit_length()) == (BITS, LONG_BITS)
     assert [basis_of(ideal).is_one for ideal in (short, long)] == [is_empty] * 2

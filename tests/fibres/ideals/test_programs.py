@@ -4,7 +4,7 @@ import stat
 
 import pytest
 
-from disting.fibres.ideals import normalised
+from disting.fibres.ideals import normalise
 from disting.fibres.ideals.fibre_ideal import fibre_ideal
 from disting.model.family import Family
 from tests.oracles.programs import MSOLVE, PROGRAMS, SINGULAR, emptiness, installed
@@ -17,7 +17,7 @@ CASES = [(6, Emptiness.EMPTY), (11, Emptiness.NOT_EMPTY)]
 
 
 def pair(number):
-    return [normalised(Family(3, True)[k].structure) for k in (1, number)]
+    return [normalise(Family(3, True)[k].structure) for k in (1, number)]
 
 
 @pytest.mark.parametrize("tangent", [True, False])
@@ -27,7 +27,7 @@ def test_over_the_rationals(number, expected, tangent):
 
 
 def test_a_limit_over_the_rationals_is_no_answer():
-    models = [normalised(Family(4, True)[k].structure) for k in (8, 19)]
+    models = [normalise(Family(4, True)[k].structure) for k in (8, 19)]
     found, why = fibre_over_rationals(*models, list(range(2, 12)), True, 1.0)
     assert found is Emptiness.UNKNOWN and "out of time" in why
 

@@ -14,8 +14,8 @@ from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.modular import long_polynomial
 from disting.catalogs.damper_family import damper_catalog
 from disting.conditions.finding import Outcome
-from disting.fibres.ideals import Limits, chains_told_apart, decide
-from disting.fibres.ideals.factored import factored, shared_fibre, values
+from disting.fibres.ideals import Limits, decide, tell_chains_apart
+from disting.fibres.ideals.factored_map import row_factors, shared_fibre, values
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.shares import (
     _may_split,
@@ -23,7 +23,7 @@ from disting.fibres.ideals.shares import (
     _transposes,
     is_symmetric,
     shares_by_type,
-    told_apart,
+    tell_apart,
 )
 from disting.model.chain import Chain
 from disting.model.question import Membership, Settings
@@ -95,7 +95,7 @@ def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name, damped):
         matrix, found = physical(structure, ends, numbers)
         ports = sorted(p for p in structure.ports if ends[0] <= p <= ends[1])
         ports = (ports[0], ports[-1])
-        row = factored(place)
+        row = row_factors(place)
         point = [*(Fraction(int(x.p), int(x.q)) for x in unknowns(row, found, ports)), Fraction(1)]
 
         def at(polynomials, point=point):
@@ -115,7 +115,7 @@ def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name, damped):
 
 
 def test_the_equations_hold_where_the_roots_are_shared_as_they_are():
-    row = factored(*rows_of(model("4:6+b1").structure))
+    row = row_factors(*rows_of(model("4:6+b1").structure))
     modulus = prime("own share", 192)
     for draw in range(200):
         point = residues(f"own:{draw}", len(row.parameters), modulus)
@@ -146,7 +146,7 @@ def test_models_that_are_the_same_are_never_told_apart(damped, pairs):
         forms = sorted({canonical(found.chains[i]).chain for i in members}, key=str)
         for a, b in combinations(forms, 2):
             tried += 1
-            assert chains_told_apart(a.structure, b.structure, "same") is None
+            assert tell_chains_apart(a.structure, b.structure, "same") is None
     assert tried == pairs
 
 
@@ -155,7 +155,7 @@ def test_models_that_are_the_same_are_never_told_apart(damped, pairs):
 )
 def test_models_that_the_shipped_classes_tell_apart_are(left, right):
     a, b = model(left), model(right)
-    told = chains_told_apart(a.structure, b.structure, "apart")
+    told = tell_chains_apart(a.structure, b.structure, "apart")
     assert told is not None
     assert told[1] >= 100
     assert told[0].shares > 1
@@ -191,16 +191,16 @@ def test_rows_with_dampers_to_the_ground_alone_are_told_apart(left, right, part)
 
 def test_what_has_solutions_is_tried_once():
     """No larger matrices, no other direction."""
-    a, b = (factored(rows_of(model(name, False).structure)[-1]) for name in ("3:3+b1", "3:3+b3"))
+    a, b = (row_factors(rows_of(model(name, False).structure)[-1]) for name in ("3:3+b1", "3:3+b3"))
     tries = iter([(True, 10**6), (False, 10**6)])
-    assert told_apart(a, b, "same", tries) is None
+    assert tell_apart(a, b, "same", tries) is None
     assert list(tries) == [(False, 10**6)]
 
 
 def test_parts_are_not_compared_where_both_or_none_differ():
     a, b = (Chain(4, 2, 1, 3, p, q, damped=True).structure for p, q in ((1, 3), (2, 4)))
-    assert chains_told_apart(a, b, "both") is None
-    assert chains_told_apart(a, a, "none") is None
+    assert tell_chains_apart(a, b, "both") is None
+    assert tell_chains_apart(a, a, "none") is None
 
 
 def test_a_power_that_is_a_transposition():
@@ -212,8 +212,8 @@ def test_a_power_that_is_a_transposition():
 
 
 def test_groups_of_rows_are_symmetric():
-    assert is_symmetric(factored(*rows_of(model("5:2+b1").structure)), "six roots")
-    assert is_symmetric(factored(*rows_of(model("5:8+b1").structure)), "two and two")
+    assert is_symmetric(row_factors(*rows_of(model("5:2+b1").structure)), "six roots")
+    assert is_symmetric(row_factors(*rows_of(model("5:8+b1").structure)), "two and two")
 
 
 def of_one_kind(masses, damped):
@@ -222,7 +222,7 @@ def of_one_kind(masses, damped):
     dampers = [*[()] * damped, *((m,) for m in range(1, masses + 1))]
     found = product((False, True), ports, dampers)
     rows = sorted({Row(masses, wall, *p, damped, d).canonical for wall, p, d in found})
-    maps = {row: factored(row) for row in rows}
+    maps = {row: row_factors(row) for row in rows}
     ranks = {row: generic_rank(m.whole, "test") for row, m in maps.items()}
     return [
         (maps[r], maps[s]) for r, s in combinations(rows, 2) if alike(r, ranks) == alike(s, ranks)
@@ -244,7 +244,7 @@ def test_rows_are_told_apart_where_the_ideal_of_the_whole_fibre_is_everything(ma
         whole = decide(left.whole, right.whole, equal_rank=True, seed="test", limits=limits)
         told.append(whole.membership is Membership.EXCLUDED)
         assert whole.membership is not Membership.UNKNOWN
-        assert (told_apart(left, right, "test") is not None) == told[-1]
+        assert (tell_apart(left, right, "test") is not None) == told[-1]
     assert 0 < sum(told) < len(told)
 
 

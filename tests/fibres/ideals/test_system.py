@@ -9,8 +9,8 @@ from hypothesis import given, settings, strategies as st
 
 from disting.algebra.symbols import symbols
 from disting.errors import InputError
-from disting.fibres.ideals import CoefficientMap, coefficient_map, normalised
-from disting.fibres.ideals.system import matched
+from disting.fibres.ideals import CoefficientMap, coefficient_map, normalise
+from disting.fibres.ideals.system import match_maps
 from disting.model.chain import Chain
 from disting.model.family import Family
 
@@ -49,7 +49,7 @@ def monic(
 
 
 def in_quotients(chain: Chain, p: dict[str, Fraction]) -> dict[str, Fraction]:
-    """The unknowns of `normalised` as the text of its module defines them."""
+    """The unknowns of `normalise` as the text of its module defines them."""
     n = chain.n_masses
     mass = {i: p[f"m{i}"] for i in range(1, n + 1)}
     result = {f"r{i}": mass[i] / mass[i + 1] for i in range(1, n)} | {
@@ -71,14 +71,14 @@ def test_normalised_is_the_same_transfer_function(chain, random):
     values = {
         name: Fraction(random.randint(1, 50), random.randint(1, 50)) for name in chain.parameters
     }
-    plain, quotients = coefficient_map(chain.structure), normalised(chain.structure)
+    plain, quotients = coefficient_map(chain.structure), normalise(chain.structure)
     assert monic(quotients, in_quotients(chain, values)) == monic(plain, values)
 
 
 @given(chains())
 @settings(max_examples=60, deadline=None)
 def test_normalised_is_monic_linear_in_each_unknown_and_no_larger(chain):
-    model = normalised(chain.structure)
+    model = normalise(chain.structure)
     assert model.is_monic
     joints = [i for i, name in enumerate(model.parameters) if name[0] != "g"]
     assert all(
@@ -113,17 +113,17 @@ def test_bad_maps_are_refused():
 
 def test_maps_of_unequally_many_poles_are_not_compared():
     a, b = (
-        normalised(Family(2, damped=False)[1].structure),
-        normalised(Family(3, damped=False)[1].structure),
+        normalise(Family(2, damped=False)[1].structure),
+        normalise(Family(3, damped=False)[1].structure),
     )
     with pytest.raises(InputError, match="equally many poles"):
-        matched(a, b)
+        match_maps(a, b)
 
 
 def test_a_shorter_numerator_is_compared_with_zeros():
-    a, b = (normalised(Family(2, damped=False)[i].structure) for i in (1, 2))
+    a, b = (normalise(Family(2, damped=False)[i].structure) for i in (1, 2))
     assert a.degrees[0] < b.degrees[0] or a.degrees[0] > b.degrees[0]
-    one, other = matched(a, b)
+    one, other = match_maps(a, b)
     short, long = (one, other) if a.degrees[0] < b.degrees[0] else (other, one)
     top = max(a.degrees[0], b.degrees[0])
     assert len(short.coordinates) == len(long.coordinates)

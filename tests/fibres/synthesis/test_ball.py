@@ -3,7 +3,7 @@
 import pytest
 from flint import acb, acb_poly, ctx
 
-from disting.fibres.synthesis.branch import Imprecise, enclosed, roots
+from disting.fibres.synthesis.branch import Imprecise, enclose, roots
 
 with ctx.workprec(192):
     KNOWN = (acb(-3) / 7, acb(-1, 2) / 3, acb(-1, -2) / 3, acb(1) / 3, acb(7) / 5)
@@ -33,7 +33,7 @@ def test_roots_are_sharp_but_those_that_are_excluded():
 
 def test_wide_balls_hold_the_same_roots():
     with ctx.workprec(192):
-        sharp, wide = matched(roots(polynomial(), 5)), matched(enclosed(polynomial(), 5))
+        sharp, wide = matched(roots(polynomial(), 5)), matched(enclose(polynomial(), 5))
         assert all(
             float(w.rad()) > WIDE and w.overlaps(s) for w, s in zip(wide, sharp, strict=True)
         )

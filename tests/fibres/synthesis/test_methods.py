@@ -10,7 +10,7 @@ from disting.fibres.synthesis.branch import (
     Imprecise,
     RowValues,
     circle,
-    combined,
+    combine,
     poly,
     roots,
     through,
@@ -64,11 +64,11 @@ def test_combined_keeps_what_is_open_unless_a_side_is_refuted() -> None:
     def join(a: RowValues, b: RowValues) -> RowValues:
         return RowValues(a.masses + b.masses)
 
-    assert list(combined([NONZERO], lambda: [OPEN], join)) == [NONZERO]
-    assert list(combined([OPEN], lambda: [NONZERO], join)) == [NONZERO]
-    assert list(combined([RowValues()], lambda: [OPEN], join)) == [OPEN]
-    assert list(combined([BOUNDARY], lambda: [RowValues()], join)) == [BOUNDARY]
-    assert list(combined([RowValues()], lambda: [RowValues(), NONZERO], join)) == [
+    assert list(combine([NONZERO], lambda: [OPEN], join)) == [NONZERO]
+    assert list(combine([OPEN], lambda: [NONZERO], join)) == [NONZERO]
+    assert list(combine([RowValues()], lambda: [OPEN], join)) == [OPEN]
+    assert list(combine([BOUNDARY], lambda: [RowValues()], join)) == [BOUNDARY]
+    assert list(combine([RowValues()], lambda: [RowValues(), NONZERO], join)) == [
         RowValues(),
         NONZERO,
     ]

@@ -11,7 +11,7 @@ from disting import Certainty, Chain, Family, Settings
 from disting.fibres.synthesis.decide import rational_point
 from disting.fibres.synthesis.task import Status, target
 from disting.model.question import Answer
-from disting.questions.identifiability.analysis import identifiabilities, identifiability, judged
+from disting.questions.identifiability.analysis import identifiabilities, identifiability, judge
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.identifiability.check import confirms
 from disting.questions.identifiability.parts import Formula, Level, Origin
@@ -270,8 +270,8 @@ def test_a_single_solution_that_may_not_be_the_only_one_is_no_global_identifiabi
         (Certainty.PROVEN, Level.GLOBAL),
     ):
         known = Listing({}, (), Status.COMPLETE, 1, 1, (certainty, 0), "")
-        assert judged(3, 3, proven, known)[0] is expected
-        assert judged(3, 2, proven, known)[0] is Level.NOT
+        assert judge(3, 3, proven, known)[0] is expected
+        assert judge(3, 2, proven, known)[0] is Level.NOT
 
 
 def test_grades():

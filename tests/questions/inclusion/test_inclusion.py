@@ -29,7 +29,7 @@ from disting.evidence.limits import (
 from disting.fibres.ideals import (
     coefficient_map,
     included_by_rows,
-    normalised,
+    normalise,
     refuted_by_rows,
 )
 from disting.model.chain import Chain, Sensor
@@ -37,7 +37,7 @@ from disting.model.row import Row
 from disting.questions.inclusion.confirmation import confirms
 from disting.questions.inclusion.decide import CLOSURE_LIMITS, inclusions
 from disting.questions.inclusion.profiles import by_relative_degrees, row_falls
-from disting.questions.inclusion.row_closures import Wanted, holds
+from disting.questions.inclusion.row_closures import Task, holds
 
 ENGINE = Engine()
 
@@ -220,7 +220,7 @@ def test_a_row_of_no_larger_dimension_holds_nothing_but_itself():
 
 def test_a_row_is_not_told_from_itself():
     row = Row(3, False, 1, 1, True)
-    itself = Wanted("whole", "whole", *[normalised(row.structure)] * 2, row)
+    itself = Task("whole", "whole", *[normalise(row.structure)] * 2, row)
     assert not holds(RowLimits("whole", "whole", Why.DIMENSION, "7 = 7"), itself)
 
 

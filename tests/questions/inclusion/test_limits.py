@@ -13,8 +13,8 @@ from disting.questions.inclusion.limits import (
     ZERO,
     follows,
     is_limit,
-    reached,
-    specialised,
+    reach,
+    specialise,
 )
 
 S = sp.Symbol("s")
@@ -65,7 +65,7 @@ def test_limits_against_sympy(row):
     """The limit of the transfer function is of the form of the new row's, for chosen parameters."""
     numbers = {name: sp.Integer(2 + i * i) for i, name in enumerate(row.structure.parameters)}
     w = sp.Symbol("w", positive=True)
-    for s in specialised(row):
+    for s in specialise(row):
         name = s.element.parameter
         values = numbers | {name: w} | ({"d" + name[1:]: 0} if name[0] == "k" else {})
         found = sp.limit(receptance(row, values), w, sp.oo if s.limit == INFINITE else 0)
@@ -77,7 +77,7 @@ def test_the_limits_of_a_free_row_of_three():
     """Force at mass 1, sensor at mass 2: springs between, the end let go, the end held fast."""
     found = {
         (s.step, s.row.n_masses, s.row.grounded, s.row.a, s.row.b)
-        for s in specialised(Row(3, False, 1, 2))
+        for s in specialise(Row(3, False, 1, 2))
     }
     assert found == {
         (("k12", INFINITE), 2, False, 1, 1),
@@ -89,7 +89,7 @@ def test_the_limits_of_a_free_row_of_three():
 
 def test_a_grounded_row_is_let_go_and_a_damper_vanishes():
     row = Row(1, True, 1, 1, True, (1,))
-    assert {(s.step, s.row) for s in specialised(row)} == {
+    assert {(s.step, s.row) for s in specialise(row)} == {
         (("k01", ZERO), Row(1, False, 1, 1, True, (1,))),
         (("b1", ZERO), Row(1, True, 1, 1, True)),
     }
@@ -98,16 +98,16 @@ def test_a_grounded_row_is_let_go_and_a_damper_vanishes():
 @pytest.mark.parametrize("row", ROWS)
 def test_every_way_checks_again_and_leads_to_one_row(row):
     start = row.canonical
-    for below, steps in reached(start).items():
+    for below, steps in reach(start).items():
         assert follows(start, steps) >= {below}
         assert below == below.canonical and below.n_masses <= row.n_masses
-    assert reached(start)[start] == ()
+    assert reach(start)[start] == ()
 
 
 def test_false_limits_are_seen():
     row = Row(2, False, 1, 1)
     rigid = next(
-        s for s in specialised(row) if s.limit == INFINITE and isinstance(s.element, Spring)
+        s for s in specialise(row) if s.limit == INFINITE and isinstance(s.element, Spring)
     )
     assert is_limit(row, rigid)
     assert not is_limit(row, replace(rigid, limit=ZERO))

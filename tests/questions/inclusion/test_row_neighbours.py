@@ -9,8 +9,8 @@ import pytest
 from disting import Family, catalog
 from disting.algebra.certainty import prime, residues
 from disting.algebra.determinants import polynomial
-from disting.fibres.ideals import normalised
-from disting.fibres.ideals.fibre_ideal import evaluated
+from disting.fibres.ideals import normalise
+from disting.fibres.ideals.fibre_ideal import evaluate
 from disting.fibres.ideals.system import terms
 from disting.model.row import Row
 from disting.questions.inclusion.closures import of_closure
@@ -21,12 +21,12 @@ DRAWS = 60
 
 def points(structure, name):
     """Receptances of a row at random points modulo primes."""
-    model = normalised(structure)
+    model = normalise(structure)
     for k in range(DRAWS):
         modulus = prime(f"{name}:{k}")
         point = residues(f"{name}:{k}:p", len(model.parameters), modulus)
         num, den = (
-            [evaluated(terms(c), point, modulus) for c in side]
+            [evaluate(terms(c), point, modulus) for c in side]
             for side in (model.numerator, model.denominator)
         )
         yield num, den, modulus

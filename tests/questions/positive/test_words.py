@@ -14,7 +14,7 @@ from hypothesis import given, settings, strategies as st
 from disting import Chain
 from disting.fibres.synthesis.branch import Receptance, RowValues
 from disting.fibres.synthesis.task import Target
-from disting.fibres.synthesis.undamped import neighbours_at
+from disting.fibres.synthesis.undamped_rows import neighbours_at
 from disting.model.row import Row
 from disting.questions.positive.obstacles import receptances
 from disting.questions.positive.undamped_rows import word, words

@@ -13,7 +13,7 @@ from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit import fit_page
-from disting.report.fit.onward import Site, next_steps
+from disting.report.fit.links import Site, next_steps
 from disting.report.fit.style import Drawn
 from tests.report.conftest import heard
 from tests.report.links import follow_link

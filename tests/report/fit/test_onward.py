@@ -10,7 +10,7 @@ from disting.cli import main
 from disting.fit.judge.members import Twin
 from disting.fit.results.selection import Selection
 from disting.model.chain import Chain
-from disting.report.fit.onward import Link, Site, beside, next_steps, step_to, steps_of
+from disting.report.fit.links import Link, Site, beside, next_steps, step_to, steps_of
 from tests.report.fit.conftest import DRIVE
 
 REPORTS = Path(__file__).parents[3] / "reports"

@@ -20,9 +20,9 @@ from disting.model.presentation import Shown, plural, summary
 from disting.network.element import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.everywhere import Answer
-from disting.verdict.placement import placed
+from disting.verdict.placement import place
 from disting.verdict.placement_record import Table
+from disting.verdict.placement_verdicts import Answer
 
 S = TypeVar("S", bound=Chain | Network)
 PLACES = {Sort.MACHINE: "mass", Sort.CIRCUIT: "node", Sort.COMPARTMENTS: "compartment"}
@@ -180,7 +180,7 @@ def further(
     names, chains = zip(*named, strict=True)
     costs = costs or Costs()
     tables = {
-        kind: placed(chains, kind, engine, executor=executor, progress=progress)
+        kind: place(chains, kind, engine, executor=executor, progress=progress)
         for kind in costs.kinds(chains[0].n_masses)
     }
     return Further(names, chains, tables, costs)

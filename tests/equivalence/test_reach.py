@@ -9,9 +9,9 @@ import pytest
 from sympy import Poly, Symbol, sympify
 
 from disting import network_of
-from disting.equivalence.reached import Piece, Reached, inequality, reached
+from disting.equivalence.reach import Piece, Reach, inequality, reach
 from disting.general.any_model import of_network, on_one_variable
-from disting.general.listed import goal_of, positive
+from disting.general.fibre_lists import goal_of, positive
 
 PAIRS = [
     ("1>0, 1>2, 2>0; in 1; out 2", "1>0, 1>2, 2>1; in 2; out 1"),
@@ -31,8 +31,8 @@ def test_conditions_are_those_worked_out_by_hand():
     = a21 a10, a1 = a10 + a12 + a21 in its own: so a10' = a20 (a10 + a12)/a12, a12' = a10 + a20 -
     a10' = a10 (a12 - a20)/a12.
     """
-    assert reached(*models(*PAIRS[0])) == Reached((Piece(("a12 - a20",)),))
-    (piece,) = reached(*models(*PAIRS[3])).pieces
+    assert reach(*models(*PAIRS[0])) == Reach((Piece(("a12 - a20",)),))
+    (piece,) = reach(*models(*PAIRS[3])).pieces
     assert piece.positive == (
         "C1**2*R1*R2**3*R3 + 2*C1*L1*R2**2*R3 - L1**2*R1 - L1**2*R2 - L1**2*R3",
         "C1*R2**2 - L1",
@@ -45,7 +45,7 @@ def test_conditions_are_those_worked_out_by_hand():
 @pytest.mark.parametrize("way", [1, -1])
 def test_at_random_points_conditions_hold_where_equivalents_are(texts, way):
     given, other = models(*texts)[::way]
-    found = reached(given, other)
+    found = reach(given, other)
     if found is None:
         assert (texts, way) in [(PAIRS[3], -1), (PAIRS[4], -1)]  # no short conditions
         return
@@ -77,13 +77,13 @@ def _holds(piece, put):
 
 
 def test_more_parameters_are_not_asked():
-    assert reached(*models("#=1, 1=2; F1; S2", "#=1, #=2, 1=2; F1; S2")) is None
+    assert reach(*models("#=1, 1=2; F1; S2", "#=1, #=2, 1=2; F1; S2")) is None
 
 
 def test_words():
     piece = Piece(("a - x",), "a*b - x**2", "x", "m1")
-    assert Reached((piece, Piece(("b - a",)))).sentence("A1", "A2") == (
+    assert Reach((piece, Piece(("b - a",)))).sentence("A1", "A2") == (
         "A1 has a positive equivalent A2 exactly where a*b - x**2 = 0 has a positive root x with"
         " a > x, the m1 of A2, or where b > a, special values aside."
     )
-    assert Reached((Piece(()),)).sentence("A1", "A2") == Reached(()).sentence("A1", "A2") == ""
+    assert Reach((Piece(()),)).sentence("A1", "A2") == Reach(()).sentence("A1", "A2") == ""

@@ -10,7 +10,7 @@ from typing import Any
 
 from disting.errors import DistingError, InputError, of_type, shown
 from disting.experiments.experiment import Experiment
-from disting.experiments.places import Named, Places, moved, named, ways
+from disting.experiments.places import Named, Places, move, parse_experiment, ways
 from disting.files import Format, __version__
 from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
@@ -26,7 +26,7 @@ from disting.verdict.verdict_file import (
     DAMAGED,
     MOST_EXPERIMENTS,
     VERSION,
-    Stored,
+    StoredVerdict,
     plain_experiment,
     read_experiment,
     read_file,
@@ -109,7 +109,7 @@ def compare_everywhere(
 def named_all(also: Sequence[str | Experiment]) -> tuple[Named, ...]:
     """Experiments that are given as text or as such; raises InputError."""
     of_type(also, Iterable, "experiments are a list of texts or of Experiment")
-    return tuple(named(e) if isinstance(e, str) else Named(e) for e in also)
+    return tuple(parse_experiment(e) if isinstance(e, str) else Named(e) for e in also)
 
 
 def placements(
@@ -119,7 +119,7 @@ def placements(
     chains as they are first; raises InputError.
     """
     for way in ways(left, right, asked, places):
-        further = [(pair.experiment, moved(pair.experiment, way)) for pair in asked]
+        further = [(pair.experiment, move(pair.experiment, way)) for pair in asked]
         yield way, both_places([Experiment(), *further])
 
 
@@ -154,7 +154,7 @@ def everywhere_file(
     return _whole(asked, files)
 
 
-def read_everywhere(data: Mapping[str, Any]) -> tuple[Stored, ...]:
+def read_everywhere(data: Mapping[str, Any]) -> tuple[StoredVerdict, ...]:
     """All verdicts of such a file; raises InputError for what is damaged."""
     try:
         return tuple(read_file(plain, ("places",)) for plain in data["verdicts"])
@@ -162,7 +162,7 @@ def read_everywhere(data: Mapping[str, Any]) -> tuple[Stored, ...]:
         raise InputError(f"the file of the verdicts is damaged ({reason})") from None
 
 
-def differing_everywhere(data: Mapping[str, Any], stored: Sequence[Stored]) -> str:
+def differing_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdict]) -> str:
     """What such a file tells otherwise than what it tells follows from; "" if nothing.
 
     All verdicts are on the same chains, asked in the same way, and there is one for every way to

@@ -9,7 +9,7 @@ from disting.experiments.menu import Gain, Item
 from disting.files import Format
 from disting.model.chain import Chain
 from disting.network.network import Network
-from disting.verdict.further import Further, Option
+from disting.verdict.next_experiments import Further, Option
 from disting.verdict.placement_record import REPEATS
 from disting.verdict.result import Relation, error_bound
 

@@ -20,7 +20,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.determinants import rank
 from disting.algebra.notation import Expr, quotient, symbol
-from disting.algebra.symbols import coefficients, renamed, symbols
+from disting.algebra.symbols import coefficients, rename_symbols, symbols
 from disting.behaviour.transfer import plain_receptance
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chains_named
@@ -31,14 +31,14 @@ Written = tuple[fmpz_mpoly, fmpz_mpoly]
 NO_UNITS: Mapping[str | int, int] = MappingProxyType({})
 
 
-def expanded(structure: Structure) -> Written:
+def expand(structure: Structure) -> Written:
     """Numerator and denominator of the transfer function (24) without dead time, in lowest terms
     for every chain of the class.
 
     They are polynomials in s and the parameters with integer coefficients; only powers of s had to
     be cancelled.
 
-    >>> expanded(Chain(1, damped=False).structure)
+    >>> expand(Chain(1, damped=False).structure)
     (1, m1)
     """
     num, den = written_out(structure)
@@ -72,7 +72,7 @@ def transfer_function(
     from sympy import exp
 
     (chain,) = chains_named([chain], damped=damped, sensor=sensor)
-    num, den = expanded(chain.structure)
+    num, den = expand(chain.structure)
     rational = quotient(coefficients(num, "s"), coefficients(den, "s"))
     return rational * exp(-symbol("s") * symbol("Td")) if chain.dead_time else rational
 
@@ -85,13 +85,13 @@ def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> 
     """
     if left.dead_time != right.dead_time or (left.dead_time and renaming["Td"] != "Td"):
         return False
-    return become(expanded(left), expanded(right), renaming)
+    return become(expand(left), expand(right), renaming)
 
 
 def become(a: Written, b: Written, renaming: Mapping[str, str]) -> bool:
     """Whether renaming turns one numerator and its denominator into the other ones: an identity."""
     ring = symbols([str(g) for g in b[1].context().gens()])
-    num, den = (renamed(p, ring, renaming) for p in a)
+    num, den = (rename_symbols(p, ring, renaming) for p in a)
     return (num, den) == b or bool(num * b[1] == b[0] * den)
 
 
@@ -109,7 +109,7 @@ def rank_is_at_most(structure: Structure, labels: Sequence[str], most: int, seco
     >>> rank_is_at_most(Family(3, damped=True)[7].structure, (), 6, 5.0)
     True
     """
-    top, bottom = (coefficients(part, "s") for part in expanded(structure))
+    top, bottom = (coefficients(part, "s") for part in expand(structure))
     names = [name for name in structure.parameters if name != "Td"]
     units: dict[str | int, int] = {
         next(name for name in names if name[0] == kind): 1

@@ -45,8 +45,8 @@ from flint import fmpz_mod_mpoly, fmpz_mod_mpoly_ctx, fmpz_mod_poly, fmpz_mpoly
 
 from disting.algebra.groebner.modular import Sparse, long_polynomial, null_space
 from disting.algebra.symbols import coefficients, symbols
-from disting.fibres.ideals.fibre_ideal import derivative, evaluated
-from disting.fibres.ideals.system import CoefficientMap, Terms, determinants, separated
+from disting.fibres.ideals.fibre_ideal import derivative, evaluate
+from disting.fibres.ideals.system import CoefficientMap, Terms, determinants, separate
 from disting.model.row import Row
 
 
@@ -95,10 +95,10 @@ class FactoredValues:
     slopes: tuple[tuple[fmpz_mod_poly, tuple[int, ...]], ...]
 
 
-def factored(row: Row) -> FactoredMap:
+def row_factors(row: Row) -> FactoredMap:
     """The receptance of a row with dampers in its joints, or with dampers to the ground alone.
 
-    >>> m = factored(Row(3, False, 1, 2, damped=True))
+    >>> m = row_factors(Row(3, False, 1, 2, damped=True))
     >>> m.parameters, [len(x) for x in (m.joints, m.left, m.right, m.poles)]
     (('h1', 'e1', 'x1', 'u2', 'e2', 'r2'), [1, 0, 2, 4])
     """
@@ -119,7 +119,7 @@ def factored(row: Row) -> FactoredMap:
         left=_by_power(theta),
         right=_by_power(phi),
         poles=_by_power(den // ring["s"] ** power),
-        whole=separated((*names, "g"), num, den),
+        whole=separate((*names, "g"), num, den),
     )
 
 
@@ -128,9 +128,7 @@ def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> FactoredVa
 
     def at(coordinates: Sequence[Terms], lead: int) -> fmpz_mod_poly:
         """Their values as a polynomial in s."""
-        return long_polynomial(
-            [*(evaluated(c, point, modulus) for c in coordinates), lead], modulus
-        )
+        return long_polynomial([*(evaluate(c, point, modulus) for c in coordinates), lead], modulus)
 
     def slope(coordinates: Sequence[Terms], by: int) -> fmpz_mod_poly:
         """The derivative of that polynomial."""
@@ -147,9 +145,9 @@ def values(chain: FactoredMap, point: Sequence[int], modulus: int) -> FactoredVa
         if by in chain.joints:
             change += numerator // long_polynomial([point[by], 1], modulus)
         slopes.append(
-            (change, tuple(evaluated(derivative(c, by), point, modulus) for c in chain.poles))
+            (change, tuple(evaluate(derivative(c, by), point, modulus) for c in chain.poles))
         )
-    poles = tuple(evaluated(c, point, modulus) for c in chain.poles)
+    poles = tuple(evaluate(c, point, modulus) for c in chain.poles)
     return FactoredValues(
         joints=roots, left=left, right=right, numerator=numerator, poles=poles, slopes=tuple(slopes)
     )

@@ -4,11 +4,12 @@ H = N/D with D monic gives 1/H = m_a s^2 + W_L + W_R. The zeros of N belong to t
 the right one, q (a-1) of them to the left. The right side is free, W_R(0) = W_R'(0) = 0 (undamped
 W_R(0) = 0), which settles the polynomial part.
 
-The residues of 1/H at the zeros of H are shared out between both sides (see `collocated`). W_R(0)
-= 0, the right end being free, which settles the constants. Far away 1/H = m_a s^2 + beta s + ..,
-and beta = b_a + d_L + d_R, the dampers of the springs on both sides. A side that is free and
-without dampers tells its own growth, W'(0) = 0. Of b_a, d_L and d_R one that is not known follows
-from beta; if more are not, the slopes of the sides are left open, and `friction` finds them.
+The residues of 1/H at the zeros of H are shared out between both sides (see `collocated_rows`).
+W_R(0) = 0, the right end being free, which settles the constants. Far away
+1/H = m_a s^2 + beta s + .., and beta = b_a + d_L + d_R, the dampers of the springs on both sides. A
+side that is free and without dampers tells its own growth, W'(0) = 0. Of b_a, d_L and d_R one that
+is not known follows from beta; if more are not, the slopes of the sides are left open, and
+`friction` finds them.
 """
 
 from collections.abc import Iterator
@@ -24,13 +25,13 @@ from disting.fibres.synthesis.branch import (
     Poly,
     Receptance,
     RowValues,
-    combined,
+    combine,
     cut,
     is_boundary,
     poly,
     product,
     roots,
-    shifted,
+    shift,
     splits,
     vanishes,
 )
@@ -47,12 +48,12 @@ class Residue:
     value: Ball
 
 
-def collocated(row: Row, data: Receptance) -> Iterator[Leaf]:
+def collocated_rows(row: Row, data: Receptance) -> Iterator[Leaf]:
     """Yield every row with this driving-point receptance."""
     zeros = inverse_residues(data, roots(data.numerator, row.numerator_degree))
     whole = data.denominator // data.numerator
     for left, right in splits(zeros, row.q * (row.a - 1)):
-        yield from between(row, whole, left, right)
+        yield from join_sides(row, whole, left, right)
 
 
 def inverse_residues(data: Receptance, zeros: list[Ball]) -> list[Residue]:
@@ -61,7 +62,7 @@ def inverse_residues(data: Receptance, zeros: list[Ball]) -> list[Residue]:
     return [Residue(z, data.denominator(z) / slope(z)) for z in zeros]
 
 
-def between(row: Row, whole: Poly, left: list[Residue], right: list[Residue]) -> Iterator[Leaf]:
+def join_sides(row: Row, whole: Poly, left: list[Residue], right: list[Residue]) -> Iterator[Leaf]:
     """Yield every row whose left side has the zeros `left`, its right side the zeros `right`.
 
     `whole`: the polynomial part of 1/H, of degree 2 (undamped 1), with the leading coefficient m_a.
@@ -95,7 +96,7 @@ def between(row: Row, whole: Poly, left: list[Residue], right: list[Residue]) ->
             (*a.masses[::-1], mass, *b.masses), (*a.springs[::-1], *b.springs), a.gauges + b.gauges
         )
 
-    yield from combined(peel(w_left), lambda: peel(w_right()), join)
+    yield from combine(peel(w_left), lambda: peel(w_right()), join)
 
 
 def over(residues: list[Residue], polynomial: list[Ball]) -> Poly:
@@ -164,7 +165,7 @@ def _side(row: Row, residues: list[Residue], constant: Ball, left: bool) -> Side
 def _grown(side: Side, growth: Ball) -> Side:
     """The side with its slope given."""
     return replace(
-        side, numerator=side.numerator + growth * shifted(side.denominator, 1), slope_open=False
+        side, numerator=side.numerator + growth * shift(side.denominator, 1), slope_open=False
     )
 
 
@@ -176,7 +177,7 @@ def _growth(side: Side) -> Ball:
 def _sides(port: _Port, left: Side, right: Side) -> Iterator[Leaf]:
     """Every left side with every right one."""
     if port.damper or not (left.slope_open or right.slope_open):
-        yield from combined(
+        yield from combine(
             peel_side(left), lambda: peel_side(right), lambda a, b: _joined(port, a, b)
         )
     elif left.slope_open and right.slope_open:
@@ -188,7 +189,7 @@ def _sides(port: _Port, left: Side, right: Side) -> Iterator[Leaf]:
             if left.slope_open
             else (left, _grown(right, port.beta - _growth(left)))
         )
-        yield from combined(
+        yield from combine(
             peel_side(left), lambda: peel_side(right), lambda a, b: _joined(port, a, b)
         )
 

@@ -20,16 +20,16 @@ from disting.fibres.synthesis.branch import (
     Poly,
     Receptance,
     RowValues,
-    combined,
+    combine,
     cut,
     is_boundary,
     poly,
     product,
     roots,
-    shifted,
+    shift,
     splits,
 )
-from disting.fibres.synthesis.collocated import between, inverse_residues
+from disting.fibres.synthesis.driving_point import inverse_residues, join_sides
 from disting.fibres.synthesis.peel import Stiffness, grounded_at_zero, peel
 from disting.model.row import Row
 
@@ -77,13 +77,13 @@ def _sides(
             (*a.masses[::-1], m_a, m_b, *b.masses), (*a.springs[::-1], poly([kappa]), *b.springs), 1
         )
 
-    yield from combined(peel(w_left), lambda: peel(w_right), join)
+    yield from combine(peel(w_left), lambda: peel(w_right), join)
 
 
 def _side(pair: tuple[Poly, Poly], mass: Ball, kappa: Ball, nu: int, wall: bool) -> Stiffness:
     """W = (m Theta - kappa A - m x A)/A of degree nu over nu."""
     theta, zeros = pair
-    numerator = cut(mass * theta - kappa * zeros - mass * shifted(zeros, 1), nu)
+    numerator = cut(mass * theta - kappa * zeros - mass * shift(zeros, 1), nu)
     return Stiffness(
         numerator=numerator if wall else grounded_at_zero(numerator, 1),
         denominator=zeros,
@@ -105,7 +105,7 @@ def to_end(row: Row, data: Receptance) -> Iterator[Leaf]:
         roots(data.numerator, row.numerator_degree),
     )
     left, right = (inverse_residues(drive, zeros) for zeros in (own_zeros, prescribed))
-    for leaf in between(replace(row, b=row.a), drive.denominator // numerator, left, right):
+    for leaf in join_sides(replace(row, b=row.a), drive.denominator // numerator, left, right):
         yield replace(leaf, gauges=row.distance) if isinstance(leaf, RowValues) else leaf
 
 

@@ -25,7 +25,7 @@ from math import prod
 from flint import fmpz_mpoly
 
 from disting.algebra.certainty import residues
-from disting.algebra.symbols import RationalFunction, factored
+from disting.algebra.symbols import RationalFunction, factorise
 from disting.general.counts import number_of_roots, remainder
 from disting.general.elimination import Case, numbered, placed
 from disting.general.orthant import Orthant
@@ -167,7 +167,7 @@ def _of_odd_roots(equation: fmpz_mpoly, at: int) -> fmpz_mpoly:
     """What has the roots of an equation at which it changes its sign, once each, whatever the p:
     factors without the unknown and even powers do not belong to an equation for it.
     """
-    parts = factored(equation)[1]
+    parts = factorise(equation)[1]
     if all(f.degrees()[at] and power == 1 for f, power in parts):
         return equation
     return prod((f for f, power in parts if f.degrees()[at] and power % 2), start=equation**0)

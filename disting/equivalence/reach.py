@@ -43,7 +43,7 @@ class Piece:
 
 
 @dataclass(frozen=True, slots=True)
-class Reached:
+class Reach:
     """Where a model has positive equivalents in another one, special values aside: in any of the
     pieces, everywhere if one of them asks for nothing, nowhere if there are none.
     """
@@ -58,7 +58,7 @@ class Reached:
     def sentence(self, given: str, other: str) -> str:
         """The conditions in words; "" where nothing, or everything, is reached.
 
-        >>> Reached((Piece(("R2 - R3",)),)).sentence("A1", "A2")
+        >>> Reach((Piece(("R2 - R3",)),)).sentence("A1", "A2")
         'A1 has a positive equivalent A2 exactly where R2 > R3, special values aside.'
         """
         if self.is_everything or not self.pieces:
@@ -88,7 +88,7 @@ def inequality(polynomial: str) -> str:
     return " > ".join(" + ".join(side) or "0" for side in sides)
 
 
-def reached(given: AnyModel, other: AnyModel) -> Reached | None:
+def reach(given: AnyModel, other: AnyModel) -> Reach | None:
     """Which positive values of the one model have a positive equivalent in the other one; None
     where that is not known, or not short. Both have the same degrees.
 
@@ -96,7 +96,7 @@ def reached(given: AnyModel, other: AnyModel) -> Reached | None:
     >>> from disting.network import network_of
     >>> texts = "1>0, 1>2, 2>0; in 1; out 2", "1>0, 1>2, 2>1; in 2; out 1"
     >>> one, two = on_one_variable([of_network(network_of(text)) for text in texts])
-    >>> reached(one, two).pieces
+    >>> reach(one, two).pieces
     (Piece(positive=('a12 - a20',), equation='', root='', parameter=''),)
     """
     if max(len(m.parameters) for m in (given, other)) > MOST_PARAMETERS:
@@ -105,25 +105,25 @@ def reached(given: AnyModel, other: AnyModel) -> Reached | None:
     if one is None:
         return None
     if one.covering or one.path():
-        return Reached((Piece(()),))
+        return Reach((Piece(()),))
     pieces = list(_pieces(one))
     if None in pieces or len(pieces) > MOST_PIECES:
         return None
-    return Reached(_least([p for p in pieces if p]))
+    return Reach(_least([p for p in pieces if p]))
 
 
-def _asked(given: AnyModel, other: AnyModel, settings: Settings) -> Reached | None:
-    return reached(given, other)
+def _asked(given: AnyModel, other: AnyModel, settings: Settings) -> Reach | None:
+    return reach(given, other)
 
 
-def _to_dict(found: Reached | None) -> object:
+def _to_dict(found: Reach | None) -> object:
     return found and [[list(p.positive), p.equation, p.root, p.parameter] for p in found.pieces]
 
 
-def _from_dict(data: Any) -> Reached | None:
+def _from_dict(data: Any) -> Reach | None:
     if data is None:
         return None
-    return Reached(tuple(Piece(tuple(positive), *root) for positive, *root in data))
+    return Reach(tuple(Piece(tuple(positive), *root) for positive, *root in data))
 
 
 REACHED = Question.plain("conditions for positive equivalents", _asked, _to_dict, _from_dict)
