@@ -19,7 +19,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
-from disting.catalogs.network_search import in_order, same_pairs, search_in_brief, standing_for
+from disting.catalogs.network_search import in_order, representatives, same_pairs, search_in_brief
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE
 from disting.conditions.side import AnySide
@@ -27,7 +27,7 @@ from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import of_network, unnamed
-from disting.general.forms import carried
+from disting.general.forms import of_equals
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel, positive_question
@@ -102,7 +102,7 @@ def build_networks(
     ]
     pairs = _pairs(engine, sides, over_complex, over_positive)
     if family.name in IN_BRIEF:
-        pairs = _shared(list(pairs), sides)
+        pairs = _short(list(pairs), sides)
     return lines([header, *models, *pairs])
 
 
@@ -113,27 +113,31 @@ def _pairs(
     for i, j in same_pairs(over_complex, len(sides)):
         question, models = positive_question(sides[i], sides[j])
         finding = engine.answers.get(question_key(question, models, engine.settings))
-        record: Record = {"left": i + 1, "right": j + 1, "complex": _told(over_complex, i, j)}
-        record["positive"] = _told(over_positive, i, j)
+        record: Record = {
+            "left": i + 1,
+            "right": j + 1,
+            "complex": _verdict_record(over_complex, i, j),
+        }
+        record["positive"] = _verdict_record(over_positive, i, j)
         if isinstance(finding, Finding):
             del record["positive"]["evidence"]
             record["finding"] = json.loads(finding.to_json())
         yield record
 
 
-def _shared(records: Sequence[Record], sides: Sequence[ComparedModel]) -> Iterator[Record]:
+def _short(records: Sequence[Record], sides: Sequence[ComparedModel]) -> Iterator[Record]:
     """Yield them shorter: what is carried over from another pair says from which, and where it
     differs from that.
     """
     at = {(r["left"], r["right"]): r for r in records}
-    standing, names = [i + 1 for i in standing_for(sides)], [s.name for s in sides]
+    own, names = [i + 1 for i in representatives(sides)], [s.name for s in sides]
     for (i, j), record in at.items():
-        origin = standing[i - 1], standing[j - 1]
+        origin = own[i - 1], own[j - 1]
         base = at.get(in_order(*origin), {})
         if origin == (i, j) or not {"finding"} <= record.keys() & base.keys():
             yield record
             continue
-        from_it = _carried(_finding(base), origin, names)
+        from_it = _of_origin(_finding(base), origin, names)
         if json.loads(from_it.to_json()) != record["finding"]:
             yield record
             continue
@@ -141,17 +145,17 @@ def _shared(records: Sequence[Record], sides: Sequence[ComparedModel]) -> Iterat
         yield {"left": i, "right": j, "as": [*origin], **differs}
 
 
-def _carried(found: Finding, origin: tuple[int, int], names: Sequence[str]) -> Finding:
-    """The finding of a pair that has it from these two networks; `found`: that of both in order."""
+def _of_origin(finding: Finding, origin: tuple[int, int], names: Sequence[str]) -> Finding:
+    """The finding of a pair that has it from these two; `finding`: that of both in order."""
     a, b = origin
-    return carried(found if a < b else found.turned, names[a - 1], names[b - 1])
+    return of_equals(finding if a < b else finding.turned, names[a - 1], names[b - 1])
 
 
 def _finding(record: Record) -> Finding:
     return Finding.from_json(json.dumps(record["finding"]), rule=ADMISSIBLE)
 
 
-def _told(decided: Decisions, i: int, j: int) -> Record:
+def _verdict_record(decided: Decisions, i: int, j: int) -> Record:
     """A verdict without its models."""
     verdict = decided.verdict(i, j)
     return {
@@ -188,12 +192,12 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
         if "finding" not in r or own not in (r["left"], r["right"]):
             continue
         other = sides[r["right" if own == r["left"] else "left"] - 1]
-        found = r["finding"] if own == r["left"] else r["finding"].turned
+        finding = r["finding"] if own == r["left"] else r["finding"].turned
         pair = engine.general_subjects([model, other.subject])
         question, models = positive_question(pair[0], pair[1])
         if models[0] != sides[own - 1].asked_about[0]:
-            found = carried(found, sides[own - 1].name, other.name)
-        engine.remember(question, models, found)
+            finding = of_equals(finding, sides[own - 1].name, other.name)
+        engine.remember(question, models, finding)
 
 
 def _known(
@@ -212,14 +216,14 @@ def _known(
 def _whole(records: Sequence[Record], names: Sequence[str]) -> Iterator[Record]:
     """Yield the records of pairs, what they have from others written out, findings as such."""
     at = {(r["left"], r["right"]): r for r in records}
-    known = {pair: _finding(r) for pair, r in at.items() if "finding" in r}
+    findings = {pair: _finding(r) for pair, r in at.items() if "finding" in r}
     for pair, r in at.items():
         if "as" not in r:
-            yield r | ({"finding": known[pair]} if pair in known else {})
+            yield r | ({"finding": findings[pair]} if pair in findings else {})
             continue
         a, b = r["as"]
-        found = _carried(known[in_order(a, b)], (a, b), names)
-        yield at[in_order(a, b)] | r | {"finding": found}
+        finding = _of_origin(findings[in_order(a, b)], (a, b), names)
+        yield at[in_order(a, b)] | r | {"finding": finding}
 
 
 def read(path: Path) -> list[Record]:
@@ -230,8 +234,8 @@ def read(path: Path) -> list[Record]:
         records = [json.loads(line) for line in intact_text(path).splitlines()]
         header = records[0]
         names = [network.name for network in family_of(header["family"]).networks]
-        told = [r["network"] for r in records[1 : 1 + header["models"]]]
-        if header["schema"] != SCHEMA or told != names:
+        networks = [r["network"] for r in records[1 : 1 + header["models"]]]
+        if header["schema"] != SCHEMA or networks != names:
             raise ValueError("another schema, or other networks")
         for r in records[1 + len(names) :]:
             if not 0 < r["left"] < r["right"] <= len(names):
@@ -281,11 +285,11 @@ def _false_evidence(family: NetworkFamily, records: list[Record], engine: Engine
             for s, at in zip((left, right), origin, strict=True)
         ):
             wrong.append(f"{left.name} and {right.name}: not the same as {origin}")
-        for told in (r["complex"],) if origin else (r["complex"], r["positive"]):
-            data = told.get("evidence")
+        for verdict in (r["complex"],) if origin else (r["complex"], r["positive"]):
+            data = verdict.get("evidence")
             evidence = evidence_from(data) if data else None
-            if "evidence" not in told:
+            if "evidence" not in verdict:
                 evidence = r["finding"].evidence
-            if evidence and not pair[0].confirms(pair[1], evidence, told["representation"]):
+            if evidence and not pair[0].confirms(pair[1], evidence, verdict["representation"]):
                 wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
     return wrong

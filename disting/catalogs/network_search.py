@@ -9,7 +9,7 @@ from itertools import combinations, groupby
 
 from disting.conditions.finding import Finding
 from disting.evidence.kind import Labels
-from disting.general.forms import BRIEFLY, carried, of_part
+from disting.general.forms import BRIEFLY, of_equals, of_part
 from disting.general.model_side import ComparedModel, positive_question
 from disting.general.parts import parts_of
 from disting.general.replacement import simplest_network
@@ -29,54 +29,56 @@ def search_in_brief(
     """Let the engine know what a brief search tells of each pair, in place of a long one; of
     networks that give the same one is asked about.
     """
-    standing = standing_for(sides)
+    own = representatives(sides)
     same = [pair for pair in same_pairs(over_complex, len(sides)) if _is_searched(sides, *pair)]
-    pairs = sorted({in_order(standing[i], standing[j]) for i, j in same})
-    asked = {(i, j): positive_question(sides[i], sides[j])[1] for i, j in pairs if i < j}
-    parts = _known_parts(sides, standing)
-    answers, told = dict[Pair, Finding](), dict[Pair, Finding]()
+    pairs = sorted({in_order(own[i], own[j]) for i, j in same})
+    questions = {(i, j): positive_question(sides[i], sides[j])[1] for i, j in pairs if i < j}
+    parts = _representatives_of_parts(sides, own)
+    answers, by_parts = dict[Pair, Finding](), dict[Pair, Finding]()
 
     def size(pair: Pair) -> int:
         """Parameters of both: parts have fewer, so they are asked about before the whole."""
         return sum(len(sides[i].subject.parameters) for i in pair)
 
-    for _, layer in groupby(sorted(asked, key=size), key=size):
-        open_ = list[Pair]()
+    for _, layer in groupby(sorted(questions, key=size), key=size):
+        whole = list[Pair]()
         for pair in layer:
-            found = next(_of_parts(sides, parts, answers, *pair), None)
-            if found is None:
-                open_.append(pair)
+            finding = next(_of_parts(sides, parts, answers, *pair), None)
+            if finding is None:
+                whole.append(pair)
             else:
-                told[pair] = found
-        engine.answer_all(BRIEFLY, [asked[p] for p in open_], executor=executor, progress=progress)
-        answers |= {p: engine.answer(BRIEFLY, asked[p], engine.settings) for p in open_}
+                by_parts[pair] = finding
+        engine.answer_all(
+            BRIEFLY, [questions[p] for p in whole], executor=executor, progress=progress
+        )
+        answers |= {p: engine.answer(BRIEFLY, questions[p], engine.settings) for p in whole}
     for i, j in same:
-        a, b = standing[i], standing[j]
+        a, b = own[i], own[j]
         if a == b:
             continue  # a theorem tells it
-        found = _ordered(told if in_order(a, b) in told else answers, a, b)
+        finding = _ordered(by_parts if in_order(a, b) in by_parts else answers, a, b)
         if (a, b) != (i, j):
-            found = carried(found, sides[a].name, sides[b].name)
+            finding = of_equals(finding, sides[a].name, sides[b].name)
         question, models = positive_question(sides[i], sides[j])
-        engine.remember(question, models, found)
+        engine.remember(question, models, finding)
 
 
 def _ordered(answers: Mapping[Pair, Finding], i: int, j: int) -> Finding:
     return answers[i, j] if i < j else answers[j, i].turned
 
 
-def _known_parts(
-    sides: Sequence[ComparedModel], standing: Sequence[int]
+def _representatives_of_parts(
+    sides: Sequence[ComparedModel], own: Sequence[int]
 ) -> dict[int, list[tuple[Labels, int]]]:
     """Of each network that stands for others: names of elements that can be left out, and the
     network that stands for the rest.
     """
-    numbers = {form: i for i in standing if (form := simplest_network(sides[i].subject))}
-    found = dict[int, list[tuple[Labels, int]]]()
-    for i in {*standing}:
+    numbers = {form: i for i in own if (form := simplest_network(sides[i].subject))}
+    parts = dict[int, list[tuple[Labels, int]]]()
+    for i in {*own}:
         every = [(names, simplest_network(p)) for names, p in parts_of(sides[i].subject)]
-        found[i] = [(names, numbers[form]) for names, form in every if form in numbers]
-    return found
+        parts[i] = [(names, numbers[form]) for names, form in every if form in numbers]
+    return parts
 
 
 def _of_parts(
@@ -91,13 +93,13 @@ def _of_parts(
         for missing, part in parts[whole]:
             a, b = (part, j) if left_is_part else (i, part)
             if in_order(a, b) in answers:
-                found = carried(_ordered(answers, a, b), sides[a].name, sides[b].name)
-                told = of_part(found, left_is_part, missing)
-                if told is not None:
-                    yield told
+                inner = of_equals(_ordered(answers, a, b), sides[a].name, sides[b].name)
+                finding = of_part(inner, left_is_part, missing)
+                if finding is not None:
+                    yield finding
 
 
-def standing_for(sides: Sequence[ComparedModel]) -> list[int]:
+def representatives(sides: Sequence[ComparedModel]) -> list[int]:
     """For each the number of the network that stands for it: of those that give the same, one that
     is no chain and a simplest one, if there is one.
     """
@@ -109,10 +111,10 @@ def standing_for(sides: Sequence[ComparedModel]) -> list[int]:
         plain = network is not None and form is not None and same_drawing(network, form)
         return sides[i].chain is not None, not plain, i
 
-    found = dict[object, int]()
+    first = dict[object, int]()
     for i in sorted(range(len(sides)), key=order):
-        found.setdefault(forms[i] or i, i)
-    return [found[form or i] for i, form in enumerate(forms)]
+        first.setdefault(forms[i] or i, i)
+    return [first[form or i] for i, form in enumerate(forms)]
 
 
 def _is_searched(sides: Sequence[ComparedModel], i: int, j: int) -> bool:

@@ -200,15 +200,15 @@ def _stand_for(
     return (one, other) if replaceable(one, left) and replaceable(other, right) else None
 
 
-def carried(found: Finding, left: str, right: str) -> Finding:
+def of_equals(finding: Finding, left: str, right: str) -> Finding:
     """What is found of two networks with these texts, of two others that give the same."""
-    evidence = found.evidence
+    evidence = finding.evidence
     if not isinstance(evidence, OfNetworks):
-        note = with_names(found.note, left, right)
-        return replace(found, note=f"of {left} and {right}, which give the same, {note}")
+        note = with_names(finding.note, left, right)
+        return replace(finding, note=f"of {left} and {right}, which give the same, {note}")
     if isinstance(evidence, Replaced) and not (evidence.left_larger or evidence.right_larger):
-        return found  # their simplest networks are those of the others
-    return replace(found, evidence=Replaced(left, right, False, False, evidence))
+        return finding  # their simplest networks are those of the others
+    return replace(finding, evidence=Replaced(left, right, False, False, evidence))
 
 
 def by_parts(
