@@ -43,6 +43,7 @@ SHIPPED = (
     "machines-2",
     "machines-2-damped",
     "machines-3",
+    "machines-3-damped",
     "trees-4",
     "circuits-4",
     "circuits-5",
@@ -51,7 +52,7 @@ SHIPPED = (
     "compartments-2",
     "compartments-3",
 )
-IN_BRIEF = ("machines-3", "trees-4", "compartments-3")  # large ones
+IN_BRIEF = ("machines-3", "machines-3-damped", "trees-4", "compartments-3")  # large ones
 COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
 
 

@@ -116,6 +116,39 @@ class NoEquivalent(OverDomain):
 
 
 @dataclass(frozen=True, slots=True)
+class Inequality(OverDomain):
+    """A quadratic form in the coefficients, numbers with the names of both factors, that is
+    negative at all positive parameters of one model and at none of the other one.
+    """
+
+    kind: ClassVar[str] = "inequality"
+    claim: ClassVar[Claim] = Claim(Carrier.ADMISSIBLE, Relation.DISTINGUISHABLE)
+    words: ClassVar[str] = (
+        "{0.spelled} is negative at all positive parameters of {given}, and at none of {searched}"
+        " (a0, a1, .. coefficients of the denominator, b0, b1, .. those of the numerator; one"
+        " factor of all of them changes no sign)."
+    )
+    symbols: ClassVar[str] = "{0.spelled}: < 0 ∀ p ∈ A, ≥ 0 ∀ q ∈ A"
+    left_given: bool
+    form: tuple[tuple[int, str, str], ...]
+
+    @property
+    def spelled(self) -> str:
+        """The form.
+
+        >>> Inequality("positive", True, ((2, "a0", "a0"), (-1, "b1", "a2"))).spelled
+        '2*a0^2 - b1*a2'
+        """
+        said = ""
+        for number, *names in self.form:
+            one, other = names
+            size = f"{abs(number)}*" * (abs(number) != 1)
+            sign = " - " if number < 0 else " + "
+            said += sign + size + (f"{one}^2" if one == other else f"{one}*{other}")
+        return said.removeprefix(" + ") if said.startswith(" + ") else f"-{said[len(' - ') :]}"
+
+
+@dataclass(frozen=True, slots=True)
 class Constants(Kind):
     """Coefficients of the monic form that are constant in both models and have different values."""
 
@@ -291,8 +324,12 @@ def witnesses_in(evidence: "OfNetworks") -> Witnesses | None:
     return evidence if isinstance(evidence, Witnesses) else None
 
 
-OfNetworks = Explicit | NoEquivalent | Witnesses | Theorem | Replaced | AtInverse | OfPart
-OfGeneralModels = Witnesses | Explicit | NoEquivalent | Constants | Replaced | AtInverse | OfPart
+OfNetworks = (
+    Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replaced | AtInverse | OfPart
+)
+OfGeneralModels = (
+    Witnesses | Explicit | NoEquivalent | Inequality | Constants | Replaced | AtInverse | OfPart
+)
 
 
 def _spelled(point: PointText) -> str:

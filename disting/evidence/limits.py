@@ -1,6 +1,4 @@
-"""Evidence on limits of models of one size: of whole chains, and of what a row of a chain can
-be, or cannot.
-"""
+"""Evidence on limits of models of one size: whole chains, and what a row can be, or cannot."""
 
 from dataclasses import dataclass
 from enum import StrEnum

@@ -18,13 +18,14 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import Explicit, NoEquivalent, Witnesses
+from disting.evidence.general import BOTH, Explicit, Inequality, NoEquivalent, Witnesses
 from disting.evidence.kind import PointText
 from disting.general import fibre_lists, newton
-from disting.general.combination import excludes
+from disting.general.combination import excludes, is_tried
 from disting.general.equivalent import spelled
 from disting.general.fibre import Extent, solved
 from disting.general.formulas import explicit, fit
+from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
@@ -54,6 +55,9 @@ def admissible_finding(
     if domain is Domain.POSITIVE:
         found = _by_lists(left, right, seed, FIRST)
         if found is None and max(len(m.parameters) for m in (left, right)) > SMALL:
+            apart = _by_inequality(left, right)
+            if apart is not None:
+                return apart
             found = _by_numbers(left, right, seed, FIRST, effort.degree)
         if found:
             return _sometimes(found)
@@ -218,6 +222,18 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
     return None
 
 
+def _by_inequality(left: AnyModel, right: AnyModel) -> Finding | None:
+    """That no values of one of them satisfy an inequality that all of the other one do."""
+    if not (isinstance(left, Model) and isinstance(right, Model)):
+        return None
+    for left_given in BOTH:
+        form = contradiction(*((left, right) if left_given else (right, left)))
+        if form:
+            evidence = Inequality(Domain.POSITIVE.value, left_given, form)
+            return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
+    return None
+
+
 def _by_numbers(
     left: AnyModel,
     right: AnyModel,
@@ -235,13 +251,19 @@ def _by_numbers(
     having = having or _common(left, right)
     if having is None:
         return None
+    for left_given in BOTH:
+        given, other = (left, right) if left_given else (right, left)
+        values = next(points_against(given, other), None)
+        if values:
+            lacking = left_given, _written(values), ()
+            return _witnesses(left, right, having, lacking, Domain.POSITIVE)
     drawn = [
         zip(repeat(side), islice(points(one, Domain.POSITIVE, seed), count))
         for side, one in ((True, left), (False, right))
     ]
     for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
         given, other = (left, right) if left_given else (right, left)
-        if newton.having(given, values, other):
+        if not is_tried(other) or newton.having(given, values, other):
             continue
         if excludes(given, values, other, degree):
             lacking = left_given, _written(values), ()

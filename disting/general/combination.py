@@ -26,10 +26,9 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
-from disting.errors import InputError
-from disting.general.fibre_lists import is_in_one_variable
+from disting.general.fibre_lists import is_in_one_variable, is_regular
 from disting.general.model import Model, Terms
-from disting.general.target import rational_values, target, value_at
+from disting.general.target import value_at
 
 MOST = 3000  # numbers that are looked for
 DEGREE = 2  # of the products m of monomials
@@ -53,7 +52,7 @@ def excludes(given: Model, values: dict[str, Fraction], other: Model, degree: in
     rows = _scaled(given, values, other)
     if rows is None:
         return False
-    monomials = sorted({e for row in rows for e in row})
+    monomials = _monomials(other)
     factors, found = monomials, False
     for _ in range(degree):
         if found or len(factors) * len(rows) * (len(rows) - 1) // 2 > MOST:
@@ -63,6 +62,16 @@ def excludes(given: Model, values: dict[str, Fraction], other: Model, degree: in
             {tuple(map(sum, zip(*two, strict=True))) for two in product(factors, monomials)}
         )
     return found
+
+
+def is_tried(other: Model) -> bool:
+    """Whether there are few enough numbers to look for at all."""
+    count = sum(map(bool, _coefficients(other)))
+    return len(_monomials(other)) * count * (count - 1) // 2 <= MOST
+
+
+def _monomials(model: Model) -> list[Exponents]:
+    return sorted({e for terms in _coefficients(model) for e, _ in terms})
 
 
 def _is_positive(products: list[Polynomial]) -> bool:
@@ -87,11 +96,7 @@ def _scaled(
         return None
     if not is_in_one_variable(given.powers, other.powers):
         return None
-    try:
-        goal = target(given, rational_values(given, values))
-    except InputError:
-        return None
-    if (len(goal.numerator) - 1, len(goal.denominator) - 1) != given.degrees:
+    if not is_regular(given, values):
         return None
     point = [values[name] for name in given.parameters]
     numbers = [value_at(terms, point) for terms in mine if terms]

@@ -101,6 +101,15 @@ def goal_of(given: Model, values: Values) -> Target | None:
         return None
 
 
+def is_regular(model: Model, values: Values) -> bool:
+    """Whether numerator and denominator are coprime and of full degree at a point."""
+    goal = goal_of(model, values)
+    return goal is not None and model.degrees == (
+        len(goal.numerator) - 1,
+        len(goal.denominator) - 1,
+    )
+
+
 def positive(goal: Target, other: Model, thorough: bool = False) -> tuple[Equivalent, ...] | None:
     """All positive equivalents; None where they are not all known. `thorough`: where that grows too
     large, by equations in the inverses of some unknowns.

@@ -24,6 +24,7 @@ from disting.evidence.general import (
     BOTH,
     AtInverse,
     Explicit,
+    Inequality,
     NoEquivalent,
     OfNetworks,
     OfPart,
@@ -82,7 +83,7 @@ def by_forms(
         found = _answered(*forms.models, seed, effort)
         if larger and found.outcome is not Outcome.FAILS:
             continue
-        if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem):
+        if isinstance(found.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem):
             return replace(found, evidence=forms.evidence(found.evidence))
         told = replace(found, note=f"of the simplest networks that give the same, {found.note}")
     return told
@@ -98,7 +99,9 @@ def by_inverse(
     found = by_forms(*models, seed, effort)
     if found is None:
         found = _answered(*models, seed, effort)
-    if isinstance(found.evidence, Explicit | NoEquivalent | Witnesses | Theorem | Replaced):
+    if isinstance(
+        found.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replaced
+    ):
         evidence = AtInverse(models[0].name, models[1].name, found.evidence)
         return replace(found, evidence=evidence)
     return None

@@ -8,7 +8,7 @@ from functools import partial
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import Theorem
-from disting.evidence.general import Constants, Explicit, NoEquivalent, Witnesses
+from disting.evidence.general import Constants, Explicit, Inequality, NoEquivalent, Witnesses
 from disting.evidence.ideals import Refuted, Solved
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
@@ -19,6 +19,7 @@ from disting.general.admissible import are_one_ports
 from disting.general.any_model import is_renamed, maps_of
 from disting.general.combination import excludes
 from disting.general.formulas import is_explicit, is_without
+from disting.general.inequalities import excludes_around, is_contradiction
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_inclusions import numberings
@@ -65,6 +66,8 @@ def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
             return is_explicit(evidence, left, right)
         case NoEquivalent():
             return is_without(evidence, left, right)
+        case Inequality():
+            return is_inequality(evidence, left, right)
         case Witnesses():
             return confirms(evidence, left, right)
     return False  # it speaks of other models
@@ -109,6 +112,13 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
         return False
     sides = {True: (left, right), False: (right, left)}
     first, second = sides[evidence.with_left_given], sides[evidence.without_left_given]
+    points = (
+        (evidence.point_with, first[0]),
+        (evidence.point_without, second[0]),
+        (evidence.equivalent, first[1]),
+    )
+    if any(p and {name for name, _ in p} != {*model.parameters} for p, model in points):
+        return False
     near = tuple(float(Fraction(x)) for _, x in evidence.equivalent)
     return _has(*first, with_, near, domain) and _has_none(*second, without, domain)
 
@@ -131,11 +141,23 @@ def _has_none(
     given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
 ) -> bool:
     if domain is Domain.POSITIVE:
-        if isinstance(given, Model) and isinstance(other, Model) and excludes(given, values, other):
+        pair = [m for m in (given, other) if isinstance(m, Model)]
+        if any(
+            len(pair) == 2 and shown(pair[0], values, pair[1])
+            for shown in (excludes_around, excludes)
+        ):
             return True
         if fibre_lists.lacking(given, values, other):
             return True
     return any(one.lacking(values) for one in ways_again(given, other, domain))
+
+
+def is_inequality(evidence: Inequality, left: AnyModel, right: AnyModel) -> bool:
+    """Whether the form has these signs."""
+    given, other = (left, right) if evidence.left_given else (right, left)
+    if not (isinstance(given, Model) and isinstance(other, Model)):
+        return False
+    return evidence.domain == Domain.POSITIVE and is_contradiction(evidence.form, given, other)
 
 
 def constants_finding(left: AnyModel, right: AnyModel) -> Finding:

@@ -41,8 +41,9 @@ class TooMuch(Exception):
 class Effort:
     """How far equivalents are looked for: `points` of either model, of `listed` of which all
     equivalents are listed, so many `orders` of the unknowns, combinations of equations by products
-    of this `degree`, so many `parts` of either network, and in each step so many `terms` of
-    polynomials that are factored or put into each other (None: without end).
+    of this `degree`, so many `parts` of either network, elimination of so many `unknowns` at most,
+    and in each step so many `terms` of polynomials that are factored or put into each other (None:
+    without end).
     """
 
     points: int = 40
@@ -50,11 +51,12 @@ class Effort:
     orders: int = 24
     degree: int = 2
     parts: int = 12
+    unknowns: int | None = None
     terms: int | None = None
 
 
 THOROUGH = Effort()
-BRIEF = Effort(points=10, listed=3, orders=6, degree=1, parts=0, terms=5_000)
+BRIEF = Effort(points=10, listed=3, orders=6, degree=1, parts=0, unknowns=10, terms=5_000)
 """So far searches a shipped family that has thousands of pairs."""
 
 

@@ -33,7 +33,9 @@ to 0 or oo: the limit is in U. A proper map between oriented manifolds of one di
 connected one, has a degree, the sum of signs over the values of any function at which all are
 regular, which is 0 if some function has none. The coefficients are coordinates of K up to a common
 factor of one sign, so that the determinant of them and their derivatives has the sign of the map
-everywhere, or everywhere its opposite.
+everywhere, or everywhere its opposite. Networks that remain are looked at while their degree (the
+larger one of numerator and denominator) is that of N: those of smaller degree have no functions in
+K(m, c, z), m >= n, nor has what remains of them, as limits have no larger degree.
 """
 
 from collections.abc import Callable, Sequence
@@ -99,7 +101,10 @@ def _some_minor_reaches(model: Model, whole: Part, set_of: SetOf) -> bool:
                     continue
                 met.add(less)
                 try:
-                    found = set_of(Model.from_network(less))
+                    made = Model.from_network(less)
+                    if made.n_states * model.powers.step < model.n_states * made.powers.step:
+                        continue  # the degree in s is smaller
+                    found = set_of(made)
                 except InputError:
                     return True
                 if found is None or (

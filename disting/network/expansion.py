@@ -9,6 +9,7 @@ Warburg elements have half ones; where inductors have s^-1, P is multiplied by s
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 
 from flint import fmpz_mpoly
@@ -16,6 +17,7 @@ from flint import fmpz_mpoly
 from disting.algebra.determinants import Minors, Times, minors
 from disting.errors import InputError
 from disting.network.element import Element, Port
+from disting.network.graph import edges, parts
 from disting.network.network import Network
 
 Ring = Mapping[str, fmpz_mpoly]
@@ -45,8 +47,8 @@ def transfer_functions(
     determinant = minors(rows, {0: one}, times).get(whole, one - one)
     if determinant.is_zero():
         raise InputError(
-            f"{network.name}: no motion or voltage follows from what enters: a part has nothing"
-            " that holds it; connect it to the ground or give it a mass"
+            f"{network.name}: no motion or voltage follows from what enters: {_loose(network)}"
+            " nothing that holds it; connect it to the ground or give it a mass"
         )
     gained = 2 * network.order // step + lift
     dividing = [e.value for e in plain.elements if e.kind.divides]
@@ -67,6 +69,14 @@ def transfer_functions(
             ]
         )
     return tuple(zip(*columns, strict=True))
+
+
+def _loose(network: Network) -> str:
+    """What has nothing that holds it: nodes whose gears would have to."""
+    plain = (replace(e, ratio="") for e in network.elements)
+    roots = parts((0, *network.nodes), (edge for e in plain for edge in edges(e)))
+    node = next((i for i in network.nodes if roots[i]), None)
+    return "a part has" if node is None else f"node {node} hangs on gears alone and has"
 
 
 def _add(

@@ -5,7 +5,7 @@ The page holds the classes, not the pairs (see `damper_payload`); its script loo
 shows.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -20,11 +20,9 @@ from disting.report.environment import render
 from disting.report.page import decides
 from disting.report.page_drawing import (
     Drawing,
-    SharedDrawing,
-    definitions,
     ground_dampers,
     height_with_dampers,
-    shared,
+    held,
 )
 from disting.report.search import Families, families
 from disting.report.words import plural
@@ -51,7 +49,7 @@ class Structure:
     many pairs of those are open.
     """
 
-    drawing: SharedDrawing
+    drawing: Drawing
     classes: int
     undecided: int
 
@@ -89,8 +87,9 @@ def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
     pages = families([], [found]) | dict(beside or {})
     catalog = chains_name(found.family.n_masses, found.family.damped) in pages
     family, by_size, totals = found.family, numbered(found.found), found.found.counts()
-    parts, drawings = shared(dict(enumerate(family, 1)))
-    ground = tuple(ground_dampers(family.n_masses))
+    drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(family, 1)]
+    sample = Chain(3, 1, 1, 3, 1, 2, damped=family.damped, ground_dampers=(2,))
+    example = Drawing(0, draw(sample))
     undecided = list(opened(found, by_size))
     return render(
         "dampers.html",
@@ -106,9 +105,8 @@ def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
         counts=counts(found),
         undecided=undecided[:LISTED],
         more=len(undecided) - LISTED,
-        parts=definitions((*parts, *ground)),
-        drawings=drawings,
-        sample=Drawing(0, draw(Chain(3, 1, 1, 3, 1, 2, damped=family.damped, ground_dampers=(2,)))),
+        held=held((*drawings, example), ground_dampers(family.n_masses)),
+        sample=example,
         payload=payload(
             found,
             catalog=catalog,
@@ -126,7 +124,7 @@ def family_title(n_masses: int, damped: bool) -> str:
 
 
 def structures(
-    found: DamperFamily, by_size: Numbered, drawings: tuple[SharedDrawing, ...]
+    found: DamperFamily, by_size: Numbered, drawings: Sequence[Drawing]
 ) -> Iterator[Structure]:
     """The family's chains."""
     rows = by_size.group.reshape(len(found.family), len(found.sets)).tolist()

@@ -26,8 +26,9 @@ from disting.report.drawing import (
     force_bar,
     sensor_bar,
 )
-from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene, Shape, Text
-from disting.report.svg import body, number
+from disting.report.page_drawing import Part
+from disting.report.scene import Ink, Layer, Path, Rect, Scene, Shape, Text
+from disting.report.svg import number
 
 SMALL = 0.62  # of the natural width
 ASIDE = 9.0  # x of a further sensor's post, from the middle of its mass
@@ -70,10 +71,7 @@ def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
 def definitions(used: Iterable[tuple[Chain, Item]]) -> list[Markup]:
     """What sketches are made of beside the drawings of the chains, each once."""
     found = {layer.name: layer for layer in (added(*one) for one in used)}
-    return [
-        Markup(f'<g id="more-{name}">{body(Scene(0, 0, (layer,)), PAGE_PALETTE)}</g>')
-        for name, layer in sorted(found.items())
-    ]
+    return [Part(f"more-{name}", layer).definition for name, layer in sorted(found.items())]
 
 
 def state(

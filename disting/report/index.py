@@ -14,7 +14,7 @@ from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
 from disting.report.matrix import thumbnail
 from disting.report.model import model_of, motion_of
-from disting.report.page_drawing import Drawing, definitions
+from disting.report.page_drawing import Drawing, held
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene
 from disting.report.search import families
@@ -124,17 +124,17 @@ def index(
     >>> "I have a measurement" in index([catalog(2, damped=True)])
     True
     """
-    masses = sorted({c.n_masses for c in catalogs})
+    masses, shown = sorted({c.n_masses for c in catalogs}), example(catalogs)
     return render(
         "index.html",
         cards=[card(c) for c in catalogs],
         damper_cards=[damper_card(f) for f in dampers],
-        example=example(catalogs),
+        example=shown,
         links=links,
         families=script_json(families(catalogs, dampers, across)),
         across=across,
         machines=script_json(machines(catalogs)),
-        machine_parts=definitions(parts(catalogs)),
+        held=held((shown.left, shown.right) if shown else (), parts(catalogs)),
         machine_sizes=masses,
         machine_start=min(masses, key=lambda n: abs(n - 3), default=0),
         plural=plural,

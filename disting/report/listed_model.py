@@ -25,6 +25,7 @@ from disting.report.formulas import (
 )
 from disting.report.listing import Card, Listing
 from disting.report.model import told_apart
+from disting.report.page_drawing import held
 from disting.report.words import plural
 from disting.verdict.meaning import meaning_sentence as shows
 from disting.verdict.query import View
@@ -94,7 +95,6 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
         if found.relation(number, o, View.EXACT) is Relation.INDISTINGUISHABLE
         and verdicts[o].relation is not Relation.INDISTINGUISHABLE
     ]
-    drawn = [c.drawing for c in (card, *(t.card for t in twins)) if c.drawing]
     network = card.model.network
     sort = _sort(network)
     return render(
@@ -106,7 +106,7 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
         aside=any(v.has_exceptions for v in verdicts.values()),
         complex_same=complex_same,
         told_apart=told_apart(verdicts),
-        drawings=drawn,
+        held=held(c.drawing for c in (card, *(t.card for t in twins)) if c.drawing),
         transfers=_transfers(card.model, LETTERS.get(sort, "G")),
         unseen=network.unseen if network else (),
         function=FUNCTIONS.get(sort, "transfer function"),

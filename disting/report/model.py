@@ -21,7 +21,7 @@ from disting.report.environment import render
 from disting.report.experiment_drawing import definitions
 from disting.report.formulas import Correspondence, combinations, correspondence, written
 from disting.report.next_steps import advice, drawn, found_for, page_of
-from disting.report.page_drawing import Drawing, definitions as held, shared
+from disting.report.page_drawing import Drawing, held
 from disting.report.words import plural, rule_in_words, short_title
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
@@ -139,7 +139,6 @@ def model_page(catalog: Catalog, number: int) -> str:
         if seen[other] is not Relation.DISTINGUISHABLE
     ]
     shown = [number, *(t.model.row.number for t in twins)]
-    parts, drawings = shared({n: catalog.rows[n - 1].chain for n in shown})
     told = advice(found_for(catalog), number)
     return render(
         "model.html",
@@ -154,8 +153,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         open=[t for t in twins if t.relation is Relation.UNDECIDED],
         complex_same=_over_complex(catalog, number, Relation.INDISTINGUISHABLE),
         complex_open=_over_complex(catalog, number, Relation.UNDECIDED),
-        parts=held(parts),
-        drawings=drawings,
+        held=held(model_of(catalog, n).drawing for n in shown),
         transfer=written(model.row.chain),
         free=catalog.record(number)["free"],
         basis=combinations(model.row.identifiability.basis),

@@ -23,6 +23,7 @@ from disting.report.environment import render, source
 from disting.report.listed_model import listed_model_page
 from disting.report.listing import Listing, judged
 from disting.report.network_motion import motion_page_of, page_of_motion
+from disting.report.page_drawing import held
 from disting.report.payload import payload
 from disting.report.words import SAID, VIEW_TITLES
 from disting.verdict.engine import Engine
@@ -120,6 +121,7 @@ def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) 
         compared=n_pairs,
         views=[(view, VIEW_TITLES[view]) for view in VIEWS],
         told=list(_told(shown)) if n_pairs <= LISTED_PAIRS else [],
+        held=held(card.drawing for card in shown.cards if card.drawing),
         payload=data,
         site=site,
         guide=guide,

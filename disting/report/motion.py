@@ -17,7 +17,7 @@ from disting.report.domains import one_sided, with_exceptions
 from disting.report.drawing import JOINT, MASS, PITCH, WALL, draw
 from disting.report.environment import render
 from disting.report.model import folder_of, ways
-from disting.report.page_drawing import definitions
+from disting.report.page_drawing import held
 from disting.report.payload import script_json
 from disting.report.words import short_title
 from disting.verdict.query import View
@@ -42,7 +42,7 @@ def motion_page(catalog: Catalog) -> str:
         back=f"{catalog.name}.html",
         site=True,
         members=[tuple(f"A{i}" for i in group) for group in catalog.classes()],
-        parts=definitions(parts_of(catalog.family)),
+        parts=held((), parts_of(catalog.family)),
         payload=_payload(catalog, first),
     )
 

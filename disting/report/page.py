@@ -36,7 +36,7 @@ from disting.report.next_steps import (
     page_of,
     sketches_for_pairs,
 )
-from disting.report.page_drawing import Drawing
+from disting.report.page_drawing import Drawing, held
 from disting.report.payload import payload
 from disting.report.search import Families, families
 from disting.report.words import (
@@ -80,6 +80,7 @@ def next_page(catalog: Catalog, found: NextCatalog) -> str:
         family=short_title(catalog),
         folder=folder_of(catalog),
         groups=groups,
+        held=held(drawing for group in groups for drawing in group.drawings),
         additions=definitions(menu_of(found)),
         plural=plural,
     )
@@ -130,7 +131,7 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         Grouped(of, [[models[m - 1].drawing for m in members] for members in of.groups])
         for of in domains
     ]
-    further = found_for(catalog)
+    further, sample = found_for(catalog), example(catalog)
     return render(
         "page.html",
         title=title(catalog),
@@ -148,7 +149,8 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         still_open=domains[1].totals[Relation.UNDECIDED],
         listed_pairs=LISTED_PAIRS,
         models=models,
-        sample=example(catalog),
+        held=held([*(m.drawing for m in models), sample]),
+        sample=sample,
         dampers=dampers,
         across=across,
         additions=definitions(menu_of(further)),

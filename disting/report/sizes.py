@@ -16,8 +16,9 @@ from disting.catalogs.sizes_files import SizesCatalog
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.files import __version__
 from disting.report.domains import VIEWS, over
+from disting.report.drawing import draw
 from disting.report.environment import render
-from disting.report.page_drawing import SharedDrawing, definitions, shared
+from disting.report.page_drawing import Drawing, held
 from disting.report.payload import packed, payload
 from disting.report.search import Families, families
 from disting.report.words import VIEW_TITLES, plural, raised
@@ -83,14 +84,14 @@ class Size:
 
     masses: int
     folder: str
-    drawings: tuple[SharedDrawing, ...]
+    drawings: tuple[Drawing, ...]
 
 
 def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
     """HTML of models of several sizes; `beside`: the pages of pairs beside it (see `families`)."""
     pages = families([], across=[found]) | dict(beside or {})
     counts, domains = list(between(found)), [over(found, view) for view in VIEWS]
-    parts, drawings = shared(dict(enumerate(found.family, 1)))
+    drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(found.family, 1)]
     return render(
         "sizes.html",
         damped=found.damped,
@@ -104,7 +105,7 @@ def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
         limits=True,  # the panel has room for them
         outside=list(_by_reason(found, NO_LIMIT)),
         open=list(_by_reason(found, NOT_KNOWN)),
-        parts=definitions(parts),
+        held=held(drawings),
         payload=payload(
             found,
             domains,
@@ -220,9 +221,7 @@ def _open(told: InclusionFinding) -> str:
     return f"{reason[:1].upper()}{reason[1:]}." if reason else ""
 
 
-def _sizes(
-    found: SizesCatalog, pages: Families, drawings: Sequence[SharedDrawing]
-) -> Iterator[Size]:
+def _sizes(found: SizesCatalog, pages: Families, drawings: Sequence[Drawing]) -> Iterator[Size]:
     rest = iter(drawings)
     for c in found.catalogs:
         folder = str(pages.get(c.name, {}).get("folder", ""))

@@ -34,15 +34,10 @@ def svg(scene: Scene, palette: Palette = FILE_PALETTE) -> str:
     )
 
 
-def body(scene: Scene, palette: Palette, all_but_last: str = "") -> str:
-    """The scene's elements without the enclosing svg element; `all_but_last`: id of a group of
-    all layers but the last one, "" for no such group.
-    """
+def body(scene: Scene, palette: Palette) -> str:
+    """The scene's elements without the enclosing svg element."""
     common = f'font-family="{FONT}" stroke-linejoin="round" stroke-linecap="round"'
-    layers = [_layer(layer, palette) for layer in scene.layers]
-    if all_but_last:
-        layers[:-1] = [f'<g id="{all_but_last}">', *layers[:-1], "</g>"]
-    return f"<g {common}>{''.join(layers)}</g>"
+    return f"<g {common}>{''.join(drawn(layer, palette) for layer in scene.layers)}</g>"
 
 
 def number(value: float) -> str:
@@ -55,7 +50,8 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def _layer(layer: Layer, palette: Palette) -> str:
+def drawn(layer: Layer, palette: Palette) -> str:
+    """A layer's elements, without the font and the round ends of lines that all layers share."""
     return f'<g data-part="{escape(layer.name)}">{_styled(layer.shapes, palette)}</g>'
 
 

@@ -164,7 +164,8 @@ BEGUN = (
     PRESSED
     + "sys.argv = ['disting', *sys.argv[2:]]; runpy.run_module('disting', run_name='__main__', alter_sys=True)"
 )
-FORMULAS = ("equivalents", "3:4", "--to", "3:1", "--undamped", "--formulas")
+CIRCUITS = ("compare", "R1-p(R2,C1)", "p(R1,R2-C1)")
+IN_WORK = "networkx.algorithms"  # is imported by what looks at circuits, and by nothing before
 
 
 def pressed(program, *arguments):
@@ -192,11 +193,10 @@ def test_an_interrupt_while_modules_are_imported_ends_the_process_in_silence(mod
 
 def test_an_interrupt_while_work_imports_is_told_as_any_other(tmp_path, monkeypatch):
     """A cache is spoken of where there is one."""
-    sympy = "sympy.polys.polytools"  # is imported by what writes formulas, and by nothing else
     told = {"off": "disting: interrupted", str(tmp_path / "c.sqlite3"): INTERRUPTED}
     for cache, said in told.items():
         monkeypatch.setenv("DISTING_CACHE", cache)
-        assert pressed(BEGUN, sympy, *FORMULAS) == (130, said)
+        assert pressed(BEGUN, IN_WORK, *CIRCUITS) == (130, said)
 
 
 def test_an_interrupt_while_the_process_ends_is_silent():
@@ -209,7 +209,7 @@ def test_an_interrupt_in_a_callback_is_not_lost():
     """Python prints such an exception and goes on."""
     finder = PRESSED.replace("            press()", "            Callback()")
     program = finder + BEGUN.removeprefix(PRESSED)
-    assert pressed(program, "sympy.polys.polytools", *FORMULAS) == (-signal.SIGINT, "")
+    assert pressed(program, IN_WORK, *CIRCUITS) == (-signal.SIGINT, "")
 
 
 def test_where_interrupts_are_ignored_they_stay_ignored():

@@ -18,9 +18,10 @@ from disting.report.damper_page import counts
 from disting.report.damper_payload import bits, mirror, numbered, payload
 from disting.report.drawing import draw
 from disting.report.index import runs
-from disting.report.page_drawing import ground_dampers, shared
-from disting.report.scene import Ink
+from disting.report.page_drawing import Drawing, ground_dampers, held
+from disting.report.scene import PAGE_PALETTE, Ink
 from disting.report.search import families
+from disting.report.svg import drawn
 from disting.verdict.result import Relation
 
 
@@ -85,11 +86,16 @@ def test_the_mirror_is_the_one_of_the_free_part(found: DamperFamily) -> None:
 
 
 def test_shared_drawings_are_the_single_ones(found: DamperFamily) -> None:
-    parts, drawings = shared(dict(enumerate(found.family, 1)))
-    layers = [part.layer for part in parts]
-    assert len(set(layers)) == len(layers)
-    for chain, drawing in zip(found.family, drawings, strict=True):
-        assert tuple(layers[i] for i in drawing.parts) == draw(chain).layers
+    drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(found.family, 1)]
+    *lines, _ = f"{held(drawings)}\n".split("\n")
+    parts = dict(
+        re.fullmatch(r'<g id="(part-\d+)">(.*)</g>', line).groups()
+        for line in lines[: -len(drawings)]
+    )  # type: ignore[union-attr]
+    assert len(set(parts.values())) == len(parts) < sum(len(d.scene.layers) for d in drawings) / 2
+    for drawing, line in zip(drawings, lines[-len(drawings) :], strict=True):
+        single = [drawn(layer, PAGE_PALETTE) for layer in drawing.scene.layers]
+        assert [parts[name] for name in re.findall(r'href="#(.*?)"', line)] == single
 
 
 def test_ground_dampers_are_those_of_a_single_chain(found: DamperFamily) -> None:

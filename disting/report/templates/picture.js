@@ -16,7 +16,7 @@ const pictureOf = (svgs) => {
   const gap = 24, edge = 8, boxes = svgs.map((svg) => svg.viewBox.baseVal), at = boxes.map((_, i) => edge + boxes.slice(0, i).reduce((x, b) => x + b.width + gap, 0));
   const width = at.at(-1) + boxes.at(-1).width + edge, height = Math.max(...boxes.map((b) => b.height)) + 2 * edge;
   const inner = svgs.map((svg, i) => `<g transform="translate(${at[i] - boxes[i].x} ${edge - boxes[i].y})">${[...wholeDrawing(svg).childNodes].map((n) => new XMLSerializer().serializeToString(n)).join("")}</g>`);
-  const text = `<svg xmlns="${svgs[0].namespaceURI}" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}"><rect width="100%" height="100%" fill="${PALETTE.paper}"/>${inner.join("")}</svg>`;
+  const text = `<svg xmlns="${svgs[0].namespaceURI}" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="system-ui, 'Segoe UI', Roboto, 'Liberation Sans', 'DejaVu Sans', Arial, sans-serif" stroke-linejoin="round" stroke-linecap="round"><rect width="100%" height="100%" fill="${PALETTE.paper}"/>${inner.join("")}</svg>`;
   return { width, height, text: text.replace(/var\(--([\w-]+)\)/g, (_, name) => PALETTE[name] || PALETTE.line).replaceAll("currentColor", PALETTE.line) };
 };
 const saveAs = (name, blob) => {
