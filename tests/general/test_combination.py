@@ -13,7 +13,7 @@ from disting.general.any_model import of_network
 from disting.general.combination import excludes
 from disting.network.notation import network_of
 from disting.verdict.verdict_file import verdict_file
-from tests.network.test_listed import distance
+from tests.network.test_fibre_lists import distance
 
 STAR, LOOP = "1~2, 1~3; F1; S2", "1~2, 1~3, 2~3; F1; S2"
 PAIRS = [
