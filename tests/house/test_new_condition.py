@@ -18,7 +18,7 @@ MARKED = Rule("marked", Role.STRUCTURAL, "a marked pair", "they are the marked o
 """
 CHECKS = """
 from dataclasses import replace
-from disting.algebra.certainty import Certainty, graded
+from disting.algebra.certainty import Certainty, grade_of
 from disting.evidence.conditions import Mark
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import AGAIN, ALWAYS, MARKED, NEVER
@@ -53,8 +53,8 @@ class Mark(Kind):
 
 
 ByConditions = Mark | """
-NECESSARY = """    Necessary(ALWAYS, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(ALWAYS, Outcome.HOLDS)),
-    Necessary(NEVER, lambda p: 0, lambda a, b: graded(True, 0), lambda a, b: Finding(NEVER, Outcome.INAPPLICABLE)),
+NECESSARY = """    Necessary(ALWAYS, lambda p: 0, lambda a, b: grade_of(True, 0), lambda a, b: Finding(ALWAYS, Outcome.HOLDS)),
+    Necessary(NEVER, lambda p: 0, lambda a, b: grade_of(True, 0), lambda a, b: Finding(NEVER, Outcome.INAPPLICABLE)),
     Necessary(AGAIN, _n.numbers_of_coefficients, _n.degree_grade, _again, of_degrees=True),
 )
 SUFFICIENT = ("""
