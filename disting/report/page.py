@@ -66,14 +66,14 @@ class Group:
     advice: tuple[Advice, ...]
 
 
-def next_page(catalog: Catalog, found: NextCatalog) -> str:
+def next_page(catalog: Catalog, the_catalog: NextCatalog) -> str:
     """HTML of the page."""
     groups = []
-    for members in found.groups:
-        whole = named(found, members)
+    for members in the_catalog.groups:
+        whole = named(the_catalog, members)
         drawings = tuple(model_of(catalog, m).drawing for m in members)
-        told = tuple(advice_of(whole, k, members) for k in range(len(members)))
-        groups.append(Group(drawings, anywhere(whole), told))
+        advices = tuple(advice_of(whole, k, members) for k in range(len(members)))
+        groups.append(Group(drawings, anywhere(whole), advices))
     return render(
         "next.html",
         catalog=catalog,
@@ -81,7 +81,7 @@ def next_page(catalog: Catalog, found: NextCatalog) -> str:
         folder=folder_of(catalog),
         groups=groups,
         held=held(drawing for group in groups for drawing in group.drawings),
-        additions=definitions(menu_of(found)),
+        additions=definitions(menu_of(the_catalog)),
         plural=plural,
     )
 
