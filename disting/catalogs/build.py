@@ -98,10 +98,10 @@ def _pairs(decisions: dict[str, Decisions]) -> Iterator[Record]:
     for i in range(size):
         for j in range(i + 1, size):
             both = decisions[Stage.FIBRE].inclusions.get((i, j))
-            told = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
+            entries = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
             yield (
                 {"left": i + 1, "right": j + 1}
-                | told
+                | entries
                 | _shares(decisions[Stage.FIBRE], i, j)
                 | {
                     part: step(decided, i, j)
@@ -131,8 +131,8 @@ def step(decided: Decisions, i: int, j: int) -> Record:
     assert verdict.evidence is not None  # only decided pairs get here
     assert verdict.certainty is not None
     # the condition's number tells the relation
-    told = verdict.representation not in (Stage.FIBRE, Stage.PARAMETERS)
-    relation = {} if told else {"relation": verdict.relation.value}
+    holds = verdict.representation not in (Stage.FIBRE, Stage.PARAMETERS)
+    relation = {} if holds else {"relation": verdict.relation.value}
     return relation | {
         "decided_by": verdict.decided_by,
         "certainty": verdict.certainty.value,

@@ -42,10 +42,10 @@ SIGNS = {relation: sign for sign, relation in RELATIONS.items()}
 
 def _letters(names: Iterable[str]) -> dict[str, str]:
     """A letter a rule: its first one, or, where another rule has that, one that none has."""
-    found = dict[str, str]()
+    texts = dict[str, str]()
     for name in names:
-        found[name] = next(x for x in name[0] + ascii_letters if x not in found.values())
-    return found
+        texts[name] = next(x for x in name[0] + ascii_letters if x not in texts.values())
+    return texts
 
 
 LETTERS = _letters(RULES)
@@ -98,8 +98,8 @@ class Matrix:
         return lines(list(self.records))
 
     def _sign(self, column: str, left: Chain, right: Chain) -> str:
-        here, there = (self._places.get(self._plain(c), -1) for c in (left, right))
-        low, high = sorted((here, there))
+        own_place, other_place = (self._places.get(self._plain(c), -1) for c in (left, right))
+        low, high = sorted((own_place, other_place))
         if low < 0 or low == high or left.sensor is not right.sensor:
             raise InputError(
                 f"the matrix holds pairs of two of its models with one sensor, not {left} and"

@@ -62,8 +62,8 @@ class Catalog(Shown):
 
     def record(self, at: int) -> Record:
         """A record of the file: 0 is the header, then models by their numbers, then pairs."""
-        found: Record = self._once(at, lambda: self.records[at])
-        return found
+        entry: Record = self._once(at, lambda: self.records[at])
+        return entry
 
     @property
     def name(self) -> str:

@@ -138,8 +138,8 @@ def _is_complete(records: Records, models: int) -> bool:
     numbers = range(1, models + 1)
     heads = [f'{{"model":{i},' for i in numbers]
     heads += [f'{{"left":{i},"right":{j},' for i, j in combinations(numbers, 2)]
-    told = records.lines[1:]
-    return len(told) == len(heads) and all(map(str.startswith, told, heads))
+    parts = records.lines[1:]
+    return len(parts) == len(heads) and all(map(str.startswith, parts, heads))
 
 
 def digest(path: Path) -> str:

@@ -263,11 +263,11 @@ def verify_networks(
     stored = read(path)
     wrong = _false_evidence(family, stored, engine)
     text = build_networks(family, engine, executor=executor, progress=progress)
-    there, now = path.read_text(encoding="utf-8").splitlines(), text.splitlines()
-    for number, (a, b) in enumerate(zip(there, now, strict=False), 1):
+    rows, now = path.read_text(encoding="utf-8").splitlines(), text.splitlines()
+    for number, (a, b) in enumerate(zip(rows, now, strict=False), 1):
         if a != b:
             return [*wrong, f"{path.name}, line {number} is not what is computed now"]
-    return wrong if len(there) == len(now) else [*wrong, f"{path.name} has other pairs"]
+    return wrong if len(rows) == len(now) else [*wrong, f"{path.name} has other pairs"]
 
 
 def _false_evidence(family: NetworkFamily, records: list[Record], engine: Engine) -> list[str]:

@@ -222,11 +222,11 @@ def verify_next(
         return []  # a folder of one's own need not have it
     read(folder, *kind)
     text = build_next(stored, engine, executor=executor, progress=progress)
-    there = path.read_text(encoding="utf-8").splitlines()
-    for number, (a, b) in enumerate(zip(there, text.splitlines(), strict=False), 1):
+    rows = path.read_text(encoding="utf-8").splitlines()
+    for number, (a, b) in enumerate(zip(rows, text.splitlines(), strict=False), 1):
         if a != b:
             return [f"{path.name}, line {number} is not what is computed now"]
-    return [] if len(there) == len(text.splitlines()) else [f"{path.name} has other groups"]
+    return [] if len(rows) == len(text.splitlines()) else [f"{path.name} has other groups"]
 
 
 def _plain(table: Placement) -> Record:

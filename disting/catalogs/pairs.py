@@ -111,8 +111,10 @@ class StoredPair:
     @cached_property
     def _shares(self) -> tuple[PositiveFinding | None, PositiveFinding | None]:
         """Positive equivalents of the left and of the right model, where they are asked for."""
-        here, there = (self.record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
-        return _share(repr(here)) if here else None, _share(repr(there)) if there else None
+        own_value, other_value = (self.record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
+        return _share(repr(own_value)) if own_value else None, _share(
+            repr(other_value)
+        ) if other_value else None
 
     @cached_property
     def _positively(self) -> Step | None:
@@ -179,9 +181,9 @@ class ModelRow:
     identifiability: Identifiability
 
     def __repr__(self) -> str:
-        known = f"{self.rank} of {self.n_parameters} parameters determinable"
+        name = f"{self.rank} of {self.n_parameters} parameters determinable"
         return summary(
-            self, f"model {self.number}, {known}" + f", group {self.group}" * bool(self.group)
+            self, f"model {self.number}, {name}" + f", group {self.group}" * bool(self.group)
         )
 
 

@@ -84,10 +84,10 @@ def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
     ranks = [catalog.record(number)["rank"] for number in range(1, 1 + n)]
     for record in catalog.records[1 + n :]:
         i, j = record["left"] - 1, record["right"] - 1
-        for name, given, other in ((LEFT_POSITIVE, i, j), (RIGHT_POSITIVE, j, i)):
+        for name, value, other in ((LEFT_POSITIVE, i, j), (RIGHT_POSITIVE, j, i)):
             if name in record:
                 finding = PositiveFinding.from_dict(record[name])
-                yield POSITIVELY, (forms[given], forms[other]), finding
+                yield POSITIVELY, (forms[value], forms[other]), finding
         if INCLUSIONS in record:
             both = inclusions_from_dict(record[INCLUSIONS])
             small, large = (i, j) if ranks[i] < ranks[j] else (j, i)

@@ -43,8 +43,8 @@ def build_sizes(
     for n in SHIPPED_SIZES:
         stored = catalog(n, damped=damped, folder=folder)
         if stored.record(0)["settings"] == engine.settings.to_dict():
-            for known in answers_in(stored):
-                engine.remember(*known)
+            for parts in answers_in(stored):
+                engine.remember(*parts)
     decisions = combined(
         SHIPPED_SIZES,
         damped=damped,
@@ -90,10 +90,10 @@ def verify_sizes(
     text = build_sizes(
         damped=damped, engine=engine, folder=folder, executor=executor, progress=progress
     )
-    there = lines(list(stored.records)).splitlines()
+    rows = lines(list(stored.records)).splitlines()
     differ = (
         f"{stored.name}.jsonl, line {number} is not what is computed now"
-        for number, (a, b) in enumerate(zip(there, text.splitlines(), strict=True), 1)
+        for number, (a, b) in enumerate(zip(rows, text.splitlines(), strict=True), 1)
         if a != b
     )
     return [*([first] if (first := next(differ, "")) else []), *false_evidence(stored, progress)]
@@ -125,6 +125,6 @@ def _pairs(decisions: Decisions) -> Iterator[Record]:
     for i, j in combinations(range(len(names)), 2):
         if sizes[i] != sizes[j]:
             both = decisions.inclusions.get((i, j))
-            told = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
+            entries = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
             where = decisions.verdict(i, j).representation.value
-            yield {"left": names[i], "right": names[j], **told, where: step(decisions, i, j)}
+            yield {"left": names[i], "right": names[j], **entries, where: step(decisions, i, j)}

@@ -80,12 +80,12 @@ def _false_shares(
 ) -> Iterator[str]:
     """Of what is known of positive equivalents."""
     v = stored.verdict(left, right, View.EXACT)
-    for finding, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
+    for finding, number, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         if finding is None or finding.evidence is None:
             continue
-        if not subjects[given].proves(subjects[other], finding):
+        if not subjects[number].proves(subjects[other], finding):
             yield (
-                f"{stored.name}, {given}:{other}: the evidence on positive equivalents does not"
+                f"{stored.name}, {number}:{other}: the evidence on positive equivalents does not"
                 " hold"
             )
 
@@ -123,8 +123,8 @@ def verify_dampers(
     )
     name = damper_name(n_masses, damped)
     wrong = list(false_settled(stored, folder, engine.settings, executor, progress))
-    there = (folder / f"{name}.jsonl").read_text(encoding="utf-8")
-    if there != text_of(rebuilt, engine.settings):
+    other_name = (folder / f"{name}.jsonl").read_text(encoding="utf-8")
+    if other_name != text_of(rebuilt, engine.settings):
         wrong.append(f"{name} is not what is computed now")
     return wrong
 
@@ -156,10 +156,10 @@ def false_settled(
 
 
 def settle_dampers(
-    family: DamperFamily, folder: Path, settings: Settings, told: Callable[[str], None]
+    family: DamperFamily, folder: Path, settings: Settings, announce: Callable[[str], None]
 ) -> int:
     """Ask shares and ideals about a representative of each open pair of classes that nothing
-    settled; the number settled. `told` gets a sentence a pair.
+    settled; the number settled. `announce` gets a sentence a pair.
     """
     chains = family.found.chains
     findings, count = read_settled({canonical(chain).chain for chain in chains}, folder), 0
@@ -168,7 +168,7 @@ def settle_dampers(
         first, second = side.in_order(other)
         finding = patient_finding(first, second, settings)
         decided = DECIDES.get(finding.outcome)
-        told(f"{family.pair_text(low, high)}: {decided or finding.note}")
+        announce(f"{family.pair_text(low, high)}: {decided or finding.note}")
         if decided:
             append(folder, first, second, finding)
             findings[first, second] = finding
@@ -184,7 +184,7 @@ def _open(
     """
     classes = family.found
     group = {canonical(c).chain: int(g) for c, g in zip(classes.chains, classes.group, strict=True)}
-    for one, other in sorted(classes.open_groups):
+    for number, other in sorted(classes.open_groups):
         links = [(group[a], group[b], x.outcome) for (a, b), x in findings.items()]
         same = Forest.of(1 + max(group.values()))
         for a, b, outcome in links:
@@ -192,8 +192,8 @@ def _open(
                 same.unite(a, b)
         root = same.root
         apart = [{root(a), root(b)} for a, b, outcome in links if outcome is Outcome.FAILS]
-        if root(one) != root(other) and {root(one), root(other)} not in apart:
-            yield _representative(family, one), _representative(family, other)
+        if root(number) != root(other) and {root(number), root(other)} not in apart:
+            yield _representative(family, number), _representative(family, other)
 
 
 def _representative(family: DamperFamily, group: int) -> int:

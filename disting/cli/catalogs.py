@@ -171,22 +171,22 @@ def verify(options: argparse.Namespace) -> int:
     with engine_for(options) as (_, pool, progress):
         for name in networks:
             family = family_of(name)
-            found = verify_networks(
+            texts = verify_networks(
                 family, options.catalog, Engine(), executor=pool, progress=progress
             )
-            wrong += _told(name, found)
+            wrong += _told(name, texts)
         for n, damped in product(sizes, (False, True)):
-            found = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
-            wrong += _told(f"{n} masses, {_kind(damped)}", found)
+            texts = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
+            wrong += _told(f"{n} masses, {_kind(damped)}", texts)
         for damped in (False, True) if set(CATALOGUED) <= set(sizes) else ():
-            found = verify_sizes(
+            texts = verify_sizes(
                 damped=damped,
                 folder=options.catalog,
                 engine=Engine(),
                 executor=pool,
                 progress=progress,
             )
-            wrong += _told(f"different sizes, {_kind(damped)}", found)
+            wrong += _told(f"different sizes, {_kind(damped)}", texts)
     return 1 if wrong else 0
 
 
@@ -200,9 +200,9 @@ def _wrong_of_one_size(
     from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, verify_next
     from disting.catalogs.verify import verify as verify_chains, verify_dampers
 
-    fresh, found = Engine(), list[str]()
+    fresh, texts = Engine(), list[str]()
     for check in (verify_chains, verify_dampers) if n in SHIPPED_SIZES else (verify_chains,):
-        found += check(
+        texts += check(
             n, damped=damped, folder=folder, engine=fresh, executor=pool, progress=progress
         )
     stored: list[Catalog | DamperFamily] = []
@@ -211,15 +211,15 @@ def _wrong_of_one_size(
     if n in WITH_DAMPERS:
         stored.append(read(folder, n, damped))
     for this_catalog in stored:
-        found += verify_next(this_catalog, folder, fresh, executor=pool, progress=progress)
-    return found
+        texts += verify_next(this_catalog, folder, fresh, executor=pool, progress=progress)
+    return texts
 
 
 def _kind(damped: bool) -> str:
     return "damped" if damped else "undamped"
 
 
-def _told(what: str, found: list[str]) -> list[str]:
+def _told(what: str, texts: list[str]) -> list[str]:
     """Say what was found wrong; returns it."""
-    print(f"{what}: {'; '.join(found) or 'every byte and every evidence holds'}")
-    return found
+    print(f"{what}: {'; '.join(texts) or 'every byte and every evidence holds'}")
+    return texts

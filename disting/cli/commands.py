@@ -41,8 +41,8 @@ class Command:
         """Its help in brief; "" where there is none."""
         if not self.brief:
             return ""
-        found: str = getattr(import_module(f"disting.cli.{self.arguments}"), self.brief)
-        return found
+        text: str = getattr(import_module(f"disting.cli.{self.arguments}"), self.brief)
+        return text
 
     @staticmethod
     def _of(module: str, name: str) -> Callable[..., Any]:

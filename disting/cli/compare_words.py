@@ -16,7 +16,7 @@ Known = tuple[str, int, int]
 def explained(
     verdict: Verdict,
     drawn: list[str],
-    known: Iterable[Known] | None = None,
+    items: Iterable[Known] | None = None,
     what: str = RESPONSE,
     everywhere: bool = False,
 ) -> str:
@@ -30,7 +30,7 @@ def explained(
     heading = in_colour(verdict.relation.upper(), verdict.relation)
     lines = [heading, "", *drawings, ""]
     apart = verdict.relation is Relation.DISTINGUISHABLE
-    unknown = list(filter(None, (undetermined(*one) for one in (apart and known) or ())))
+    unknown = list(filter(None, (undetermined(*parts) for parts in (apart and items) or ())))
     lines += [*unknown, *[""] * bool(unknown)]
     lines += [meaning_sentence(verdict, what, everywhere), "", verdict.sentence]
     if verdict.evidence:

@@ -183,8 +183,8 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
 def counted(family: DamperFamily) -> str:
     """Models, pairs and how surely all of it holds, in one line."""
     counts = family.found.counts()
-    told = ", ".join(f"{n} {relation}" for relation, n in counts.items())
-    head = f"{len(family)} models, {sum(counts.values())} pairs, over complex parameters: {told}"
+    phrase = ", ".join(f"{n} {relation}" for relation, n in counts.items())
+    head = f"{len(family)} models, {sum(counts.values())} pairs, over complex parameters: {phrase}"
     return f"{head}; {joint_in_words(classes_safety(family.found))}"
 
 
@@ -240,9 +240,9 @@ def _block(
 
 
 def _sign(table: DamperTable, over_complex: DamperTable, i: int, j: int) -> str:
-    found = SIGNS[table.decided.relation(i, j)]
+    text = SIGNS[table.decided.relation(i, j)]
     same = over_complex.decided.relation(i, j) is Relation.INDISTINGUISHABLE
-    return COMPLEX_ONLY if found == "?" and same else found
+    return COMPLEX_ONLY if text == "?" and same else text
 
 
 def legend(domain: Domain) -> str:

@@ -76,14 +76,14 @@ def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Na
     with told_if_long(LONGER + less):
         chains = _chains(sides)
         verdict = shipped(chains, asked) if chains else None
-        known = shipped_ranks(chains) if chains else None
-        if verdict is None or known is None:
+        parts = shipped_ranks(chains) if chains else None
+        if verdict is None or parts is None:
             with engine_for(options) as (engine, _, _progress):
                 verdict = verdict or compare(*sides, query=asked, engine=engine)
-                known = known or determinable(sides[0], sides[1], engine)
+                parts = parts or determinable(sides[0], sides[1], engine)
         left, right = in_order(chains, verdict) if chains else sides
         verdict = prove(verdict, left, right) if options.prove else verdict
-        return Judged((left, right), verdict, known)
+        return Judged((left, right), verdict, parts)
 
 
 def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
@@ -141,11 +141,12 @@ def _within(
     chains: Sequence[Chain], limits: Mapping[str, tuple[str, str]]
 ) -> tuple[PositiveFinding, PositiveFinding]:
     """Which positive models of each chain, within ranges, have an equivalent in the other."""
-    there = dict.fromkeys(name for chain in chains for name in chain.parameters)
-    unknown = sorted(limits.keys() - there.keys())
+    entries = dict.fromkeys(name for chain in chains for name in chain.parameters)
+    unknown = sorted(limits.keys() - entries.keys())
     if unknown:
         raise InputError(
-            f"no parameter of the two models is called {listed(unknown)}; there are {listed(there)}"
+            f"no parameter of the two models is called {listed(unknown)};"
+            f" there are {listed(entries)}"
         )
     left, right = chains
     of_left, of_right = ({n: limits[n] for n in c.parameters if n in limits} for c in chains)
@@ -198,13 +199,13 @@ def _every_way(
         yield f"places     {_placed(places, left, right)}"
         return
     other = f"the other {right}" if left == right else right
-    told = {
+    phrase = {
         Answer.SURELY: "told apart, wherever the places are in {}",
         Answer.NEVER: "not told apart, wherever the places are in {}",
         Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
         Answer.UNKNOWN: "not known for all places in {}",
     }[placements.answer]
-    yield f"{placements.answer.upper()}: {left} and {other} are {told.format(other)}"
+    yield f"{placements.answer.upper()}: {left} and {other} are {phrase.format(other)}"
     yield ""
     for places, verdict in placements.verdicts:
         yield f"  {_placed(places, left, other)}: {verdict.sentence}"

@@ -113,8 +113,8 @@ def _counted(options: argparse.Namespace) -> dict[int, int]:
     """Candidates by number of masses, before they are made: each structure with any dampers to the
     ground, lag and dead time.
     """
-    known = {n: len(Family(n)) if options.family else 1 for n in options.masses}
-    return {n: count * 2 ** (n + 2) for n, count in known.items()}
+    entries = {n: len(Family(n)) if options.family else 1 for n in options.masses}
+    return {n: count * 2 ** (n + 2) for n, count in entries.items()}
 
 
 def _left(options: argparse.Namespace) -> Named | None:
@@ -166,12 +166,12 @@ def _candidates(
         )
     if not left:
         chains = tuple(replace(chain, damped=is_damped(options)) for chain in chains)
-    known = {name for chain in chains for name in chain.parameters}
-    known |= {further.setup.delay for further in source_data.further} - {""}
-    unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
+    names = {name for chain in chains for name in chain.parameters}
+    names |= {further.setup.delay for further in source_data.further} - {""}
+    unknown = [name for name, _ in (*options.fix, *options.bound) if name not in names]
     if unknown:
         raise InputError(
-            f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(known))}"
+            f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(names))}"
         )
     return chains
 

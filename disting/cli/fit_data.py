@@ -201,10 +201,10 @@ def _begun(file: Path, settings: dict[str, Any], which: int) -> dict[str, Any]:
 
 def _signs(options: argparse.Namespace, count: int) -> list[int]:
     """The sign of each sensor against the first one; 1 where they are found by the fit."""
-    given = options.sign.split(",")
-    if len(given) not in (1, count):
-        raise InputError(f"{len(given)} signs, {count} sensors: give one for each, as --sign=+,-")
-    numbers = [{"+": 1, "-": -1, "auto": 1}[sign] for sign in given]
+    value = options.sign.split(",")
+    if len(value) not in (1, count):
+        raise InputError(f"{len(value)} signs, {count} sensors: give one for each, as --sign=+,-")
+    numbers = [{"+": 1, "-": -1, "auto": 1}[sign] for sign in value]
     return [sign * numbers[0] for sign in numbers * (count if len(numbers) == 1 else 1)]
 
 
@@ -213,32 +213,32 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
     match = EXPERIMENT.fullmatch(text)
     if not match:
         raise InputError(f"{FORM}, not {shown(text)}")
-    file, given = Path(match[1]), dict[str, list[str]]()
+    file, entries = Path(match[1]), dict[str, list[str]]()
     for part in match[2].split(","):
         name, equals, value = part.partition("=")
         if name not in ("sensor", "force", "column", *CHANGED) or not (equals and value):
             raise InputError(f"{FORM}, not {shown(text)}")
-        given.setdefault(name, []).append(value)
+        entries.setdefault(name, []).append(value)
     changes = [
         change
         for name, kind in CHANGED.items()
-        for value in given.get(name, ())
+        for value in entries.get(name, ())
         for change in read_changes(kind, _measured(name, value), str)
     ]
-    force = given.get("force", [""])[-1]
+    force = entries.get("force", [""])[-1]
     setup = Setup(force=force, changes=changes)
-    places = given.get("sensor", list(signs))
-    if not (changes or force or "sensor" in given):
+    places = entries.get("sensor", list(signs))
+    if not (changes or force or "sensor" in entries):
         raise InputError(f"{FORM}, not {shown(text)}")
     for k, place in enumerate(places):
-        alone = "sensor" in given
+        alone = "sensor" in entries
         response = measured(
             [file],
             options,
             list(signs).index(place) if alone and place in signs else k,
             len(signs),
             together=not alone,
-            column=",".join(given.get("column", ())),
+            column=",".join(entries.get("column", ())),
         )
         own = not alone and k == 0  # the sensor of the first response, wherever a candidate has it
         seen = "" if own else place

@@ -88,11 +88,11 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
     return [Model.from_chain(chain, name=name_of(chain))]
 
 
-def _counted(given: str, others: str, equivalents: list[ModelEquivalent]) -> str:
+def _counted(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:
     """How many of the others do the same."""
     same = [x for x in equivalents if x.verdict.relation is Relation.INDISTINGUISHABLE]
     return (
-        f"{given}: of {others} {len(same)} can do the same for all positive values,"
+        f"{text}: of {others} {len(same)} can do the same for all positive values,"
         f" {sum(x.verdict.relation is OPEN[1] for x in equivalents)} for some,"
         f" {sum(x.verdict.relation is OPEN[0] for x in equivalents)} undecided"
     )

@@ -186,15 +186,15 @@ def _told(advice: AnyFurther, words: Sequence[str] = (), *, brief: bool = False)
     ]
     head = f"{len(advice.names)} structures that the present measurement cannot tell apart:"
     enough = anywhere(advice)
-    told = [f"what tells all of them apart: {enough}"] if enough else []
-    lines = [head, *drawings, *words, *told]
+    phrases = [f"what tells all of them apart: {enough}"] if enough else []
+    lines = [head, *drawings, *words, *phrases]
     for structure, name in enumerate(advice.names):
         lines += ["", f"if it is {name}:"]
         for kind in advice.kinds if advice.least(structure) or not brief else ():
             cost = f"{kind.name:8} cost {advice.costs.cost(kind):g}"
             for at in advice.places(structure):
-                known = in_words(advice, structure, Item(kind, at))
-                lines.append(f"  {cost}  {advice.place} {at}: {known}")
+                own_name = in_words(advice, structure, Item(kind, at))
+                lines.append(f"  {cost}  {advice.place} {at}: {own_name}")
         lines.append(f"  {conclusion(advice, structure)}")
     return lines
 

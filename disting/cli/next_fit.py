@@ -45,13 +45,13 @@ class NetworksOnward:
     @property
     def sentences(self) -> list[str]:
         """The answer."""
-        found = [f"the data of {self.source} leave {listed(self.noise, BAR)}"]
+        texts = [f"the data of {self.source} leave {listed(self.noise, BAR)}"]
         if len(self.noise) > 1:
             command = f"disting plan {shlex.quote(self.source)}"
-            found.append(f"how much more of the same measurement tells these apart: {command}")
+            texts.append(f"how much more of the same measurement tells these apart: {command}")
         if not self.groups:
-            found.append("no other candidate gives the same responses as one of them")
-        return found
+            texts.append("no other candidate gives the same responses as one of them")
+        return texts
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""

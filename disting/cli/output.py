@@ -43,12 +43,14 @@ def keep_apart(names: Iterable[str]) -> None:
     """Write what the streams lack so that no two of these names, of models or files, become one:
     as escapes where they would.
     """
-    known = set(names)
+    own_names = set(names)
     for stream in (sys.stdout, sys.stderr):
         ways = (HANDLER, "backslashreplace", "namereplace")
         if hasattr(stream, "reconfigure"):
             encoding = stream.encoding
-            apart = (w for w in ways if len({n.encode(encoding, w) for n in known}) == len(known))
+            apart = (
+                w for w in ways if len({n.encode(encoding, w) for n in own_names}) == len(own_names)
+            )
             stream.reconfigure(errors=next(apart, ways[-1]))
 
 

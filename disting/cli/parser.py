@@ -99,7 +99,7 @@ class _Parser(argparse.ArgumentParser):
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         """A command refuses itself what it does not know, so that its own help is named."""
         self.declare()
-        found, rest = super().parse_known_args(args, namespace)
+        value, rest = super().parse_known_args(args, namespace)
         if rest:
             options = [name for action in self._actions for name in _offered(action)]
             meant = [near(word.partition("=")[0], options) for word in rest if word[0:1] == "-"]
@@ -109,12 +109,12 @@ class _Parser(argparse.ArgumentParser):
             self.error(
                 f"unrecognized arguments: {' '.join(rest)}{''.join(meant) or '; leave them away'}"
             )
-        return found, rest
+        return value, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
-            known = list(map(str, action.choices))
-            said = f"{shown(value)} is none of {', '.join(known)}{near(str(value), known)}"
+            names = list(map(str, action.choices))
+            said = f"{shown(value)} is none of {', '.join(names)}{near(str(value), names)}"
             raise argparse.ArgumentError(action, said)
 
     def _print_message(self, message: str, file: Any = None) -> None:
@@ -164,12 +164,12 @@ def _offered(action: argparse.Action) -> list[str]:
     return [] if action.help == argparse.SUPPRESS else list(action.option_strings)
 
 
-def near(word: str, known: Sequence[str]) -> str:
+def near(word: str, names: Sequence[str]) -> str:
     """The end of a sentence on a word that is not known: what it may have been meant for."""
     from difflib import get_close_matches  # where something is wrong, and nowhere else
 
-    found = get_close_matches(word[:LONGEST_ECHO], known, 1)
-    return f"; did you mean {found[0]}?" if found else ""
+    texts = get_close_matches(word[:LONGEST_ECHO], names, 1)
+    return f"; did you mean {texts[0]}?" if texts else ""
 
 
 def _short(message: str) -> str:

@@ -148,10 +148,10 @@ def _paper(options: argparse.Namespace) -> None:
 
 def _names(options: argparse.Namespace) -> set[str]:
     """Pages of families that the folder has, or will have when the command is done."""
-    there = {p.stem for p in options.out.glob("*.html")}
+    members = {p.stem for p in options.out.glob("*.html")}
     kinds = [(n, d) for n in options.masses for d in _choices(options)]
     dampers = {damper_name(n, d) for n, d in kinds if n in DAMPER_SIZES}
-    return there | {name_of(n, d) for n, d in kinds} | dampers
+    return members | {name_of(n, d) for n, d in kinds} | dampers
 
 
 def _choices(options: argparse.Namespace) -> list[bool]:

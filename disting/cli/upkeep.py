@@ -50,8 +50,8 @@ def doctor(options: argparse.Namespace) -> int:
     print(f"{'disting':14}{__version__}")
     for name in ("python-flint", "numpy", "sympy"):
         print(f"{name:14}{version(name)}")
-    found = version("distributed") if find_spec("distributed") else "not found"
-    print(f"{'distributed':14}{found}; optional, for work on a cluster (--scheduler)")
+    text = version("distributed") if find_spec("distributed") else "not found"
+    print(f"{'distributed':14}{text}; optional, for work on a cluster (--scheduler)")
     with Store.open(None) as store:
         print(f"{'cache':14}{store.info().path or 'off'}")
     return 0

@@ -148,7 +148,7 @@ def _summary(decided: Decisions) -> str:
         f" {decided.query.view.domain} parameters"
     )
     relations = relations_in_words(decided.relation(i, j) for i, j in pairs)
-    told = (
+    phrase = (
         f"{head}: {relations}\ndecided:"
         f" {rules_in_words(decided.counts(), decided.query.view.domain)}"
     )
@@ -158,7 +158,7 @@ def _summary(decided: Decisions) -> str:
         if inside
         else ""
     )
-    return f"{told}{limits}"
+    return f"{phrase}{limits}"
 
 
 def _groups(decided: Decisions) -> Iterator[str]:
@@ -172,14 +172,14 @@ def _groups(decided: Decisions) -> Iterator[str]:
         what = plural(through, "undecided pair")
         yield f"{what} among these: the same, as both are the same as a third one"
     for relation in (Relation.SOMETIMES, Relation.UNDECIDED):
-        found = [
+        pairs = [
             (i, j)
             for i, j in combinations(range(len(names)), 2)
             if decided.relation(i, j) is relation and (i, j) not in together
         ]
-        yield from (decided.verdict(i, j).sentence for i, j in found[:MOST_TOLD])
-        if len(found) > MOST_TOLD:
-            yield f"and {len(found) - MOST_TOLD} more pairs that are {relation} (--csv lists them)"
+        yield from (decided.verdict(i, j).sentence for i, j in pairs[:MOST_TOLD])
+        if len(pairs) > MOST_TOLD:
+            yield f"and {len(pairs) - MOST_TOLD} more pairs that are {relation} (--csv lists them)"
 
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:

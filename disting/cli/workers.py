@@ -125,12 +125,12 @@ def pairs_by_size(sizes: Iterable[int], *, across: bool = True) -> dict[int, int
     >>> pairs_by_size([2, 3]), pairs_by_size([2, 3], across=False)
     ({2: 3, 3: 88}, {2: 3, 3: 55})
     """
-    found, smaller = {}, 0
+    entries, smaller = {}, 0
     for n in sorted(set(sizes)):
         count = len(Family(n))
-        found[n] = count * (count - 1) // 2 + count * smaller
+        entries[n] = count * (count - 1) // 2 + count * smaller
         smaller += count if across else 0
-    return found
+    return entries
 
 
 def in_words(seconds: float) -> str:
@@ -172,9 +172,9 @@ def _progress() -> Iterator[Progress]:
     if chosen == "off":
         yield lambda what, done, total: None
         return
-    told = _bars if sys.stderr.isatty() else _lines
-    pause = BARS_AFTER if told is _bars else SILENT
-    yield from told(_seconds(chosen) if chosen else pause)
+    announce = _bars if sys.stderr.isatty() else _lines
+    pause = BARS_AFTER if announce is _bars else SILENT
+    yield from announce(_seconds(chosen) if chosen else pause)
 
 
 def _seconds(text: str) -> float:
@@ -247,9 +247,9 @@ def _lines(pause: float) -> Iterator[Progress]:
     yield from _beside(tell, ended, advance)
 
 
-def _beside(told: Callable[[], None], ended: Event, advance: Progress) -> Iterator[Progress]:
+def _beside(announce: Callable[[], None], ended: Event, advance: Progress) -> Iterator[Progress]:
     """The progress, told by a thread until the work has ended."""
-    thread = Thread(target=told, daemon=True)
+    thread = Thread(target=announce, daemon=True)
     thread.start()
     try:
         yield advance

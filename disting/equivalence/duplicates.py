@@ -105,8 +105,8 @@ class Gate(Shown):
     next: Mapping[str, AnyFurther]
 
     def __repr__(self) -> str:
-        found = f"{plural(len(self.decisions.subjects), 'model')}, {len(self.kept)} kept"
-        return summary(self, found)
+        the_text = f"{plural(len(self.decisions.subjects), 'model')}, {len(self.kept)} kept"
+        return summary(self, the_text)
 
     @property
     def kept(self) -> tuple[str, ...]:

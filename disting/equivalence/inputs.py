@@ -101,7 +101,7 @@ def assignments(texts: list[str]) -> dict[str, str]:
     >>> assignments(["m1=1, m2=0.5", "k12=1e3"])
     {'m1': '1', 'm2': '0.5', 'k12': '1e3'}
     """
-    found: dict[str, str] = {}
+    the_texts: dict[str, str] = {}
     for part in (part.strip() for text in texts for part in text.split(",")):
         name, equals, value = (piece.strip() for piece in part.partition("="))
         if not (name and equals and value):
@@ -109,10 +109,10 @@ def assignments(texts: list[str]) -> dict[str, str]:
                 "values are written name=number, separated by commas, such as m1=1,k12=3/4, not"
                 f" {shown(part)}"
             )
-        if name in found:
+        if name in the_texts:
             raise InputError(f"{name} is given twice")
-        found[name] = value
-    return found
+        the_texts[name] = value
+    return the_texts
 
 
 def _fraction(name: str, value: Value) -> fmpq:

@@ -130,8 +130,8 @@ class Equivalents(Shown):
     experiments: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        there = ", ".join(listing.name for listing in self.listings if listing.members)
-        return summary(self, f"{len(self)} of {self.name}" + f" in {there}" * bool(there))
+        name = ", ".join(listing.name for listing in self.listings if listing.members)
+        return summary(self, f"{len(self)} of {self.name}" + f" in {name}" * bool(name))
 
     def __iter__(self) -> Iterator[Equivalent]:
         members = [member for listing in self.listings for member in listing.members]

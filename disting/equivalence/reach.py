@@ -55,7 +55,7 @@ class Reach:
         """Whether nothing is asked for."""
         return Piece(()) in self.pieces
 
-    def sentence(self, given: str, other: str) -> str:
+    def sentence(self, text: str, other: str) -> str:
         """The conditions in words; "" where nothing, or everything, is reached.
 
         >>> Reach((Piece(("R2 - R3",)),)).sentence("A1", "A2")
@@ -64,7 +64,7 @@ class Reach:
         if self.is_everything or not self.pieces:
             return ""
         where = ", or where ".join(_told(piece, other) for piece in self.pieces)
-        has = f"{given} has a positive equivalent {other} exactly where"
+        has = f"{text} has a positive equivalent {other} exactly where"
         return f"{has} {where}, special values aside."
 
 

@@ -137,8 +137,8 @@ def _listing(chain: Chain, point: Point, other: Chain) -> Listing:
     search = _found(chain, point, other)
     members = _members(search, point)
     cause = special(chain, point) if search.fibre.status is Status.DEGENERATE else ""
-    told = sentence(search.fibre, len(members), cause)
-    return Listing(name_of(other), other, search.fibre.status, members, search.is_complete, told)
+    text = sentence(search.fibre, len(members), cause)
+    return Listing(name_of(other), other, search.fibre.status, members, search.is_complete, text)
 
 
 def _members(search: _Found, point: Point) -> tuple[Equivalent, ...]:
@@ -163,9 +163,9 @@ def _under(bench: Bench, point: Point) -> Listing:
     )
     other = bench.other.chain
     members = tuple(_everywhere(m, bench, plain) for m in _members(kept, point))
-    told = under_all(search.fibre, len(members), search.is_complete)
+    text = under_all(search.fibre, len(members), search.is_complete)
     return Listing(
-        name_of(other), other, search.fibre.status, members, search.is_complete, told, bench.places
+        name_of(other), other, search.fibre.status, members, search.is_complete, text, bench.places
     )
 
 

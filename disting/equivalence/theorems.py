@@ -130,9 +130,9 @@ def _seen(chain: Chain, ports: Ports, *, wall: bool) -> Outwards:
     """The row with the receptance of the given chain between these ports."""
     structure: Structure = replace(chain.structure, ports=ports)
     ring = _ring(chain)
-    one = ring["s"] ** 0
-    found = plain_receptance(structure, ring, ring["s"], one)
-    num, den = ([RationalFunction(c, one) for c in coefficients(p, "s")[::2]] for p in found)
+    item = ring["s"] ** 0
+    parts = plain_receptance(structure, ring, ring["s"], item)
+    num, den = ([RationalFunction(c, item) for c in coefficients(p, "s")[::2]] for p in parts)
     return row_from_end(num, den, wall=wall)
 
 

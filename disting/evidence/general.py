@@ -141,10 +141,10 @@ class Inequality(OverDomain):
         """
         said = ""
         for number, *names in self.form:
-            one, other = names
+            text, other = names
             size = f"{abs(number)}*" * (abs(number) != 1)
             sign = " - " if number < 0 else " + "
-            said += sign + size + (f"{one}^2" if one == other else f"{one}*{other}")
+            said += sign + size + (f"{text}^2" if text == other else f"{text}*{other}")
         return said.removeprefix(" + ") if said.startswith(" + ") else f"-{said[len(' - ') :]}"
 
 

@@ -87,20 +87,20 @@ def fit_networks(
     subjects = engine.general_subjects(asked)
     decided = engine.decisions(subjects, Query(View.POSITIVE, inclusion=False))
     first = _first_of_same(decided, len(asked))
-    cost, found = _cost(data), list[tuple[AnyNetworkPlant, Real]]()
+    cost, pairs = _cost(data), list[tuple[AnyNetworkPlant, Real]]()
     chosen = [i for i, k in enumerate(first) if i == k]
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
         plant = network_plant(asked[i], [response.omega for response in data])
         starts = random_starts(plant, data[0], STARTS, np.random.default_rng((SEED, i)))
-        found.append((plant, searched(plant, cost, starts).p))
-    scatter = together(scatters(cost, [plant.response(p) for plant, p in found]))
+        pairs.append((plant, searched(plant, cost, starts).p))
+    scatter = together(scatters(cost, [plant.response(p) for plant, p in pairs]))
     fits = [
         replace(
             _judged(plant, p, cost, scatter, subjects[i].rank),
             same=tuple(asked[j].name for j, k in enumerate(first) if k == i != j),
         )
-        for i, (plant, p) in zip(chosen, found, strict=True)
+        for i, (plant, p) in zip(chosen, pairs, strict=True)
     ]
     fits = [replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits]
     ordered = tuple(sorted(fits, key=lambda f: f.chi2))
@@ -202,9 +202,9 @@ def _deviations(columns: Real, level: float) -> list[float]:
     where the fit misses more than the scatter; infinite where a direction is not determined.
     """
     _, sizes, right = np.linalg.svd(columns, full_matrices=False)
-    known = sizes > LEAST * sizes[0]
-    lost = np.sum(right[~known] ** 2, axis=0) > LEAST
-    variance = np.sum((right[known] / sizes[known, None]) ** 2, axis=0) * max(level, 1.0)
+    entry = sizes > LEAST * sizes[0]
+    lost = np.sum(right[~entry] ** 2, axis=0) > LEAST
+    variance = np.sum((right[entry] / sizes[entry, None]) ** 2, axis=0) * max(level, 1.0)
     return [float(x) for x in np.where(lost, np.inf, np.sqrt(variance))]
 
 

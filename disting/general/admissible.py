@@ -187,10 +187,10 @@ def _seen(
             continue
         count, always = 0, bool(this_way.covering)
         for values in islice(points(this_way.given, domain, seed), count_of):
-            found = this_way.having(values)
-            count += bool(found)
-            if found:
-                having.append((left_given, _written(values), _rounded(this_way.other, found)))
+            the_values = this_way.having(values)
+            count += bool(the_values)
+            if the_values:
+                having.append((left_given, _written(values), _rounded(this_way.other, the_values)))
             elif not always and this_way.lacking(values):
                 lacking.append((left_given, _written(values), ()))
             if having and lacking:
@@ -212,9 +212,9 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
     ]
     for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
         model, other = (left, right) if left_given else (right, left)
-        found = fibre_lists.having(model, values, other)
-        if found:
-            having.append((left_given, _written(values), _rounded(other, found)))
+        the_values = fibre_lists.having(model, values, other)
+        if the_values:
+            having.append((left_given, _written(values), _rounded(other, the_values)))
         elif fibre_lists.lacking(model, values, other):
             lacking.append((left_given, _written(values), ()))
         if having and lacking:
@@ -277,9 +277,9 @@ def _common(left: AnyModel, right: AnyModel) -> Found | None:
         return None
     for left_given, values, near in common_points(left, right):
         model, other = (left, right) if left_given else (right, left)
-        found = newton.having(model, values, other, near)
-        if found:
-            return left_given, _written(values), _rounded(other, found)
+        the_values = newton.having(model, values, other, near)
+        if the_values:
+            return left_given, _written(values), _rounded(other, the_values)
     return None
 
 

@@ -144,9 +144,9 @@ def alternatives(
     exact = rational_values(model, values)
     if model.shape != other.shape:
         raise InputError(f"{model.name} and {other.name} have other numbers of inputs and outputs")
-    here, other_model = on_one_variable([model, other])
-    fibre, goals = Fibre(Extent.UNKNOWN, reason=OTHER_ZEROS), _targets(here, exact)
-    if [e is None for e in here.cells] == [e is None for e in other_model.cells]:
+    first_model, other_model = on_one_variable([model, other])
+    fibre, goals = Fibre(Extent.UNKNOWN, reason=OTHER_ZEROS), _targets(first_model, exact)
+    if [e is None for e in first_model.cells] == [e is None for e in other_model.cells]:
         equations = joint_equations(goals, other_model.entries)
         fibre = _solved(equations, other.parameters, seed, seconds)
         points = [rational_values(other, values) for values in plain]

@@ -114,8 +114,8 @@ def positive_sets(model: AnyModel, values: dict[str, Fraction], other: AnyModel)
             ]
     except ZeroDivisionError as special:
         raise NoFormulas("at these values the function is of a smaller set") from special
-    known, network = set_of(model), other.network
-    whole = known == set_of(other) if known else network is not None and network.is_directed
+    full_set, network = set_of(model), other.network
+    whole = full_set == set_of(other) if full_set else network is not None and network.is_directed
     complete = whole and not numbers.choices
     return Synthesis(tuple(the_numbers), complete, tuple(numbers.choices))
 

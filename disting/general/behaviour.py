@@ -99,7 +99,7 @@ class GeneralModel:
 
     def constants(self, markov: int | None) -> Mapping[str, str]:
         """The exact values of those that are proven constant."""
-        found: dict[str, str] = {}
+        texts: dict[str, str] = {}
         for i, entry in enumerate(self.model.cells):
             if entry is None:
                 continue
@@ -111,8 +111,8 @@ class GeneralModel:
                     entry, first
                 )
             named = (label(n, i, shared) if self.is_numbered else n for n in numbers)
-            found |= dict(zip(named, map(str, numbers.values()), strict=True))
-        return found
+            texts |= dict(zip(named, map(str, numbers.values()), strict=True))
+        return texts
 
 
 def summary_size(

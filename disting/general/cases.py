@@ -172,8 +172,8 @@ def _excluded(search: Search, equations: tuple[fmpz_mpoly, ...]) -> bool:
     those of their resultant.
     """
     alone = [(e, u[0]) for e in equations if len(u := search.ring.occurring([e])) == 1]
-    for (first, at), (second, there) in combinations(alone, 2):
-        if at == there and first.total_degree() + second.total_degree() <= RESULTANTS:
+    for (first, at), (second, place) in combinations(alone, 2):
+        if at == place and first.total_degree() + second.total_degree() <= RESULTANTS:
             search.generic.append(first.resultant(second, at))
             search.closed.append(f"both {first} and {second}")
             return True
@@ -186,7 +186,7 @@ def _linear(
     """The easiest of the equations c q + N = 0: its number, the position of q, c, N and how
     hard it is.
     """
-    ring, found = search.ring, []
+    ring, pairs = search.ring, []
     for number, equation in enumerate(equations):
         degrees = equation.degrees()
         for rank, at in enumerate(search.order):
@@ -194,10 +194,10 @@ def _linear(
                 rest, factor = ring.coefficients(equation, at)
                 alone = not ring.occurring([factor])
                 hard = (0 if alone else 1) if ring.sign(factor) else 2 if alone else 3
-                found.append(
+                pairs.append(
                     ((hard, rank, len(factor), len(rest)), (number, at, factor, rest, hard))
                 )
-    return min(found, key=lambda x: x[0])[1] if found else None
+    return min(pairs, key=lambda x: x[0])[1] if pairs else None
 
 
 def _solve(

@@ -73,8 +73,8 @@ class ClosedForm:
 
     def at(self, point: Sequence[float]) -> dict[str, complex]:
         """The values at rounded ones of the given parameters."""
-        known = {n: complex(x) for n, x in zip(self.given, point, strict=True)}
-        return next(_evaluated(self, known, cmath.sqrt))
+        entries = {n: complex(x) for n, x in zip(self.given, point, strict=True)}
+        return next(_evaluated(self, entries, cmath.sqrt))
 
     @property
     def text(self) -> str:
@@ -157,12 +157,12 @@ def _agrees(form: ClosedForm, model: AnyModel, other: AnyModel, label: str) -> b
         drawn = residues(f"{label}:{draw}", len(form.given), modulus)
         point = {n: field(x) for n, x in zip(form.given, drawn, strict=True)}
         try:
-            found = list(_evaluated(form, point, _square_root))
+            rows = list(_evaluated(form, point, _square_root))
         except (ZeroDivisionError, _NoSquareError):
             continue
         asked = [point[n] for n in model.parameters]
         return all(
-            _same(model, other, asked, [values[n] for n in other.parameters]) for values in found
+            _same(model, other, asked, [values[n] for n in other.parameters]) for values in rows
         )
     raise ContradictionError("a discriminant is a square at no point that was drawn")
 
@@ -177,16 +177,16 @@ def _evaluated(
     """Yield the values at a point, for all signs of the square roots."""
     quadratics = [s.root for s in form.steps if s.root and s.sign > 0]
     for signs in product((1, -1), repeat=len(quadratics)):
-        known = dict(point)
+        entry = dict(point)
         for step in form.steps:
             if step.root:
                 _, b, a = step.root
                 way = step.sign * signs[quadratics.index(step.root)]
-                root = way * square_root(_number(step.discriminant, known))
-                known[step.name] = (root - _number(b, known)) / (2 * _number(a, known))
+                root = way * square_root(_number(step.discriminant, entry))
+                entry[step.name] = (root - _number(b, entry)) / (2 * _number(a, entry))
             else:
-                known[step.name] = _number(step.value, known)
-        yield {name: _number(value, known) for name, value in form.values}
+                entry[step.name] = _number(step.value, entry)
+        yield {name: _number(value, entry) for name, value in form.values}
 
 
 def _square_root(number: Residue) -> Residue:
@@ -215,13 +215,16 @@ def _polynomial(polynomial: fmpz_mpoly, at: Mapping[str, Residue]) -> Residue:
 def _same(model: AnyModel, other: AnyModel, p: Sequence[Residue], q: Sequence[Residue]) -> bool:
     """Whether all coefficients over the leading one are the same, no leading one being zero."""
     for own_model, two in zip(model.entries, other.entries, strict=True):
-        here, there = (
+        own_rows, other_rows = (
             [_value_of(t, at) for t in (*m.numerator_terms, *m.denominator_terms)]
             for m, at in ((own_model, p), (two, q))
         )
-        if len(here) != len(there) or not there[-1]:
+        if len(own_rows) != len(other_rows) or not other_rows[-1]:
             return False
-        if any(a * there[-1] != b * here[-1] for a, b in zip(here, there, strict=True)):
+        if any(
+            a * other_rows[-1] != b * own_rows[-1]
+            for a, b in zip(own_rows, other_rows, strict=True)
+        ):
             return False
     return True
 
@@ -239,15 +242,15 @@ def _value_of(terms: Terms, point: Sequence[Residue]) -> Residue:
 
 def _size(form: ClosedForm, source_model: AnyModel, other: AnyModel) -> Size:
     """Bounds of the polynomials c_S, of what is compared and of all denominators."""
-    known = dict.fromkeys(form.given, (1.0, 0.0))
+    entries = dict.fromkeys(form.given, (1.0, 0.0))
     for step in form.steps:
-        parts = [_bounds(v, known) for v in step.made_of]
+        parts = [_bounds(v, entries) for v in step.made_of]
         if step.root:  # (-b + w)/(2 a), w^2 the discriminant
-            parts = [*parts[1:], _bounds(step.discriminant, known), (0.0, 2.0)]
-        known[step.name] = sum(d for d, _ in parts), sum(b for _, b in parts)
-    values = {name: _bounds(value, known) for name, value in form.values}
-    parts = [*known.values(), *values.values()]
-    for model, at in ((source_model, known), (other, values)):
+            parts = [*parts[1:], _bounds(step.discriminant, entries), (0.0, 2.0)]
+        entries[step.name] = sum(d for d, _ in parts), sum(b for _, b in parts)
+    values = {name: _bounds(value, entries) for name, value in form.values}
+    parts = [*entries.values(), *values.values()]
+    for model, at in ((source_model, entries), (other, values)):
         for entry in model.entries:
             every = [t for c in (*entry.numerator_terms, *entry.denominator_terms) for t in c]
             powers = [max(e[i] for e, _ in every) for i in range(len(entry.parameters))]
@@ -258,13 +261,13 @@ def _size(form: ClosedForm, source_model: AnyModel, other: AnyModel) -> Size:
 
 
 def _bounds(
-    value: RationalFunction, known: Mapping[str, tuple[float, float]]
+    value: RationalFunction, entries: Mapping[str, tuple[float, float]]
 ) -> tuple[float, float]:
     """Degree, and bits of the sum of all coefficients' sizes, of numerator and denominator in the
     parameters once what has a name is put in.
     """
     names = value.num.context().names()
     powers = [max(pair) for pair in zip(value.num.degrees(), value.den.degrees(), strict=True)]
-    used = [(int(k), *known[n]) for k, n in zip(powers, names, strict=True) if k]
+    used = [(int(k), *entries[n]) for k, n in zip(powers, names, strict=True) if k]
     most = max(sum(abs(int(c)) for c in side.coeffs()) for side in (value.num, value.den))
     return sum(k * d for k, d, _ in used), log2(most) + sum(k * b for k, _, b in used)

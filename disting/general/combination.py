@@ -53,15 +53,15 @@ def excludes(model: Model, values: dict[str, Fraction], other: Model, degree: in
     if rows is None:
         return False
     monomials = _monomials(other)
-    factors, found = monomials, False
+    factors, is_found = monomials, False
     for _ in range(degree):
-        if found or len(factors) * len(rows) * (len(rows) - 1) // 2 > MOST:
-            return found
-        found = _is_positive(list(_products(rows, factors)))
+        if is_found or len(factors) * len(rows) * (len(rows) - 1) // 2 > MOST:
+            return is_found
+        is_found = _is_positive(list(_products(rows, factors)))
         factors = sorted(
             {tuple(map(sum, zip(*two, strict=True))) for two in product(factors, monomials)}
         )
-    return found
+    return is_found
 
 
 def is_tried(other: Model) -> bool:
@@ -137,9 +137,9 @@ def _numbers(
     entries = [(places[e], at, float(c)) for at, p in enumerate(products) for e, c in p.items()]
     rows, columns, coefficients = zip(*entries, strict=True)
     matrix = coo_matrix((coefficients, (rows, columns)), shape=(len(places), len(products)))
-    found = linprog(
+    value = linprog(
         np.zeros(len(products)), A_ub=-matrix, b_ub=-np.ones(len(places)), bounds=(None, None)
     )
-    if not found.success:
+    if not value.success:
         return None
-    return tuple(Fraction(float(x)).limit_denominator(ROUNDED) for x in found.x)
+    return tuple(Fraction(float(x)).limit_denominator(ROUNDED) for x in value.x)

@@ -80,13 +80,13 @@ def _start(x0: object, n: int) -> list[Any]:
     return _listed(x0)
 
 
-def refuse_namesakes(*given: object) -> None:
+def refuse_namesakes(*parts: object) -> None:
     """Raises InputError where two symbols of SymPy that are not the same have one name: they
     would become one parameter.
     """
-    known: dict[str, Any] = {}
-    for symbol in _symbols(given):
-        if known.setdefault(symbol.name, symbol) != symbol:
+    entry: dict[str, Any] = {}
+    for symbol in _symbols(parts):
+        if entry.setdefault(symbol.name, symbol) != symbol:
             raise InputError(
                 f"two different symbols are called {shown(symbol.name)}; use one of them"
             )
@@ -162,12 +162,12 @@ def _refuse_shape(rows: Matrix, height: int, width: int, name: str) -> None:
         )
 
 
-def _symbols(given: Any) -> Iterator[Any]:
-    if _is_list(given):
-        for entry in _listed(given):
+def _symbols(value: Any) -> Iterator[Any]:
+    if _is_list(value):
+        for entry in _listed(value):
             yield from _symbols(entry)
-    elif hasattr(given, "is_Symbol"):
-        yield from given.free_symbols
+    elif hasattr(value, "is_Symbol"):
+        yield from value.free_symbols
 
 
 def _is_list(entry: object) -> bool:
@@ -183,13 +183,13 @@ def _listed(entry: Any) -> list[Any]:
 
 def parameters_of(entries: Iterable[Tree], variable: str = "") -> tuple[str, ...]:
     """All names but that of the frequency variable, sorted; raises InputError."""
-    found = tuple(sorted({n for entry in entries for n in names(entry)} - {variable}))
-    if len(found) > MOST_SYMBOLS:
-        raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(found)}")
-    foreign = [name for name in found if not (name.isascii() and name.isprintable() and name)]
+    the_names = tuple(sorted({n for entry in entries for n in names(entry)} - {variable}))
+    if len(the_names) > MOST_SYMBOLS:
+        raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(the_names)}")
+    foreign = [name for name in the_names if not (name.isascii() and name.isprintable() and name)]
     if foreign:
         raise InputError(f"names of parameters are ASCII, not {shown(foreign[0])}")
-    return found
+    return the_names
 
 
 def refuse_name(name: object) -> None:

@@ -51,11 +51,11 @@ def may_be_others(cells: Sequence[Cell], powers: Powers) -> bool:
         return True
     size = len(powers.weights)
     sides = sorted((frozenset(side) for side in cells[0]), key=len)
-    found = _basis(sides, size)
-    counts = [len(points) for points in found]
+    the_pairs = _basis(sides, size)
+    counts = [len(points) for points in the_pairs]
     if sum(counts) <= size or prod(map(perm, map(len, sides), counts)) > MOST_TRIED:
         return True
-    points = [point for chosen in found for point in chosen]
+    points = [point for chosen in the_pairs for point in chosen]
     inverse = fmpq_mat(fmpz_mat([[1, *p[1:]] for p in points])).inv()
     ways = [permutations(sorted(side), n) for side, n in zip(sides, counts, strict=True)]
     for images in product(*ways):
@@ -69,15 +69,15 @@ def may_be_others(cells: Sequence[Cell], powers: Powers) -> bool:
 
 def _basis(sides: Sequence[frozenset[Parts]], size: int) -> list[list[Parts]]:
     """Of each side the powers that fix a map, as many as size + 1 together where they do."""
-    rows, found = list[list[int]](), list[list[Parts]]()
+    rows, pairs = list[list[int]](), list[list[Parts]]()
     for side in sides:
-        found.append([])
+        pairs.append([])
         for point in sorted(side):
             more = [*rows, [1, *point[1:]]]
             if fmpz_mat(more).rank() == len(more):
                 rows = more
-                found[-1].append(point)
-    return found
+                pairs[-1].append(point)
+    return pairs
 
 
 def _keeps(change: fmpq_mat, side: frozenset[Parts]) -> bool:

@@ -53,8 +53,8 @@ def having(model: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...
     """
     if not (isinstance(model, Model) and isinstance(other, Model)):
         return None
-    there = _there(other)
-    if _there(model) != there or len(other.parameters) != sum(map(sum, there)) - 1:
+    parts = _there(other)
+    if _there(model) != parts or len(other.parameters) != sum(map(sum, parts)) - 1:
         return None
     goal = goal_of(model, values)
     equivalents = (goal and positive(goal, other)) or ()
@@ -143,10 +143,10 @@ def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ..
                     made = Model.from_network(the_network)
                 except InputError:
                     return None
-                known = PLACES[: len(powers.weights)]
-                if not set(made.powers.exponents) <= set(known):
+                names = PLACES[: len(powers.weights)]
+                if not set(made.powers.exponents) <= set(names):
                     return None
-                model = in_powers(made, powers, [known.index(n) for n in made.powers.exponents])
+                model = in_powers(made, powers, [names.index(n) for n in made.powers.exponents])
                 if max(model.degrees) >= degree:
                     kept.setdefault(model.content, model)
                     todo.append(the_network)

@@ -88,18 +88,18 @@ class Arithmetic:
         """Their product."""
         return reduce(self._times, polynomials, (self.one,))
 
-    def _times(self, one: Poly, other: Poly) -> Poly:
-        found = [self.zero] * (len(one) + len(other) - 1)
-        for i, a in enumerate(one):
+    def _times(self, parts: Poly, other: Poly) -> Poly:
+        items = [self.zero] * (len(parts) + len(other) - 1)
+        for i, a in enumerate(parts):
             for j, b in enumerate(other):
-                found[i + j] += a * b
-        return tuple(map(self.short, found))
+                items[i + j] += a * b
+        return tuple(map(self.short, items))
 
-    def plus(self, one: Poly, other: Poly, factor: Any = None) -> Poly:
+    def plus(self, parts: Poly, other: Poly, factor: Any = None) -> Poly:
         """one + factor other."""
         by = self.one if factor is None else factor
-        size = max(len(one), len(other))
-        a, b = ((*p, *[self.zero] * (size - len(p))) for p in (one, other))
+        size = max(len(parts), len(other))
+        a, b = ((*p, *[self.zero] * (size - len(p))) for p in (parts, other))
         return tuple(self.short(x + by * y) for x, y in zip(a, b, strict=True))
 
     @abstractmethod

@@ -28,7 +28,7 @@ def explicit(
     """The evidence of two ways in which all generic parameters have an equivalent, the left model's
     first; None where one is not known to be such.
     """
-    found = list[tuple[Formula, ...]]()
+    pairs = list[tuple[Formula, ...]]()
     for side, model, other, way in zip(
         (True, False), (left, right), (right, left), ways, strict=True
     ):
@@ -40,8 +40,8 @@ def explicit(
             formulas = tuple(of_boundary(side, other, near))
         if not formulas:
             return None
-        found.append(formulas)
-    return Explicit(domain.value, tuple(f for formulas in found for f in formulas))
+        pairs.append(formulas)
+    return Explicit(domain.value, tuple(f for formulas in pairs for f in formulas))
 
 
 def of_way(left_given: bool, way: Way) -> Iterator[Formula]:
@@ -57,8 +57,8 @@ def of_way(left_given: bool, way: Way) -> Iterator[Formula]:
 def of_boundary(left_given: bool, other: AnyModel, boundary: Boundary) -> Iterator[Formula]:
     """Yield the formulas of equivalents near the boundary, those that are to be small being 0."""
     for side, where, values, root in of_way(left_given, boundary.way):
-        known = dict(values)
-        yield side, where, tuple((q, known.get(q, ZERO)) for q in other.parameters), root
+        texts = dict(values)
+        yield side, where, tuple((q, texts.get(q, ZERO)) for q in other.parameters), root
 
 
 def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:

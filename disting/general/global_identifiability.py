@@ -59,10 +59,10 @@ class GlobalIdentifiability(Shown):
     @property
     def sentence(self) -> str:
         """The finding in plain English."""
-        told = self._of_values
+        phrase = self._of_values
         if self.exponents:
-            return f"{', '.join(self.exponents)} given: {told[0].lower()}{told[1:]}"
-        return told
+            return f"{', '.join(self.exponents)} given: {phrase[0].lower()}{phrase[1:]}"
+        return phrase
 
     @property
     def _of_values(self) -> str:

@@ -46,9 +46,9 @@ class LocalIdentifiability:
     safety: int
 
     def __repr__(self) -> str:
-        known = f"{self.rank} of {len(self.parameters)} determinable"
+        name = f"{self.rank} of {len(self.parameters)} determinable"
         names = f": {', '.join(self.identifiable)}" if self.identifiable else ""
-        return summary(self, known + names)
+        return summary(self, name + names)
 
     @property
     def unidentifiable(self) -> tuple[str, ...]:

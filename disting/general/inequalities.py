@@ -105,12 +105,12 @@ def contradiction(model: Model, other: Model) -> Labelled | None:
 def is_contradiction(form: Labelled, model: Model, other: Model) -> bool:
     """Whether it tells two models apart: seen from the signs of all coefficients."""
     names = _labels(other)
-    known = all(name in names for _, *pair in form for name in pair)
-    if not known or not are_alike(model, other):
+    is_known = all(name in names for _, *pair in form for name in pair)
+    if not is_known or not are_alike(model, other):
         return False
     at = [((names.index(i), names.index(j)), number) for number, i, j in form]
-    here, there = (_value(at, _polynomials(m)).coeffs() for m in (model, other))
-    return bool(here) and all(c < 0 for c in here) and all(c > 0 for c in there)
+    own_value, other_value = (_value(at, _polynomials(m)).coeffs() for m in (model, other))
+    return bool(own_value) and all(c < 0 for c in own_value) and all(c > 0 for c in other_value)
 
 
 def _labels(model: Model) -> list[str]:
@@ -199,14 +199,14 @@ def _cut(edges: dict[Row, int], row: Row, at: int, common: int) -> dict[Row, int
     value = {e: sum(a * b for a, b in zip(row, e, strict=True)) for e in edges}
     left = {e: rows | (not value[e]) << at for e, rows in edges.items() if value[e] >= 0}
     above, below = ([e for e in edges if sign * value[e] > 0] for sign in (1, -1))
-    for one, other in product(above, below):
-        both = edges[one] & edges[other]
+    for parts, other in product(above, below):
+        both = edges[parts] & edges[other]
         if both.bit_count() < common:
             continue
-        if any(both & rows == both for e, rows in edges.items() if e not in (one, other)):
+        if any(both & rows == both for e, rows in edges.items() if e not in (parts, other)):
             continue
-        pairs = zip(one, other, strict=True)
-        left[_shortest([value[one] * b - value[other] * a for a, b in pairs])] = both | 1 << at
+        pairs = zip(parts, other, strict=True)
+        left[_shortest([value[parts] * b - value[other] * a for a, b in pairs])] = both | 1 << at
     return left
 
 

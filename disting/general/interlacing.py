@@ -76,7 +76,7 @@ def interlaced(model: AnyModel) -> Interlaced | None:
     """
     if not isinstance(model, Model) or model.network is None or model.powers.weights:
         return None
-    network, there = model.network, tuple(map(bool, model.numerator_terms))
+    network, other_parts = model.network, tuple(map(bool, model.numerator_terms))
     masses = len(network.nodes)
     if (
         masses < FEWEST
@@ -85,9 +85,9 @@ def interlaced(model: AnyModel) -> Interlaced | None:
         or not model.denominator[0]
     ):
         return None
-    first = there.index(True)
+    first = other_parts.index(True)
     signs = {number > 0 for _, number in model.numerator_terms[first]}
-    if any(there[first + 1 :: 2]) or len(signs) > 1:
+    if any(other_parts[first + 1 :: 2]) or len(signs) > 1:
         return None
     ring = symbols(["x", *model.parameters])
     zeros = ring["x"] * 0
@@ -97,7 +97,7 @@ def interlaced(model: AnyModel) -> Interlaced | None:
             zeros += int(number) * ring["x"] ** at * prod(ring[p] ** int(e) for p, e in powers)
     if not any(_are_zeros_of(zeros, chosen) for chosen in _choices(network, ring)):
         return None
-    return Interlaced(masses, there, 1 if signs.pop() else -1)
+    return Interlaced(masses, other_parts, 1 if signs.pop() else -1)
 
 
 def is_held_tree(network: Network) -> bool:

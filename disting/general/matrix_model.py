@@ -104,10 +104,10 @@ class MatrixModel(Shown):
         output. Raises InputError.
         """
         variable = frequency(s)
-        given = rows_of(rows)
+        source_rows = rows_of(rows)
         number = polynomial(1, variable)
-        sides = [[(polynomial(entry, variable), number) for entry in row] for row in given]
-        refuse_namesakes(*(entry for row in given for entry in row), s)
+        sides = [[(polynomial(entry, variable), number) for entry in row] for row in source_rows]
+        refuse_namesakes(*(entry for row in source_rows for entry in row), s)
         parameters = parameters_of((top for row in sides for top, _ in row), variable)
         ring = symbols([variable, *parameters])
         expansion = Expansion(ring, ring[variable] ** 0)
@@ -119,7 +119,7 @@ class MatrixModel(Shown):
         raises InputError.
         """
         rows = tuple(tuple(_counted(cell) for cell in row) for row in network.cells)
-        if all(known for row in rows for known, _ in row):
+        if all(is_known for row in rows for is_known, _ in row):
             entries = tuple(tuple(entry for _, entry in row) for row in rows)
             model = MatrixModel(network.parameters, entries, network.name)
         else:
@@ -172,16 +172,16 @@ def _counted(cell: Network) -> tuple[bool, Model | None]:
     """Whether what a network does between two ports is known without its terms, and what it is."""
     if not cell.seen:
         return True, None
-    known = counts_of(cell, cell.halves) is not None
-    return known, unwritten(replace(cell, name="entry")) if known else None
+    is_known = counts_of(cell, cell.halves) is not None
+    return is_known, unwritten(replace(cell, name="entry")) if is_known else None
 
 
 def _shown(
-    known: Sequence[str], parameters: tuple[str, ...], like: Sequence[RationalFunction]
+    names: Sequence[str], parameters: tuple[str, ...], like: Sequence[RationalFunction]
 ) -> Iterator[tuple[RationalFunction, ...]]:
     """Yield a row for each known parameter, which shows it; raises InputError for other names."""
     wanted = "known parameters are a list of names such as ['x1']"
-    for name in of_type(known, list | tuple, wanted):
+    for name in of_type(names, list | tuple, wanted):
         if name not in parameters:
             raise InputError(
                 f"{shown(name)} is known, but no parameter; there are {listed(parameters)}"

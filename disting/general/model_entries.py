@@ -64,20 +64,20 @@ def _refuse_constant(text: str) -> NoReturn:
     raise InputError(f"{text} is no number of a model; write a number or an expression")
 
 
-def object_of(data: object, known: Iterable[str], what: str) -> Plain:
+def object_of(data: object, items: Iterable[str], what: str) -> Plain:
     """A JSON object with these keys only; raises InputError for anything else."""
-    keys = listed(f'"{key}"' for key in known)
+    keys = listed(f'"{key}"' for key in items)
     if not isinstance(data, dict):
         raise InputError(f"{what} is one object in braces with the keys {keys}")
-    unknown = [key for key in data if key not in known]
+    unknown = [key for key in data if key not in items]
     if unknown:
         raise InputError(f"{shown(unknown[0])} is no key of {what}; known are {keys}")
     return data
 
 
-def text_of(given: Plain, key: str, default: str) -> str:
+def text_of(entry: Plain, key: str, default: str) -> str:
     """The text at a key; raises InputError for anything else."""
-    value = given.get(key, default)
+    value = entry.get(key, default)
     if type(value) is not str:
         raise InputError(f'"{key}" is a text in quotation marks, not {shown(value)}')
     return value
@@ -114,51 +114,56 @@ def of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
     kinds = [kind for kind in KINDS if kind in entry]
     if len(kinds) != 1:
         raise InputError(f"a model is {FORMS}; this one is {' and '.join(kinds) or 'none of them'}")
-    known = KINDS[kinds[0]]
-    given = object_of(entry, ("name", *known), f'a model with "{kinds[0]}"')
+    names = KINDS[kinds[0]]
+    source_entry = object_of(entry, ("name", *names), f'a model with "{kinds[0]}"')
     match kinds[0]:
         case "A":
-            _refuse_missing(given, ("C",) if "x0" in given else ("B", "C"))
-            space = (given["A"], given.get("B"), given["C"], given.get("D", 0))
-            return _single(_of_space(space, given, variable, name))
+            _refuse_missing(source_entry, ("C",) if "x0" in source_entry else ("B", "C"))
+            space = (
+                source_entry["A"],
+                source_entry.get("B"),
+                source_entry["C"],
+                source_entry.get("D", 0),
+            )
+            return _single(_of_space(space, source_entry, variable, name))
         case "num":
             return Model.from_transfer_function(
-                given["num"], given.get("den", 1), s=variable, name=name
+                source_entry["num"], source_entry.get("den", 1), s=variable, name=name
             )
         case "G":
-            if isinstance(given["G"], list):
-                return MatrixModel.from_transfer_functions(given["G"], s=variable, name=name)
-            return Model.from_transfer_function(given["G"], s=variable, name=name)
+            if isinstance(source_entry["G"], list):
+                return MatrixModel.from_transfer_functions(source_entry["G"], s=variable, name=name)
+            return Model.from_transfer_function(source_entry["G"], s=variable, name=name)
         case "chain":
-            return _of_chain(given, name)
-    if "x0" in given or "known" in given:
-        return _single(_of_flows(given, variable, name))
-    return of_network(network_of_entry(given, name))
+            return _of_chain(source_entry, name)
+    if "x0" in source_entry or "known" in source_entry:
+        return _single(_of_flows(source_entry, variable, name))
+    return of_network(network_of_entry(source_entry, name))
 
 
-def _of_space(space: tuple[Any, ...], given: Plain, variable: str, name: str) -> MatrixModel:
-    known = of_type(given.get("known", []), list, '"known" is a list of names of parameters')
+def _of_space(space: tuple[Any, ...], entry: Plain, variable: str, name: str) -> MatrixModel:
+    own_entry = of_type(entry.get("known", []), list, '"known" is a list of names of parameters')
     return MatrixModel.from_state_space(
-        *space, x0=given.get("x0"), known=known, s=variable, name=name
+        *space, x0=entry.get("x0"), known=own_entry, s=variable, name=name
     )
 
 
-def _of_flows(given: Plain, variable: str, name: str) -> MatrixModel:
+def _of_flows(entry: Plain, variable: str, name: str) -> MatrixModel:
     """Compartments that are not empty at first; x0 has their contents, by number."""
-    start = of_type(given.get("x0", {}), dict, '"x0" has contents by compartment: {"1": "c1"}')
-    flows = of_type(given["flows"], list, '"flows" is a list of pairs such as [1, 2]')
+    start = of_type(entry.get("x0", {}), dict, '"x0" has contents by compartment: {"1": "c1"}')
+    flows = of_type(entry["flows"], list, '"flows" is a list of pairs such as [1, 2]')
     nodes = {str(i) for flow in flows if isinstance(flow, list) for i in flow}
     lost = [i for i in start if i not in nodes - {"0"}]
     if lost:
         raise InputError(f'"x0" has compartment {shown(lost[0])}, which none of the flows has')
-    asked = given.get("input", [])
+    asked = entry.get("input", [])
     inputs = asked if isinstance(asked, list) else [asked]
-    plain = {key: value for key, value in given.items() if key not in ("x0", "known")}
+    plain = {key: value for key, value in entry.items() if key not in ("x0", "known")}
     network = network_of_entry({**plain, "input": [*inputs, *start]}, name)
     a, b, c = space_of_flows(network)
     entering = [row[: len(inputs)] for row in b] if inputs else None
     contents = [start.get(str(i), 0) for i in network.nodes]
-    made = {**given, "x0": contents} if start else given
+    made = {**entry, "x0": contents} if start else entry
     return _of_space((a, entering, c, 0), made, variable, name)
 
 
@@ -168,14 +173,14 @@ def _single(model: MatrixModel) -> AnyModel:
     return model if others or entry is None else replace(entry, name=model.name)
 
 
-def _of_chain(given: Plain, name: str) -> Model:
-    damped = given.get("damped", DAMPED)
+def _of_chain(entry: Plain, name: str) -> Model:
+    damped = entry.get("damped", DAMPED)
     if not isinstance(damped, bool):
         raise InputError('"damped" is true or false')
-    quantity = text_of(given, "sensor", Sensor.ACCELERATION.value)
+    quantity = text_of(entry, "sensor", Sensor.ACCELERATION.value)
     if quantity not in tuple(Sensor):
         raise InputError(f'"sensor" is {", ".join(Sensor)}, not {shown(quantity)}')
-    reference = text_of(given, "chain", "")
+    reference = text_of(entry, "chain", "")
     masses = reference.partition(":")[0].strip()
     if masses.isdecimal() and int(masses[:9]) > LARGEST_CHAIN:
         raise InputError(
@@ -225,9 +230,9 @@ def _of_entry(model: Model) -> dict[str, list[str]]:
     return {"num": num, "den": den}
 
 
-def _refuse_missing(given: Plain, keys: Iterable[str]) -> None:
+def _refuse_missing(entry: Plain, keys: Iterable[str]) -> None:
     for key in keys:
-        if key not in given:
+        if key not in entry:
             raise InputError(f'"{key}" is missing')
 
 

@@ -87,11 +87,11 @@ def exact_again(
 def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
     """Whether these are constants of both models that differ, by their exact values."""
     sides = [behaviour_of(model).constants(None) for model in (left, right)]
-    told = (evidence.left, evidence.right)
-    found = [tuple(map(side.get, evidence.labels)) for side in sides]
-    differ = all(a != b for a, b in zip(*found, strict=True))
-    known = all(label in side for side in sides for label in evidence.labels)
-    return bool(evidence.labels) and known and tuple(found) == told and differ
+    parts = (evidence.left, evidence.right)
+    pairs = [tuple(map(side.get, evidence.labels)) for side in sides]
+    differ = all(a != b for a, b in zip(*pairs, strict=True))
+    is_known = all(label in side for side in sides for label in evidence.labels)
+    return bool(evidence.labels) and is_known and tuple(pairs) == parts and differ
 
 
 def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:

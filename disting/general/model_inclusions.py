@@ -101,13 +101,13 @@ def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
     part, whole = small.network.grounded, large.network.grounded
     if evidence.places:
         places = dict(evidence.places)
-        known = is_minor(part, whole, places)
-        return known and evidence == _minor(part, whole, places, evidence.left_is_part)
+        is_known = is_minor(part, whole, places)
+        return is_known and evidence == _minor(part, whole, places, evidence.left_is_part)
     ports = [(n.sort, n.order, n.sign_of_one_port) for n in (part, whole)]
     form = branches(part)
-    known = ports[0] == ports[1] and part.sign_of_one_port != 0 and form is not None
-    known = known and not evidence.exponents
-    return known and form == rest_of(whole, evidence.missing, evidence.rigid)
+    is_known = ports[0] == ports[1] and part.sign_of_one_port != 0 and form is not None
+    is_known = is_known and not evidence.exponents
+    return is_known and form == rest_of(whole, evidence.missing, evidence.rigid)
 
 
 def _minor(part: Network, whole: Network, places: Places, left_is_part: bool) -> Minor:

@@ -87,8 +87,8 @@ class ComparedModel(Side[AnyModel]):
     @property
     def notes(self) -> tuple[str, ...]:
         """What degrees count where that is not s, and which exponents are spoken of."""
-        told = self.subject.powers.sentence(self.name)
-        return (told,) * bool(told) + (GENERIC,) * bool(self.subject.powers.weights)
+        phrase = self.subject.powers.sentence(self.name)
+        return (phrase,) * bool(phrase) + (GENERIC,) * bool(self.subject.powers.weights)
 
     @property
     def in_s(self) -> bool:
@@ -106,14 +106,14 @@ class ComparedModel(Side[AnyModel]):
         parameters that does the same, if there is one.
         """
         own = told(self.transfer_profile)
-        found = list[tuple[tuple[str, ...], Renaming | None]]()
+        pairs = list[tuple[tuple[str, ...], Renaming | None]]()
         for model in readings(self.subject):
             other = replace(self, subject=model)
             if told(other.transfer_profile) == own:
                 evidence = condition_6(self, other, True).evidence
                 renaming = evidence if isinstance(evidence, Renaming) else None
-                found.append((model.powers.exponents, renaming))
-        return tuple(found)
+                pairs.append((model.powers.exponents, renaming))
+        return tuple(pairs)
 
     @property
     def has_other_readings(self) -> bool:
@@ -123,8 +123,8 @@ class ComparedModel(Side[AnyModel]):
     @property
     def rank(self) -> int:
         """Number of determinable parameters, exponents too."""
-        size, found = len(self.subject.powers.weights), self.transfer_profile.rank
-        return found + determined(cells_of(self.subject), size)[0] if size else found
+        size, number = len(self.subject.powers.weights), self.transfer_profile.rank
+        return number + determined(cells_of(self.subject), size)[0] if size else number
 
     @property
     def n_elements(self) -> int | None:
@@ -296,5 +296,5 @@ def _is_asked(left: ComparedModel, right: ComparedModel, domain: Domain) -> bool
 def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:
     if name == GEARS:
         return same_in_units(left.subject, right.subject)
-    one = left.gives.get(name)
-    return one is not None and one == right.gives.get(name)
+    value = left.gives.get(name)
+    return value is not None and value == right.gives.get(name)

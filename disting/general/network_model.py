@@ -104,7 +104,7 @@ class NetworkModel:
 
     def constants(self, markov: int | None) -> Mapping[str, str]:
         """Those that are proven constant: 0, or the number of their terms."""
-        found: dict[str, str] = {}
+        texts: dict[str, str] = {}
         for i, counts in enumerate(self._counts):
             if counts is None:
                 continue
@@ -114,8 +114,8 @@ class NetworkModel:
                 zeros = {f"a{k}": Fraction(0) for k in range(counts.degrees[1])}
                 named = {n: v for n, v in named.items() if n[0] == "b"} | zeros
             labels = (label(n, i, shared) if self.is_numbered else n for n in named)
-            found |= dict(zip(labels, map(str, named.values()), strict=True))
-        return found
+            texts |= dict(zip(labels, map(str, named.values()), strict=True))
+        return texts
 
     @property
     def _assemblies(self) -> tuple[Assembly | None, ...]:
@@ -135,9 +135,9 @@ def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:
     if network is not None and network.parameters == model.parameters:
         plain = replace(network, name="network")
         cells = tuple(c if c.seen else None for row in plain.cells for c in row)
-        known = all(c is None or counts_of(c, halves) for c in cells)
+        is_known = all(c is None or counts_of(c, halves) for c in cells)
         network_model = NetworkModel(plain.parameters, cells, halves)
-        if known and _shares_poles(network_model):
+        if is_known and _shares_poles(network_model):
             return network_model
     return GeneralModel(unnamed(model))
 

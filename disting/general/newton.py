@@ -83,9 +83,9 @@ def having(
     wanted = [float(g / system.wanted[0]) for g in system.wanted[1:]]
     searched = values_near(system.rows, wanted, system.unknowns)
     for start in chain([near] if near else [], searched):
-        found = _certified(system, start)
-        if found:
-            return found
+        the_values = _certified(system, start)
+        if the_values:
+            return the_values
     return None
 
 
@@ -97,8 +97,8 @@ def are_alike(model: Model, other: Model) -> bool:
         return False
     if not is_in_one_variable(model.powers, other.powers) or model.degrees != other.degrees:
         return False
-    one, two = ([bool(c) for c in coefficients(m)] for m in (model, other))
-    return one == two
+    rows, two = ([bool(c) for c in coefficients(m)] for m in (model, other))
+    return rows == two
 
 
 def _system(model: Model, values: Values, other: Model) -> System | None:
@@ -110,29 +110,33 @@ def _system(model: Model, values: Values, other: Model) -> System | None:
     wanted = tuple(value_at(terms, point) for terms in coefficients(model) if terms)
     if not all(wanted):
         return None
-    known = relations(model, other)
-    others, known = _independent(known, wanted)
+    own_relations = relations(model, other)
+    others, own_relations = _independent(own_relations, wanted)
     solved = tuple(i for i in range(1, len(wanted)) if i not in others)
     rows = tuple(terms for terms in coefficients(other) if terms)
     unknowns = len(other.parameters)
     return (
-        System(rows, wanted, unknowns, solved, others, known) if len(solved) <= unknowns else None
+        System(rows, wanted, unknowns, solved, others, own_relations)
+        if len(solved) <= unknowns
+        else None
     )
 
 
 def _independent(
-    known: tuple[Relation, ...], wanted: Sequence[Fraction]
+    own_relations: tuple[Relation, ...], wanted: Sequence[Fraction]
 ) -> tuple[tuple[int, ...], tuple[Relation, ...]]:
     """Coefficients by which relations have derivatives that are not singular, and those relations:
     as many as there are.
     """
-    if not known:
+    if not own_relations:
         return (), ()
-    table = [[slope(r, wanted, i, Fraction(0)) for r in known] for i in range(1, len(wanted))]
+    table = [
+        [slope(r, wanted, i, Fraction(0)) for r in own_relations] for i in range(1, len(wanted))
+    ]
     # the last columns first: those of the numerator
     columns, kept = _pivots(table[::-1]), _pivots([list(line) for line in zip(*table, strict=True)])
     chosen = tuple(sorted(len(wanted) - 1 - i for i in columns))
-    return chosen, tuple(known[i] for i in kept)
+    return chosen, tuple(own_relations[i] for i in kept)
 
 
 def _pivots(vectors: Sequence[Sequence[Fraction]]) -> list[int]:

@@ -68,11 +68,11 @@ class Powers:
 
     def parts(self, power: int) -> tuple[int, ...]:
         """The powers of s, or s^(1/2), and of every s^n that a power of v stands for."""
-        left, found = power + self.lost, list[int]()
+        left, numbers = power + self.lost, list[int]()
         for _, weight in reversed(self.weights):
             many, left = divmod(left, weight)
-            found.append(many)
-        return (left, *reversed(found))
+            numbers.append(many)
+        return (left, *reversed(numbers))
 
     def power(self, parts: Sequence[int]) -> int:
         """The power of v, before anything is cancelled."""
@@ -116,9 +116,9 @@ class Powers:
         """
         if not self.weights:
             return HALVES if self.halves else ""
-        told = [("s", self.step)] * (self.halves or self.weights[0][1] > 1)
-        told += [(f"s^{name}", weight) for name, weight in self.weights]
-        equal = (f"{power} = v" + f"^{weight}" * (weight > 1) for power, weight in told)
+        rows = [("s", self.step)] * (self.halves or self.weights[0][1] > 1)
+        rows += [(f"s^{name}", weight) for name, weight in self.weights]
+        equal = (f"{power} = v" + f"^{weight}" * (weight > 1) for power, weight in rows)
         return f"{COUNTED}v: in {model} {', '.join(equal)}"
 
 
@@ -218,26 +218,26 @@ def orders(cells: Sequence[Cell], size: int) -> Iterator[tuple[int, ...]]:
 
 def _orders(cells: Sequence[Cell], chosen: Iterable[int]) -> list[tuple[int, ...]]:
     """The orders of the chosen exponents for which the powers that occur are the least."""
-    found: dict[object, list[tuple[int, ...]]] = {}
+    entries: dict[object, list[tuple[int, ...]]] = {}
     for order in permutations(chosen):
         key = tuple(
             tuple(sorted((p[0], *(p[j + 1] for j in order)) for p in side))
             for cell in cells
             for side in cell
         )
-        found.setdefault(key, []).append(order)
-    return found[min(found)]  # type: ignore[type-var]
+        entries.setdefault(key, []).append(order)
+    return entries[min(entries)]  # type: ignore[type-var]
 
 
 def _side(polynomial: fmpz_mpoly, exponents: Sequence[str], size: int) -> Side:
     names = polynomial.context().names()
     places = [0, *(names.index(name) for name in exponents)]
     behind = len(names) - size
-    found: dict[tuple[int, ...], list[tuple[tuple[int, ...], int]]] = {}
+    entries: dict[tuple[int, ...], list[tuple[tuple[int, ...], int]]] = {}
     for powers, number in polynomial.to_dict().items():
         key = tuple(int(powers[at]) for at in places)
-        found.setdefault(key, []).append((tuple(map(int, powers[behind:])), int(number)))
-    return {key: tuple(sorted(terms, reverse=True)) for key, terms in found.items()}
+        entries.setdefault(key, []).append((tuple(map(int, powers[behind:])), int(number)))
+    return {key: tuple(sorted(terms, reverse=True)) for key, terms in entries.items()}
 
 
 def _degree(cells: Iterable[Cell], at: int) -> int:

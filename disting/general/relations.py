@@ -71,10 +71,10 @@ def dimension_at_most(model: Model) -> int:
     >>> dimension_at_most(Model.from_transfer_function(["1"], ["1", "a + b", "a*b"]))
     2
     """
-    known, modulus = relations(model, model), prime("relations")
+    own_relations, modulus = relations(model, model), prime("relations")
     point = residues("dimension", len(model.parameters), modulus)
     at = [Fraction(_value(t, point, modulus)) for t in coefficients(model) if t]
-    slopes = [[slope(r, at, i, Fraction(0)) for i in range(len(at))] for r in known]
+    slopes = [[slope(r, at, i, Fraction(0)) for i in range(len(at))] for r in own_relations]
     rows = [[x.numerator * pow(x.denominator, -1, modulus) % modulus for x in r] for r in slopes]
     return len(at) - 1 - (nmod_mat(rows, modulus).rank() if rows else 0)
 
@@ -89,10 +89,10 @@ def dimension_at_least(model: Model) -> int:
     """
     modulus = prime("relations")
     point = residues("rank", len(model.parameters), modulus)
-    there = [terms for terms in coefficients(model) if terms]
-    rows = [[_value(terms, point, modulus) for terms in there]]
+    other_rows = [terms for terms in coefficients(model) if terms]
+    rows = [[_value(terms, point, modulus) for terms in other_rows]]
     for i in range(len(point)):
-        rows.append([_value(_derivative(terms, i), point, modulus) for terms in there])
+        rows.append([_value(_derivative(terms, i), point, modulus) for terms in other_rows])
     return int(nmod_mat(rows, modulus).rank()) - 1
 
 
@@ -106,8 +106,8 @@ def slope(relation: Relation, at: Sequence[Any], by: int, zero: Any) -> Any:
     """The derivative of a quadratic form by one variable."""
     total = zero
     for (i, j), number in relation:
-        for one, other in ((i, j), (j, i)):
-            if one == by:
+        for this_number, other in ((i, j), (j, i)):
+            if this_number == by:
                 total += at[other] * number.numerator / number.denominator
     return total
 
@@ -128,26 +128,26 @@ def _kernel(rows: list[list[int]], modulus: int) -> list[list[int]]:
     reduced, rank = nmod_mat(rows, modulus).rref()
     width = len(rows[0])
     pivots = [next(j for j in range(width) if int(reduced[i, j])) for i in range(rank)]
-    found = []
+    the_rows = []
     for free in sorted({*range(width)} - {*pivots}):
         line = [0] * width
         line[free] = 1
         for i, at in enumerate(pivots):
             line[at] = -int(reduced[i, free]) % modulus
-        found.append(line)
-    return found
+        the_rows.append(line)
+    return the_rows
 
 
 def _lifted(line: Sequence[int], pairs: Sequence[tuple[int, int]], modulus: int) -> Relation | None:
     """Small fractions with these remainders."""
-    found = []
+    the_pairs = []
     for pair, residue in zip(pairs, line, strict=True):
         if residue:
             number = _fraction(residue, modulus)
             if number is None:
                 return None
-            found.append((pair, number))
-    return tuple(found)
+            the_pairs.append((pair, number))
+    return tuple(the_pairs)
 
 
 def _fraction(residue: int, modulus: int) -> Fraction | None:

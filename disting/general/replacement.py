@@ -104,11 +104,12 @@ def _some_minor_reaches(model: Model, whole: Part, set_of: SetOf) -> bool:
                     made = Model.from_network(less)
                     if made.n_states * model.powers.step < model.n_states * made.powers.step:
                         continue  # the degree in s is smaller
-                    found = set_of(made)
+                    the_full_set = set_of(made)
                 except InputError:
                     return True
-                if found is None or (
-                    found[1].single == whole.single and _order(found[1]) >= _order(whole)
+                if the_full_set is None or (
+                    the_full_set[1].single == whole.single
+                    and _order(the_full_set[1]) >= _order(whole)
                 ):
                     return True
                 todo.append(less)
@@ -154,9 +155,9 @@ def simplest_network(model: AnyModel, larger: bool = False) -> Network | None:
     """
     if model.network is None:
         return None
-    known = set_of(model) if larger else full_set(model)
+    own_full_set = set_of(model) if larger else full_set(model)
     network = placed_network(model.network, model.powers)
-    return simplest(network, known[1] if known else None)
+    return simplest(network, own_full_set[1] if own_full_set else None)
 
 
 def full_set(model: AnyModel) -> tuple[int, Part] | None:
@@ -164,12 +165,12 @@ def full_set(model: AnyModel) -> tuple[int, Part] | None:
     gives it, and the sign before it: -1 where the sensor is turned against the force; None where
     that is not shown.
     """
-    found = set_of(model)
-    if found is None or model.network is None or not isinstance(model, Model):
+    the_full_set = set_of(model)
+    if the_full_set is None or model.network is None or not isinstance(model, Model):
         return None
     network = placed_network(model.network, model.powers)
-    whole = _has_minor(network.grounded, found[1]) or covers(model, found[1], set_of)
-    return found if whole else None
+    whole = _has_minor(network.grounded, the_full_set[1]) or covers(model, the_full_set[1], set_of)
+    return the_full_set if whole else None
 
 
 def set_of(model: AnyModel) -> tuple[int, Part] | None:
@@ -178,8 +179,8 @@ def set_of(model: AnyModel) -> tuple[int, Part] | None:
         return None
     network = placed_network(model.network, model.powers)
     sign, kinds = network.sign_of_one_port, sorted({e.power for e in network.seen})
-    known = {"", *model.powers.placed.exponents}
-    if not sign or len(kinds) != TWO or any(e.exponent not in known for e in network.seen):
+    names = {"", *model.powers.placed.exponents}
+    if not sign or len(kinds) != TWO or any(e.exponent not in names for e in network.seen):
         return None
     whole = _set_of(model, network.order, kinds[0], kinds[1])
     return None if whole is None else (sign, whole)
@@ -199,7 +200,7 @@ def _set_of(model: Model, order: int, low: Power, high: Power) -> Part | None:
     if at_zero not in (0, -step) or at_oo not in (0, -step):
         return None
     count = (bottom[-1] - bottom[0]) // abs(step)
-    single = [r for r, there in ((low, at_oo == 0), (high, at_zero == -step)) if there]
+    single = [r for r, is_there in ((low, at_oo == 0), (high, at_zero == -step)) if is_there]
     return Part("S", tuple(single), (((low, high), count),) if count else ())
 
 

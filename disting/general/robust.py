@@ -62,13 +62,13 @@ def having(parted: Parted, point: Point) -> tuple[float, ...] | None:
     found.
     """
     for section in parted.sections:
-        found = _on(parted, section, point)
-        if found:
-            return found
+        values = _on(parted, section, point)
+        if values:
+            return values
     for case in parted.others:
-        found = _in_case(parted, case, point)
-        if found:
-            return found
+        values = _in_case(parted, case, point)
+        if values:
+            return values
     return None
 
 
@@ -127,11 +127,11 @@ def _in_case(parted: Parted, case: Case, point: Point) -> tuple[float, ...] | No
         ]
         for values in product(*ways):
             for sign in signs:
-                found = _in_interval(
+                the_values = _in_interval(
                     parted, case, point | dict(zip(others, values, strict=True)), at, sign
                 )
-                if found:
-                    return found
+                if the_values:
+                    return the_values
     return None
 
 

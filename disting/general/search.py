@@ -27,13 +27,13 @@ def values_near(
 
     def errors(logs: Any) -> tuple[Any, Any]:
         """Relative differences of both, and their derivatives by the logarithms of all values."""
-        found, slopes = ratios(logs)
-        return found / goal - 1, slopes / goal[:, None]
+        values, slopes = ratios(logs)
+        return values / goal - 1, slopes / goal[:, None]
 
     for k in range(STARTS):
-        found = _search(errors, f"{k}", unknowns)
-        if found is not None:
-            yield found
+        values = _search(errors, f"{k}", unknowns)
+        if values is not None:
+            yield values
 
 
 def common_points(left: Model, right: Model) -> Iterator[tuple[bool, Values, tuple[float, ...]]]:
@@ -50,16 +50,16 @@ def common_points(left: Model, right: Model) -> Iterator[tuple[bool, Values, tup
 
     def errors(logs: Any) -> tuple[Any, Any]:
         """Relative differences of both, and their derivatives by the logarithms of all values."""
-        (one, slopes), (other, along) = ratios[0](logs[:count]), ratios[1](logs[count:])
-        found = one / other
-        both = [slopes / other[:, None], -along * (found / other)[:, None]]
-        return found - 1, np.hstack(both)
+        (item, slopes), (other, along) = ratios[0](logs[:count]), ratios[1](logs[count:])
+        value = item / other
+        both = [slopes / other[:, None], -along * (value / other)[:, None]]
+        return value - 1, np.hstack(both)
 
     for k in range(STARTS):
-        found = _search(errors, f"common:{k}", count + len(right.parameters))
-        if found is None:
+        value = _search(errors, f"common:{k}", count + len(right.parameters))
+        if value is None:
             continue
-        values = found[:count], found[count:]
+        values = value[:count], value[count:]
         for at, model in enumerate((left, right)):
             rounded = [Fraction(x).limit_denominator(DIGITS) for x in values[at]]
             if all(rounded):
@@ -80,8 +80,8 @@ def _ratios(rows: Sequence[Terms], unknowns: int) -> Callable[[Any], tuple[Any, 
         each = numbers * np.exp(np.clip(powers @ logs, -300, 300))
         totals, slopes = np.bincount(places, each, len(rows)), np.zeros((len(rows), unknowns))
         np.add.at(slopes, places, each[:, None] * powers)
-        found = totals[1:] / totals[0]
-        return found, slopes[1:] / totals[0] - found[:, None] * slopes[0] / totals[0]
+        value = totals[1:] / totals[0]
+        return value, slopes[1:] / totals[0] - value[:, None] * slopes[0] / totals[0]
 
     return at
 
@@ -97,7 +97,7 @@ def _search(
     with np.errstate(all="ignore"):
         if not np.all(np.isfinite(errors(start)[0])):
             return None
-        found = least_squares(
+        value = least_squares(
             lambda x: errors(x)[0],
             start,
             lambda x: errors(x)[1],
@@ -105,6 +105,6 @@ def _search(
             ftol=1e-15,
             gtol=1e-15,
         )
-    if np.max(np.abs(found.fun)) > CLOSE or np.max(np.abs(found.x)) > FARTHEST:
+    if np.max(np.abs(value.fun)) > CLOSE or np.max(np.abs(value.x)) > FARTHEST:
         return None
-    return tuple(map(float, np.exp(found.x)))
+    return tuple(map(float, np.exp(value.x)))

@@ -109,12 +109,12 @@ def _section(ring: Orthant, case: Case) -> Section:
 
 def _eliminable(ring: Orthant, case: Case) -> int | None:
     """The unknown in the fewest inequalities among those in which all factors are linear."""
-    found = []
+    pairs = []
     for at in ring.occurring(case.positive):
         inside = [g for g in case.positive if g.degrees()[at]]
         if all(f.degrees()[at] <= 1 for g in inside for f in ring.parts(g, odd=True)[1]):
-            found.append((len(inside), sum(map(len, inside)), at))
-    return min(found)[2] if found else None
+            pairs.append((len(inside), sum(map(len, inside)), at))
+    return min(pairs)[2] if pairs else None
 
 
 def _eliminated(search: Search, case: Case, at: int) -> Iterator[Case]:

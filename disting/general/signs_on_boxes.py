@@ -138,8 +138,8 @@ def _half(grid: Grid, axis: int, upper: bool) -> Grid:
 
 def _shifted(coefficients: Sequence[int]) -> list[int]:
     """Coefficients of f(1 + u)."""
-    found = list(coefficients)
-    for i in range(len(found)):
-        for j in range(len(found) - 2, i - 1, -1):
-            found[j] += found[j + 1]
-    return found
+    numbers = list(coefficients)
+    for i in range(len(numbers)):
+        for j in range(len(numbers) - 2, i - 1, -1):
+            numbers[j] += numbers[j + 1]
+    return numbers

@@ -112,23 +112,23 @@ def synthesized(
     if tree.form != view:
         yield from synthesized(field, tree, *_inverse(field, top, bottom), kinds, tree.form)
         return
-    one, other = kinds if view == "S" else kinds[::-1]
-    shares = [_share(t.part, view, one, other) for t in tree.inside]
+    part, other = kinds if view == "S" else kinds[::-1]
+    shares = [_share(t.part, view, part, other) for t in tree.inside]
     _chosen(field, tree.inside, shares)
     for parts in _parted(field, tree.inside, shares, top, bottom):
-        found = [
+        pairs = [
             list(synthesized(field, t, *f, kinds, view))
             for t, f in zip(tree.inside, parts, strict=True)
         ]
-        for chosen in product(*found):
+        for chosen in product(*pairs):
             yield {name: x for values in chosen for name, x in values.items()}
 
 
-def _share(part: Part, view: str, one: Power | None, other: Power | None) -> Share:
+def _share(part: Part, view: str, this_part: Power | None, other: Power | None) -> Share:
     if len(part.kinds) > 1:
         part = part if part.form == view else turned(part)
     count = sum(n for _, n in part.terms)
-    return Share(count, one in part.single, other in part.single)
+    return Share(count, this_part in part.single, other in part.single)
 
 
 def _chosen(field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share]) -> None:
@@ -148,9 +148,9 @@ def _inverse(field: Arithmetic, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
 
 def _value(field: Arithmetic, element: Element, view: str, top: Poly, bottom: Poly) -> Values:
     """Of a constant top/bottom, or a pole at 0."""
-    known = top[0] / bottom[-1]
+    entry = top[0] / bottom[-1]
     is_inverse = (view == "S") is not element.kind.divides
-    return {element.value: field.short(field.one / known if is_inverse else known)}
+    return {element.value: field.short(field.one / entry if is_inverse else entry)}
 
 
 def _parted(
@@ -174,7 +174,7 @@ def _parted(
         left = left[1:]
         rest = field.plus(rest, left, -pole)[1:]
     for terms in shared(field, [(i, trees[i], shares[i].terms) for i in many], rest, left):
-        found = list[tuple[Poly, Poly]]()
+        pairs = list[tuple[Poly, Poly]]()
         for i, share in enumerate(shares):
             above, below = terms.get(i, ((), (field.one,)))
             if share.constant and not keeps.constant:
@@ -182,8 +182,8 @@ def _parted(
             if share.pole and not keeps.pole:
                 part = pole / field.number(poles)
                 above, below = field.plus((zero, *above), below, part), (zero, *below)
-            found.append((above, below))
-        yield found
+            pairs.append((above, below))
+        yield pairs
 
 
 def shared(
@@ -195,15 +195,15 @@ def shared(
         return
     for factors, cut in _partitions(field, branches, bottom):
         terms = _partial(field, factors, top, bottom)
-        found = dict[int, tuple[Poly, Poly]]()
+        entries = dict[int, tuple[Poly, Poly]]()
         for (place, _, _), chosen in zip(branches, cut, strict=True):
             below = field.times(*(factors[i] for i in chosen))
             above: Poly = ()
             for i in chosen:
                 others = field.times(*(factors[j] for j in chosen if j != i))
                 above = field.plus(above, field.times(terms[i], others))
-            found[place] = above, below
-        yield found
+            entries[place] = above, below
+        yield entries
 
 
 def _partitions(
@@ -254,14 +254,14 @@ def _partial(field: Arithmetic, factors: Sequence[Poly], top: Poly, bottom: Poly
     """
     leads = [f[-1] for f in factors]
     scale = field.short(bottom[-1] / prod(leads, start=field.one))
-    found = list[Poly]()
+    pairs = list[Poly]()
     for i, f in enumerate(factors):
         others = [*(g for j, g in enumerate(factors) if j != i), (scale,)]
         below: Poly = (field.one,)
         for g in others:
             below = _modulo(field, field.times(below, _modulo(field, g, f)), f)
-        found.append(_quotient(field, _modulo(field, top, f), below, f))
-    return found
+        pairs.append(_quotient(field, _modulo(field, top, f), below, f))
+    return pairs
 
 
 def _modulo(field: Arithmetic, polynomial: Poly, by: Poly) -> Poly:
@@ -290,9 +290,9 @@ def _quotient(field: Arithmetic, top: Poly, bottom: Poly, by: Poly) -> Poly:
         for r in rows[at + 1 :]:
             factor = field.short(r[at] / pivot[at])
             r[at:] = [field.short(a - factor * b) for a, b in zip(r[at:], pivot[at:], strict=True)]
-    found = list[Any]()
+    items = list[Any]()
     for r in reversed(rows):
-        known = r[degree - len(found) : degree]
-        total = sum((a * b for a, b in zip(known, found, strict=True)), zero)
-        found.insert(0, field.short((r[-1] - total) / r[degree - 1 - len(found)]))
-    return tuple(found)
+        entry = r[degree - len(items) : degree]
+        total = sum((a * b for a, b in zip(entry, items, strict=True)), zero)
+        items.insert(0, field.short((r[-1] - total) / r[degree - 1 - len(items)]))
+    return tuple(items)

@@ -93,9 +93,9 @@ def joint_equations(goals: Sequence[Target], others: Sequence[Model]) -> tuple[S
     return (*rows, inverse)
 
 
-def _product(one: Sparse, other: Sparse) -> Sparse:
+def _product(entries: Sparse, other: Sparse) -> Sparse:
     total = defaultdict[tuple[int, ...], int](int)
-    for e, c in one.items():
+    for e, c in entries.items():
         for f, d in other.items():
             total[tuple(map(add, e, f))] += c * d
     return {e: c for e, c in total.items() if c}

@@ -64,9 +64,9 @@ def values_of_tree(field: Arithmetic, model: Model, network: Network) -> Iterato
         raise NoFormulas("both do not give functions of one set")
     end = next(iter(leaks), enter.plus)
     for sums in _sums(field, tree, top, bottom):
-        found = dict[tuple[int, int], Any]()
-        left = _flow(field, found, sums, flows, end, 0)
-        values = {flows[ends]: x for ends, x in found.items()}
+        entries = dict[tuple[int, int], Any]()
+        left = _flow(field, entries, sums, flows, end, 0)
+        values = {flows[ends]: x for ends, x in entries.items()}
         yield values | ({leaks[end]: left} if leaks else {})
 
 
@@ -108,7 +108,7 @@ def _sums(field: Arithmetic, tree: Hanging, top: Poly, bottom: Poly) -> Iterator
 
 def _flow(
     field: Arithmetic,
-    found: dict[tuple[int, int], Any],
+    entries: dict[tuple[int, int], Any],
     sums: Sums,
     flows: dict[tuple[int, int], str],
     at: int,
@@ -118,7 +118,7 @@ def _flow(
     left = sums.out[at]
     for i, j in flows:
         if i == at and j != towards:
-            found[j, at] = _flow(field, found, sums, flows, j, at)
-            found[at, j] = field.short(sums.both[frozenset((at, j))] / found[j, at])
-            left = left - found[at, j]
+            entries[j, at] = _flow(field, entries, sums, flows, j, at)
+            entries[at, j] = field.short(sums.both[frozenset((at, j))] / entries[j, at])
+            left = left - entries[at, j]
     return field.short(left)

@@ -88,27 +88,27 @@ def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[
     that are not known are chosen: 1.
     """
     (own_network, ratios), (other_network, chosen) = _placed(model), _placed(other)
-    known = {e.value: field[e.value] for e in own_network.elements}
+    entry = {e.value: field[e.value] for e in own_network.elements}
     for name, unit in _units(field, model.network, [field[n] for n in ratios]).items():
-        known[name] = field[name] * unit
+        entry[name] = field[name] * unit
     back = _units(field, other.network, [field.one] * len(chosen))
     (plain, made), (wanted, undone) = unbridged(own_network), unbridged(other_network)
     for exchange in made:
-        known = exchange.forth(field, known)
-    for values in _of_edges(field, known, plain, wanted):
+        entry = exchange.forth(field, entry)
+    for values in _of_edges(field, entry, plain, wanted):
         values = _before(field, undone, values)
-        found = {name: x / back.get(name, field.one) for name, x in values.items()}
-        yield found | dict.fromkeys(chosen, field.one)
+        the_entry = {name: x / back.get(name, field.one) for name, x in values.items()}
+        yield the_entry | dict.fromkeys(chosen, field.one)
 
 
 def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) -> Values:
     """Those that gears make, with these values for ratios that are not known."""
-    found = dict[str, Any]()
+    entry = dict[str, Any]()
     for name, (number, powers) in (units(network) if network else {}).items():
-        found[name] = field.number(number.numerator) / field.number(number.denominator)
+        entry[name] = field.number(number.numerator) / field.number(number.denominator)
         for ratio, k in zip(ratios, powers, strict=True):
-            found[name] *= reduce(operator.mul, [ratio] * abs(k), field.one) ** (1 if k > 0 else -1)
-    return found
+            entry[name] *= reduce(operator.mul, [ratio] * abs(k), field.one) ** (1 if k > 0 else -1)
+    return entry
 
 
 def _placed(model: AnyModel) -> tuple[Network, list[str]]:
@@ -122,15 +122,15 @@ def _placed(model: AnyModel) -> tuple[Network, list[str]]:
 
 def _of_one_port(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[Values] | None:
     """Of two one-ports of two kinds, None of others."""
-    known = set_of(model)
-    if known is None or known != set_of(other) or not isinstance(model, Model):
+    full_set = set_of(model)
+    if full_set is None or full_set != set_of(other) or not isinstance(model, Model):
         return None
     plain, exchanges = unbridged(_placed(other)[0])
     edges = _edges(plain)
     if len(edges) != 1:
         return None
     (tree,) = edges.values()
-    low, high = sorted(known[1].kinds)
+    low, high = sorted(full_set[1].kinds)
     every = synthesized(field, tree, *function_of(field, model, low, high), (low, high))
     return (_before(field, exchanges, values) for values in every)
 
@@ -168,16 +168,16 @@ def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tup
 
 
 def _of_edges(
-    field: Arithmetic, known: Values, network: Network, other: Network
+    field: Arithmetic, entry: Values, network: Network, other: Network
 ) -> Iterator[Values]:
     """Of networks that are one graph with parts at the edges, matched in the first way that gives
-    formulas; `known`: the given values.
+    formulas; `entry`: the given values.
     """
     trees, two = _edges(network), _edges(other)
     none = NoFormulas("they are not made of parts that replace each other")
     for places in islice(_matches(network, trees, other, two), MOST_MATCHES):
         try:
-            parts = [_of_part(field, known, trees[ends], two[places[ends]]) for ends in trees]
+            parts = [_of_part(field, entry, trees[ends], two[places[ends]]) for ends in trees]
         except NoFormulas as why:
             none = why
             continue
@@ -221,15 +221,17 @@ def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
     return graph
 
 
-def _of_part(field: Arithmetic, known: Values, tree: Tree, other: Tree) -> list[Values]:
+def _of_part(field: Arithmetic, entry: Values, tree: Tree, other: Tree) -> list[Values]:
     """The values of one part in those of another one of the same set."""
     if len(tree.part.kinds) <= TWO:
         low, *more = sorted(tree.part.kinds)
         kinds = low, more[0] if more else None
-        return list(synthesized(field, other, *_composed(field, known, tree, low), kinds))
+        return list(synthesized(field, other, *_composed(field, entry, tree, low), kinds))
     pairs = _paired(tree, other)
-    found = [_of_part(field, known, a, b) for a, b in pairs]
-    return [{n: x for values in chosen for n, x in values.items()} for chosen in product(*found)]
+    the_pairs = [_of_part(field, entry, a, b) for a, b in pairs]
+    return [
+        {n: x for values in chosen for n, x in values.items()} for chosen in product(*the_pairs)
+    ]
 
 
 def _paired(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
@@ -246,14 +248,14 @@ def _paired(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
     return pairs
 
 
-def _composed(field: Arithmetic, known: Values, tree: Tree, low: Power) -> tuple[Poly, Poly]:
+def _composed(field: Arithmetic, entry: Values, tree: Tree, low: Power) -> tuple[Poly, Poly]:
     """F(x) of branches of two kinds, of which one has the power `low`."""
-    zero, one = field.zero, field.one
+    zero, item = field.zero, field.one
     if tree.element is not None:
-        value = known[tree.element.value]
-        value = value if tree.element.kind.divides else one / value
-        return (value,), ((one,) if tree.element.power == low else (zero, one))
-    functions = [_composed(field, known, t, low) for t in tree.inside]
+        value = entry[tree.element.value]
+        value = value if tree.element.kind.divides else item / value
+        return (value,), ((item,) if tree.element.power == low else (zero, item))
+    functions = [_composed(field, entry, t, low) for t in tree.inside]
     if tree.form == "S":
         return reduce(partial(_sum, field), functions)
     return _inverse(*reduce(partial(_sum, field), (_inverse(*f) for f in functions)))
@@ -263,9 +265,11 @@ def _inverse(top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
     return bottom, top
 
 
-def _sum(field: Arithmetic, one: tuple[Poly, Poly], other: tuple[Poly, Poly]) -> tuple[Poly, Poly]:
+def _sum(
+    field: Arithmetic, parts: tuple[Poly, Poly], other: tuple[Poly, Poly]
+) -> tuple[Poly, Poly]:
     """Of fractions without common factors but x."""
-    (a, b), (c, d), zero = one, other, field.zero
+    (a, b), (c, d), zero = parts, other, field.zero
     if field.is_zero(b[0]) and field.is_zero(d[0]):
         top, bottom = _sum(field, (a, b[1:]), (c, d[1:]))
         return top, (zero, *bottom)

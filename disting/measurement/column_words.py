@@ -102,10 +102,10 @@ def meaning(header: str) -> Column:
     if stated is None:
         inside = INSIDE.findall(header.replace("_per_", "/"))
         hertz = [text for text in inside if text.lower().endswith("hz")]
-        known = [text for text in inside if _known(role, text) is not None]
+        rows = [text for text in inside if _known(role, text) is not None]
         if role in (Role.REAL, Role.IMAGINARY, Role.GAIN):
-            known = [text for text in known if known_unit(text, LEVELS)]  # rad is none of a gain
-        stated = (known or (hertz if role is Role.FREQUENCY else []) or [None])[-1]
+            rows = [text for text in rows if known_unit(text, LEVELS)]  # rad is none of a gain
+        stated = (rows or (hertz if role is Role.FREQUENCY else []) or [None])[-1]
     if role is Role.FREQUENCY and stated is None and CIRCULAR & set(_words(name)):
         return Column(role, "rad/s")
     if TWENTY.search(header) and role in (Role.GAIN, Role.OTHER):
@@ -155,9 +155,9 @@ def _opening(text: str) -> int:
 
 def _is_unit(text: str) -> bool:
     """Whether a text is a unit that needs no brackets to be known as one."""
-    known = omega_per(text) is not None or known_unit(text, (*PHASES, *LEVELS[1:])) is not None
+    is_known = omega_per(text) is not None or known_unit(text, (*PHASES, *LEVELS[1:])) is not None
     the_gain = gain(text) if "/" in text or "-1" in text or "⁻" in text else None
-    return (known or the_gain is not None) and text != "*"
+    return (is_known or the_gain is not None) and text != "*"
 
 
 def _words(name: str) -> list[str]:
@@ -167,7 +167,7 @@ def _words(name: str) -> list[str]:
 def _role(name: str) -> Role | None:
     words = set(_words(name))
     whole = {word.removesuffix(unit) for word in words for unit in ("", "db", "deg", "rad", "hz")}
-    the_role = next((role for role, known in WORDS.items() if whole & set(known)), None)
+    the_role = next((role for role, names in WORDS.items() if whole & set(names)), None)
     if the_role in (None, Role.FREQUENCY) and MODULUS.search(name):
         return Role.GAIN
     return the_role
@@ -204,8 +204,8 @@ def _with_unit(role: Role, stated: str, name: str) -> Column:
             return Column(Role.OTHER)  # F [N], w [m]
         if known_unit(stated, FREQUENCIES) == "rad/s" and "rad" not in stated.lower():
             return Column(role, "rad/s" if CIRCULAR & set(_words(name)) else "Hz")  # in 1/s
-    found = _known(role, stated)
-    if found is None:
+    text = _known(role, stated)
+    if text is None:
         return replace(Column(role), unknown=stated)
-    unit = gain(found) if role in (Role.GAIN, Role.REAL, Role.IMAGINARY) else None
-    return Column(Role.SIGNAL if unit and unit.signal else role, found)
+    unit = gain(text) if role in (Role.GAIN, Role.REAL, Role.IMAGINARY) else None
+    return Column(Role.SIGNAL if unit and unit.signal else role, text)

@@ -76,10 +76,10 @@ def columns_of(table: Table, asked: Sequence[str] | None, notes: list[str]) -> l
 
 def frequency_column(table: Table, columns: Sequence[Column]) -> int:
     """The column of frequencies, from 0; raises InputError where there is none."""
-    found = [i for i, column in enumerate(columns) if column.role is Role.FREQUENCY]
-    if not found:
+    numbers = [i for i, column in enumerate(columns) if column.role is Role.FREQUENCY]
+    if not numbers:
         raise misread(table, columns, f"{table.origin}: no column is a frequency")
-    return found[0]
+    return numbers[0]
 
 
 def groups(table: Table, columns: Sequence[Column]) -> list[Group]:

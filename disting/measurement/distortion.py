@@ -104,5 +104,7 @@ def _said(the_distortion: Distortion, size: Real) -> str:
     }
     if max(medians.values(), default=0.0) < ROUNDING:
         return ""
-    told = ", ".join(f"{name} {100 * share:.2g} %" for name, share in medians.items())
-    return f"{len(size)} lines without excitation show, in parts of the response (medians): {told}"
+    phrase = ", ".join(f"{name} {100 * share:.2g} %" for name, share in medians.items())
+    return (
+        f"{len(size)} lines without excitation show, in parts of the response (medians): {phrase}"
+    )

@@ -46,22 +46,22 @@ def _scope(lines: list[str], origin: str) -> Table | None:
         return None
     first = max((i for i in range(at) if head[i][0] == NAME), default=at)
     end = next((i for i in range(at, len(head)) if not head[i][0]), len(head))
-    told = {row[0]: row for row in head[first:end]}
-    columns = _columns(told[RATE], origin)
-    headers = ("time [ms]", *(_header(told, j) for j in columns[1:]))
+    rows = {row[0]: row for row in head[first:end]}
+    columns = _columns(rows[RATE], origin)
+    headers = ("time [ms]", *(_header(rows, j) for j in columns[1:]))
     cells, numbers = array("d"), list[int]()
     for n, row in enumerate((line.split(mark) for line in lines[end:]), end + 1):
         if len(row) > columns[0] and row[columns[0]].strip() not in ("", "EOF"):
             cells.extend(_numbers(row, columns, f"{origin}, line {n}", mark))
             numbers.append(n)
     values = np.frombuffer(cells, dtype=np.float64).reshape(-1, len(columns))
-    return Table(headers, values, tuple(numbers), (), origin, left_out=_left_out(told, columns[1:]))
+    return Table(headers, values, tuple(numbers), (), origin, left_out=_left_out(rows, columns[1:]))
 
 
-def _left_out(told: dict[str, list[str]], kept: list[int]) -> str:
+def _left_out(rows: dict[str, list[str]], kept: list[int]) -> str:
     """The channels of other sample times."""
-    rates = told[RATE]
-    others = [f"{_header(told, j)} (each {r} ms)" for j, r in _sampled(rates) if j not in kept]
+    rates = rows[RATE]
+    others = [f"{_header(rows, j)} (each {r} ms)" for j, r in _sampled(rates) if j not in kept]
     return f"left out: {listed(others)}, not each {rates[kept[0]]} ms" if others else ""
 
 
@@ -83,10 +83,10 @@ def _columns(rates: list[str], origin: str) -> list[int]:
     return [max(j for j in range(kept[0]) if rates[j] == RATE), *kept]
 
 
-def _header(told: dict[str, list[str]], j: int) -> str:
+def _header(rows: dict[str, list[str]], j: int) -> str:
     """Name of a channel with its unit."""
-    unit = _cell(told.get(UNIT, []), j)
-    name = told[NAME][j].strip()
+    unit = _cell(rows.get(UNIT, []), j)
+    name = rows[NAME][j].strip()
     return name if unit in ("", NO_UNIT) else f"{name} [{QUANTITY.sub('', unit)}]"
 
 
@@ -96,13 +96,13 @@ def _labview(lines: list[str], origin: str) -> Table:
         raise InputError(f"{origin}: an LVM file of {max(len(ends) - 1, 0)} records; export one")
     said = {key: rest for key, _, rest in (line.partition("\t") for line in lines[: ends[0]])}
     mark = "," if said.get("Separator", "").strip() == "Comma" else "\t"
-    told = {row[0]: row for row in (line.split(mark) for line in lines[ends[0] + 1 : ends[1]])}
+    rows = {row[0]: row for row in (line.split(mark) for line in lines[ends[0] + 1 : ends[1]])}
     names = lines[ends[1] + 1].split(mark)
     columns = [j for j, name in enumerate(names) if name.strip() not in ("", X, "Comment")]
-    steps = list(_numbers(told.get(STEP, []), columns, f"{origin}, {STEP}", mark))
+    steps = list(_numbers(rows.get(STEP, []), columns, f"{origin}, {STEP}", mark))
     if not steps or min(steps) <= 0 or max(steps) > min(steps):
         raise InputError(f"{origin}: the channels have no common {STEP}")
-    units = told.get("Y_Unit_Label", [])
+    units = rows.get("Y_Unit_Label", [])
     headers = [f"{names[j].strip()} [{u}]" if (u := _cell(units, j)) else names[j] for j in columns]
     first, cells, numbers = ends[1] + 2, array("d"), list[int]()
     for n, row in enumerate((line.split(mark) for line in lines[first:]), first + 1):

@@ -171,20 +171,20 @@ def _records(file: Source, file_format: Format) -> Records:
     return file_format.records
 
 
-def _signals(file: Source, records: Records, given: Options) -> tuple[Options, tuple[str, ...]]:
+def _signals(file: Source, records: Records, entry: Options) -> tuple[Options, tuple[str, ...]]:
     """Input and output, guessed by their names where neither is given, and the note that says
     so.
     """
-    if {"input", "output"} <= given.keys():
-        return given, ()
+    if {"input", "output"} <= entry.keys():
+        return entry, ()
     names = list(records.names(file))
-    if given.keys() & {"input", "output"}:
+    if entry.keys() & {"input", "output"}:
         raise InputError(
             f"{file.name}: a time series has an input and an output, give both; there are"
             f" {listed(sorted(names))}"
         )
     input, output, note = guessed((name for name in names if name), file.name)
-    return given | {"input": input, "output": output}, (note,)
+    return entry | {"input": input, "output": output}, (note,)
 
 
 def _through_time(file: Source, records: Records, options: Options) -> FrequencyResponse:
@@ -236,18 +236,18 @@ def guessed(names: Iterable[str], origin: str) -> tuple[str, str, str]:
     >>> guessed(["t", "iq [A]", "iq_ref", "theta"], "a.csv")[:2]
     ('iq [A]', 'theta')
     """
-    known = list(names)
+    own_names = list(names)
     words = {
-        name: {word.lower() for word in WORD.findall(name.partition("[")[0])} for name in known
+        name: {word.lower() for word in WORD.findall(name.partition("[")[0])} for name in own_names
     }
-    measured = [name for name in known if not words[name] & (ASKED_FOR | CLOCKS)]
+    measured = [name for name in own_names if not words[name] & (ASKED_FOR | CLOCKS)]
     inputs, outputs = (
         [name for name in measured if words[name] & kind] for kind in (INPUTS, OUTPUTS)
     )
     if len(inputs) != 1 or len(outputs) != 1 or inputs == outputs:
         raise InputError(
             f"{origin}: which signal is the input, which the output? give --read"
-            f" input=NAME --read output=NAME; there are {listed(sorted(known))}"
+            f" input=NAME --read output=NAME; there are {listed(sorted(own_names))}"
         )
     return (
         inputs[0],

@@ -155,14 +155,14 @@ def _is_text_record(file: Source, options: Options) -> bool:
 
 def checked(reader: Callable[..., T], options: Options, file: Source) -> Callable[..., T]:
     """The reader, if it knows all these options; else InputError, naming those that it knows."""
-    known = {
+    names = {
         p.name for p in inspect.signature(reader).parameters.values() if p.kind is p.KEYWORD_ONLY
     }
-    unknown = sorted(set(options) - known)
+    unknown = sorted(set(options) - names)
     if unknown:
         raise InputError(
             f"{file.name}: unknown option {listed(unknown)}; known for this format:"
-            f" {', '.join(sorted(known))}"
+            f" {', '.join(sorted(names))}"
         )
     return reader
 

@@ -82,8 +82,8 @@ def objects(content: bytes, take: Take) -> "Objects | None":
     data = mat5.array(inner, order).astype(np.uint8).tobytes()
     order = "<" if data[2:4] == b"IM" else ">"
     for matrix in mat5.matrices(data, order, 8, take):
-        found = tree(matrix, order)
-        cells = found.get("MCOS") if isinstance(found, dict) else None
+        value = tree(matrix, order)
+        cells = value.get("MCOS") if isinstance(value, dict) else None
         if isinstance(cells, list) and cells and isinstance(cells[0], np.ndarray):
             return Objects(cells, cells[0].astype(np.uint8).tobytes(), order)
     return None
@@ -106,8 +106,8 @@ def _numbers(name: str, value: Any) -> dict[str, NDArray[Any]]:
         if isinstance(value, dict)
         else []
     )
-    here = {inner: part for inner, part in parts if isinstance(part, np.ndarray) and part.size}
-    return here | {
+    entries = {inner: part for inner, part in parts if isinstance(part, np.ndarray) and part.size}
+    return entries | {
         key: array for inner, part in parts for key, array in _numbers(inner, part).items()
     }
 
@@ -130,10 +130,10 @@ class Objects:
             self.order + "6I", self.tables, begins[2] + 24 * of.number
         )[3:5]
         table, entry = (1, saved) if saved else (3, plain)
-        found = self._entry(begins[table], begins[table + 1], entry)
+        values = self._entry(begins[table], begins[table + 1], entry)
         return {
             names[name - 1]: self.cells[FIRST_CELL + value]
-            for name, kind, value in found
+            for name, kind, value in values
             if kind == IN_A_CELL
         }
 

@@ -160,21 +160,21 @@ def _whole(variable: mat5.Variable, file: Source, take: Take) -> NDArray[Any]:
 def _listed(file: Source) -> set[str]:
     import scipy.io
 
-    found = _foreign(
+    value = _foreign(
         partial(scipy.io.whosmat, io.BytesIO(file.content)),
         f"{file.name} is no MATLAB file that can be read",
     )
-    return {str(entry[0]) for entry in found}
+    return {str(entry[0]) for entry in value}
 
 
 def _loaded(file: Source, name: str) -> NDArray[Any]:
     import scipy.io
 
     load = partial(scipy.io.loadmat, io.BytesIO(file.content), variable_names=[name])
-    found = _foreign(load, f"{file.name}: variable {name} cannot be read")
-    if name not in found:
+    value = _foreign(load, f"{file.name}: variable {name} cannot be read")
+    if name not in value:
         raise InputError(f"{file.name}: variable {name} cannot be read")
-    return np.asarray(found[name])
+    return np.asarray(value[name])
 
 
 def _hdf5(file: Source, take: Take) -> Arrays:

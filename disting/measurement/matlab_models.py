@@ -48,11 +48,11 @@ class Stored:
         raises InputError for others.
         """
         shape = self.response.shape[:2]
-        given = iter(index)
+        items = iter(index)
         chosen = (
             tuple(index)
             if len(index) == 2
-            else tuple(next(given, -1) if n > 1 else 0 for n in shape)
+            else tuple(next(items, -1) if n > 1 else 0 for n in shape)
         )
         if any(not 0 <= i < n for i, n in zip(chosen, shape, strict=True)) or len(index) > 2:
             raise InputError(
@@ -207,10 +207,10 @@ def _dead_time(delay: Any, step: float, shape: tuple[int, ...]) -> Real:
     """
     total = np.zeros(shape)
     for name, axes in (("Input", (1, shape[1])), ("Output", (shape[0], 1)), ("IO", shape)):
-        found = delay.get(name) if isinstance(delay, dict) else None
-        if isinstance(found, np.ndarray) and found.size:
+        value = delay.get(name) if isinstance(delay, dict) else None
+        if isinstance(value, np.ndarray) and value.size:
             total = total + (
-                np.broadcast_to(found.real, axes) if found.size == 1 else found.real.reshape(axes)
+                np.broadcast_to(value.real, axes) if value.size == 1 else value.real.reshape(axes)
             )
     return np.asarray(total * (step if step > 0 else 1.0), dtype=np.float64)
 
@@ -233,6 +233,6 @@ def _signals(held: Mapping[str, Any], side: str, count: int) -> tuple[Signal, ..
 
 def _texts(value: Any, count: int) -> list[str]:
     """One text a channel; empty ones where the object has none."""
-    found = [value] if isinstance(value, str) else value if isinstance(value, list) else []
-    texts = [text if isinstance(text, str) else "" for text in found]
+    rows = [value] if isinstance(value, str) else value if isinstance(value, list) else []
+    texts = [text if isinstance(text, str) else "" for text in rows]
     return texts if len(texts) == count else [""] * count

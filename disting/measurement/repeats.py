@@ -67,15 +67,15 @@ def left_out(
     """
     if outliers not in CHOICES:
         raise InputError(f"--outliers is {' or '.join(CHOICES)}, not {shown(outliers)}")
-    found = outlying(values)
-    kept, said = np.ones_like(found), [_where(row, omega) for row in found]
+    the_values = outlying(values)
+    kept, said = np.ones_like(the_values), [_where(row, omega) for row in the_values]
     named = [f"{name} at {at}" for name, at in zip(names, said, strict=True) if at]
     if not named:
         return kept, (), ()
     if outliers == "drop":
-        enough = len(values) - found.sum(axis=0) >= LEAST - 1
+        enough = len(values) - the_values.sum(axis=0) >= LEAST - 1
         note = f"left out, as no other measurement is like it: {listed(named)}"
-        return ~(found & enough), (note,), ()
+        return ~(the_values & enough), (note,), ()
     return (
         kept,
         (),

@@ -64,19 +64,19 @@ def in_omega(
 
 def factor(unit: str) -> float:
     """What a frequency of 1 in a unit is in rad/s; raises InputError for another unit."""
-    found = omega_per(unit)
-    if found is None:
+    value = omega_per(unit)
+    if value is None:
         raise InputError(
             f"{shown(unit)} is no unit of frequency that is known; known are {listed(FREQUENCIES)}:"
             " give --unit frequency=Hz"
         )
-    return found
+    return value
 
 
 def taken_unit(omega: Real, values: Real, said: str = "") -> str:
     """The unit in which frequencies were read: the one that was `said`, where it is that."""
-    one = float(omega[0] / values[0]) if values[0] else 0.0
-    alike = [name for name, own in FREQUENCIES.items() if np.isclose(own, one, rtol=1e-9)]
+    value = float(omega[0] / values[0]) if values[0] else 0.0
+    alike = [name for name, own in FREQUENCIES.items() if np.isclose(own, value, rtol=1e-9)]
     return said if known_unit(said, alike) or not alike else alike[0]
 
 
@@ -111,19 +111,19 @@ def in_si(
     >>> in_si(degrees, output="deg", input="Nm").G.real[:2].round(4).tolist()
     [3.1416, 6.2832]
     """
-    other_unit, here = motion(output or response.output.unit), drive(input or response.input.unit)
-    for given, unit, example in ((output, other_unit, "rad, mm/s, rpm"), (input, here, "A, Nm, N")):
-        if given and unit is None:
+    other_unit, parts = motion(output or response.output.unit), drive(input or response.input.unit)
+    for text, unit, example in ((output, other_unit, "rad, mm/s, rpm"), (input, parts, "A, Nm, N")):
+        if text and unit is None:
             raise InputError(
-                f"{shown(given)} is no unit that is known here; known are such as {example}"
+                f"{shown(text)} is no unit that is known here; known are such as {example}"
             )
     if other_unit is not None:
         response = _moved(
             response, other_unit, said=output or response.output.unit, asked=output is not None
         )
-    if here is None:
+    if parts is None:
         return response
-    return _scaled(replace(response, input=response.input._replace(unit=here[0])), 1 / here[1])
+    return _scaled(replace(response, input=response.input._replace(unit=parts[0])), 1 / parts[1])
 
 
 def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResponse:

@@ -55,19 +55,19 @@ class Table:
             and 1 <= column <= len(self.headers)
         ):
             return column - 1
-        found = [
+        places = [
             i
             for i, h in enumerate(self.headers)
             if isinstance(column, str) and h and h == column.strip()
         ]
-        if not found and isinstance(column, str) and column.isdecimal():
+        if not places and isinstance(column, str) and column.isdecimal():
             return self.at(int(column))
-        if len(found) != 1:
+        if len(places) != 1:
             raise InputError(
-                f"{self.origin}: {len(found) or 'no'} columns are called {shown(column)}; headers:"
+                f"{self.origin}: {len(places) or 'no'} columns are called {shown(column)}; headers:"
                 f" {self.listed()}"
             )
-        return found[0]
+        return places[0]
 
     def named(self, at: int) -> str:
         """Number from 1 and header of a column, for messages."""
@@ -75,8 +75,8 @@ class Table:
 
     def listed(self) -> str:
         """All headers, for messages."""
-        found = listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
-        return f"{found}; {self.left_out}" if self.left_out else found
+        text = listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
+        return f"{text}; {self.left_out}" if self.left_out else text
 
 
 BRACKETED = re.compile(r"^(.*?)\s*[\[(]\s*([^\])]+?)\s*[\])]\s*$")

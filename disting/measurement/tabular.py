@@ -129,9 +129,9 @@ class _Reading:
         at = columns[Role.PHASE]
         unit = self._phase_unit(at)
         size, level = self._size(columns[Role.GAIN], guess=self.guess and unit == "deg")
-        told = "" if level == "1" else f" in {level}"
+        phrase = "" if level == "1" else f" in {level}"
         self.words = (
-            f"gain{told} (column {columns[Role.GAIN] + 1}), phase in"
+            f"gain{phrase} (column {columns[Role.GAIN] + 1}), phase in"
             f" {'degrees' if unit == 'deg' else unit} (column {at + 1})"
         )
         return np.asarray(size * np.exp(1j * PHASES[unit] * self._signed(at)))
@@ -161,11 +161,11 @@ class _Reading:
             self.notes.append(f"{self.table.named(at)}: ({unknown}) is taken as part of its name")
         elif unknown:
             phase = self.roles[at].role is Role.PHASE
-            known = listed(PHASES) if phase else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
+            name = listed(PHASES) if phase else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
             remedy = "phase=deg" if phase else "magnitude=1, which takes the numbers as they are"
             raise InputError(
                 f"{self.table.origin}, {self.table.named(at)}: the unit {shown(unknown)} is not"
-                f" known; known are {known}; else give --unit {remedy}"
+                f" known; known are {name}; else give --unit {remedy}"
             )
 
     def _scale(self, at: int) -> float:
@@ -195,8 +195,8 @@ class _Reading:
         are dB.
         """
         size, level = self.table.column(at), self._level(at)
-        told = self.magnitude_unit is not None or self.roles[at].unit != ""
-        if level == "1" and not told:
+        holds = self.magnitude_unit is not None or self.roles[at].unit != ""
+        if level == "1" and not holds:
             level = self._likely_level(size, at, guess)
         if np.any(size < 0) and level in LEVELS[:2]:
             raise InputError(

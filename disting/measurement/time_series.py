@@ -38,15 +38,15 @@ def follows_output(u: Real, y: Real) -> str | None:
     """Sentence if the input is correlated with the past output, else None."""
     if len(u) < TOO_SHORT:
         return None
-    one, other = _whitened(u), _whitened(y)
-    size = np.sqrt((one @ one) * (other @ other))
+    values, other = _whitened(u), _whitened(y)
+    size = np.sqrt((values @ values) * (other @ other))
     if not 0 < size < np.inf:
         return None
-    past, future = _largest(one, other) / size, _largest(other, one) / size
-    if past * np.sqrt(len(one)) < DEVIATIONS or past < SHARE * future:
+    past, future = _largest(values, other) / size, _largest(other, values) / size
+    if past * np.sqrt(len(values)) < DEVIATIONS or past < SHARE * future:
         return None
     return (
-        f"{FOLLOWS} (correlation {past:.2g}, {past * np.sqrt(len(one)):.0f}"
+        f"{FOLLOWS} (correlation {past:.2g}, {past * np.sqrt(len(values)):.0f}"
         " times that of chance): a closed loop? then the response is biased; give the controller's"
         " reference signal, --read reference=NAME"
     )
@@ -165,18 +165,18 @@ class TimeSeries:
         period is found, periods are missing, too few lines are left, or `segment` is given with
         `period` or `outliers`.
         """
-        given = (self.u, self.y, self.sampling_rate)
+        parts = (self.u, self.y, self.sampling_rate)
         _check_method(segment, period, lines, least_coherence, outliers)
         # what is not finite then is refused below
         with np.errstate(over="ignore", invalid="ignore"):
             if segment is None:
                 excitation = self.u if self.reference is None else self.reference
                 the_response = periodic.estimate(
-                    *given, period, transient, lines, band, excitation, outliers
+                    *parts, period, transient, lines, band, excitation, outliers
                 )
             else:
                 the_response = welch.estimate(
-                    *given, segment, band, self.reference, least_coherence, self.sensor.order
+                    *parts, segment, band, self.reference, least_coherence, self.sensor.order
                 )
         in_doubt = segment is not None and self.reference is None
         doubt = follows_output(self.u, self.y) if in_doubt else None

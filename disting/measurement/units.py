@@ -231,14 +231,14 @@ def ratio(texts: Iterable[str]) -> tuple[str, str] | None:
     >>> ratio(["# acceleration/current, rad/s^2 per A"]), ratio(["f [Hz]", "Re"])
     (('rad/s^2', 'A'), None)
     """
-    found = {(match[1], match[2]) for text in texts for match in RATIO.finditer(text)}
-    return found.pop() if len(found) == 1 else None
+    members = {(match[1], match[2]) for text in texts for match in RATIO.finditer(text)}
+    return members.pop() if len(members) == 1 else None
 
 
 def _parted(text: str) -> tuple[Motion | None, str, int]:
     """A unit of a motion, its name in `MOTIONS` and how often that was differentiated."""
     plain = re.sub(r"\s", "", text).replace("²", "^2").replace("**2", "^2").replace("/s2", "/s^2")
-    for suffix, steps in sorted(PER_TIME.items(), key=lambda one: -len(one[0])):
+    for suffix, steps in sorted(PER_TIME.items(), key=lambda parts: -len(parts[0])):
         unit = MOTIONS.get(plain.removesuffix(suffix)) if plain.endswith(suffix) else None
         if unit is not None and 0 <= unit.order + steps < len(Sensor):
             return unit._replace(order=unit.order + steps), plain.removesuffix(suffix), steps

@@ -53,8 +53,8 @@ class Entry:
         """u and v with the ratio that it has at a point."""
         if self.ratio is None:
             return self.pulls, self.feels
-        (i, one), (j, sign) = self.feels
-        return (((i, one), (j, sign * point[self.ratio])),) * 2
+        (i, number), (j, sign) = self.feels
+        return (((i, number), (j, sign * point[self.ratio])),) * 2
 
 
 @dataclass(frozen=True, slots=True, eq=False)  # one of a kind: see `_frame`
@@ -90,13 +90,13 @@ class Frame:
 
     def rows(self, terms: Sequence[int], point: Sequence[int]) -> list[list[int]]:
         """P with these numbers for the terms of its entries, and ratios as at a point."""
-        found = [[0] * self.size for _ in range(self.size)]
+        rows = [[0] * self.size for _ in range(self.size)]
         for e, term in zip(self.entries, terms, strict=True):
             u, v = e.sides(point)
             for i, a in u:
                 for j, b in v:
-                    found[i][j] += a * b * term
-        return found
+                    rows[i][j] += a * b * term
+        return rows
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,8 +180,8 @@ def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
     )
     width = len(rows[0])
     own_nmod_mat = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
-    found = [int(x) for x in powers.solve(own_nmod_mat).entries()]
-    num, den, *slopes = (nmod_poly(found[i::width], modulus) for i in range(width))
+    numbers = [int(x) for x in powers.solve(own_nmod_mat).entries()]
+    num, den, *slopes = (nmod_poly(numbers[i::width], modulus) for i in range(width))
     return _turned(of, point, num, den, slopes)
 
 
@@ -240,18 +240,18 @@ def _at_number(of: Assembly, at: Solved, modulus: int) -> list[int]:
     x = [of.scale * sum(a * row[i] for i, a in of.force) for row in inverse]
     y = [sum(a * inverse[i][j] for i, a in of.sensor) for j in range(len(inverse))]
     num = den * sum(a * x[i] for i, a in of.sensor) % modulus
-    found = [num, den]
+    numbers = [num, den]
     for w, pairs, square in at.ways:
-        here = 0
+        own_place = 0
         for u, v in pairs:
-            there = moved = 0
+            other_place = moved = 0
             for i, a in u:
-                there += a * y[i]
+                other_place += a * y[i]
             for j, b in v:
                 moved += b * x[j]
-            here += there * moved
-        found += [w * (num * square - den * here) % modulus, w * den * square % modulus]
-    return found
+            own_place += other_place * moved
+        numbers += [w * (num * square - den * own_place) % modulus, w * den * square % modulus]
+    return numbers
 
 
 def _turned(

@@ -63,8 +63,8 @@ def taken_away(part: Network, whole: Network) -> tuple[Names, Names] | None:
     >>> taken_away(network_of("p(R1,C1)-R0"), network_of("R0-p(R1,C1)-p(R2,C2)"))
     (('R2',), ('C2',))
     """
-    one, other = ((n.sort, n.order, n.sign_of_one_port) for n in (part, whole))
-    if one != other or not part.sign_of_one_port:
+    this_parts, other = ((n.sort, n.order, n.sign_of_one_port) for n in (part, whole))
+    if this_parts != other or not part.sign_of_one_port:
         return None
     form, size = branches(part), len(part.grounded.elements)
     return None if form is None else _rests(whole.grounded, size).get(form)
@@ -74,10 +74,10 @@ def taken_away(part: Network, whole: Network) -> tuple[Names, Names] | None:
 def _rests(whole: Network, size: int) -> dict[Branch, tuple[Names, Names]]:
     """How to come to each one-port of so many elements."""
     # the last ones are taken away first
-    elements, found = whole.elements[::-1], dict[Branch, tuple[Names, Names]]()
+    elements, entries = whole.elements[::-1], dict[Branch, tuple[Names, Names]]()
     less = len(elements) - size
     if less < 1 or comb(len(elements), size) << less > TRIED:
-        return found
+        return entries
     for gone in combinations([e for e in elements if e.value], less):
         kept = [e for e in elements if e not in gone]
         for count in range(less + 1):
@@ -85,10 +85,10 @@ def _rests(whole: Network, size: int) -> dict[Branch, tuple[Names, Names]]:
                 form = _branches(kept, whole, rigid)
                 missing = (e.value for e in gone if e not in rigid)
                 if form is not None:
-                    found.setdefault(
+                    entries.setdefault(
                         form, (tuple(sorted(missing)), tuple(sorted(e.value for e in rigid)))
                     )
-    return found
+    return entries
 
 
 def _branches(

@@ -42,14 +42,14 @@ def within(inner: Network, outer: Network) -> bool | None:
     """
     if (inner.sort, inner.order, inner.shape) != (outer.sort, outer.order, outer.shape):
         return None
-    found = [exact_form(n) for n in (inner, outer)]
-    if None in found or inner.exponents or outer.exponents:
+    the_pairs = [exact_form(n) for n in (inner, outer)]
+    if None in the_pairs or inner.exponents or outer.exponents:
         return None
-    one, other = (
+    parts, other = (
         numbered(n, NormalForm(edges or (), ()))
-        for n, edges in zip((inner, outer), found, strict=True)
+        for n, edges in zip((inner, outer), the_pairs, strict=True)
     )
-    (ports, left, _), (others, right, _) = one, other
+    (ports, left, _), (others, right, _) = parts, other
     if ports != others or [ends for ends, _ in left] != [ends for ends, _ in right]:
         return None
     pairs = [(a, b) for (_, a), (_, b) in zip(left, right, strict=True)]

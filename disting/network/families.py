@@ -72,13 +72,13 @@ def machines(
     masses: int, joint: str, edges: Callable[[int], Iterable[Sequence[Edge]]]
 ) -> list[str]:
     """Texts of all machines with these sets of edges, up to numbering and reciprocity."""
-    found = dict[tuple[object, ...], str]()
+    entries = dict[tuple[object, ...], str]()
     for joints in edges(masses):
         for force, sensor in product(combinations(range(masses + 1), 2), repeat=2):
             form = _form(masses, joints, force, sensor)
-            if form not in found and _is_whole(masses, joints, force, sensor):
-                found[form] = _machine(joints, force, sensor, joint)
-    return list(found.values())
+            if form not in entries and _is_whole(masses, joints, force, sensor):
+                entries[form] = _machine(joints, force, sensor, joint)
+    return list(entries.values())
 
 
 def springs_anywhere(masses: int) -> Iterator[Sequence[Edge]]:
@@ -100,10 +100,10 @@ def trees(masses: int) -> Iterator[Sequence[Edge]]:
 
 
 def _connected(start: int, edges: Sequence[Edge]) -> set[int]:
-    found = {start}
-    while more := {j for e in edges if found & set(e) for j in e} - found:
-        found |= more
-    return found
+    nodes = {start}
+    while more := {j for e in edges if nodes & set(e) for j in e} - nodes:
+        nodes |= more
+    return nodes
 
 
 def _form(masses: int, joints: Sequence[Edge], force: Edge, sensor: Edge) -> tuple[object, ...]:
@@ -143,8 +143,8 @@ Tree = str | tuple[str, tuple["Tree", ...]]
 
 def circuits(most: int, kinds: str, most_reactive: int) -> list[str]:
     """Texts of the one-ports with up to so many elements, of which so many are L or C."""
-    found = [_circuit(t) for t in _all_trees(most, kinds) if _of(t, "LC") <= most_reactive]
-    return [*found, *(_bridges(kinds, most_reactive) if most >= len(BRIDGE) else ())]
+    texts = [_circuit(t) for t in _all_trees(most, kinds) if _of(t, "LC") <= most_reactive]
+    return [*texts, *(_bridges(kinds, most_reactive) if most >= len(BRIDGE) else ())]
 
 
 def cells(most: int) -> list[str]:
@@ -171,16 +171,16 @@ def _trees(count: int, top: str, kinds: str) -> tuple[Tree, ...]:
     if count == 1:
         return tuple(kinds)
     other = "P" if top == "S" else "S"
-    found = []
+    pairs = []
     for sizes in _partitions(count, count - 1):
         pools = []
         for size, times in sorted(Counter(sizes).items()):
             choose = combinations if size == 1 else combinations_with_replacement
             pools.append(list(choose(_trees(size, other, kinds), times)))
-        found += [
+        pairs += [
             (top, tuple(part for group in chosen for part in group)) for chosen in product(*pools)
         ]
-    return tuple(found)
+    return tuple(pairs)
 
 
 def _partitions(count: int, most: int) -> Iterator[tuple[int, ...]]:
@@ -219,12 +219,12 @@ TWINS = ((0, 1, 2, 3, 4), (1, 0, 2, 4, 3), (3, 4, 2, 0, 1), (4, 3, 2, 1, 0))
 
 def _bridges(kinds: str, most_reactive: int) -> Iterator[str]:
     """Yield the bridges of five elements, each once; one of one kind alone is a single element."""
-    known = set[str]()
+    names = set[str]()
     for chosen in product(kinds, repeat=len(BRIDGE)):
         form = min("".join(chosen[i] for i in twin) for twin in TWINS)
-        if form in known or _of(form, "LC") > most_reactive or len(set(form)) == 1:
+        if form in names or _of(form, "LC") > most_reactive or len(set(form)) == 1:
             continue
-        known.add(form)
+        names.add(form)
         count, lines = Counter[str](), []
         for kind, (a, b) in zip(form, BRIDGE, strict=True):
             count[kind] += 1
@@ -235,7 +235,7 @@ def _bridges(kinds: str, most_reactive: int) -> Iterator[str]:
 def compartments(count: int) -> list[str]:
     """Texts of the graphs of so many compartments with one input and one output."""
     arrows = [(i, j) for i in range(1, count + 1) for j in range(count + 1) if i != j]
-    found = dict[tuple[object, ...], str]()
+    entries = dict[tuple[object, ...], str]()
     for size in range(len(arrows) + 1):
         for flows in combinations(arrows, size):
             for enter, leave in product(range(1, count + 1), repeat=2):
@@ -247,10 +247,10 @@ def compartments(count: int) -> list[str]:
                 key = (tuple(form[0]), *form[1:])
                 back = [(j, i) for i, j in flows]
                 ahead, behind = (reached({i}, f, {0}) for i, f in ((enter, flows), (leave, back)))
-                if key not in found and len(ahead) == len(behind) == count:
-                    told = ", ".join(f"{i}>{j}" for i, j in key[0])
-                    found[key] = f"{told}; in {key[1]}; out {key[2]}"
-    return list(found.values())
+                if key not in entries and len(ahead) == len(behind) == count:
+                    phrase = ", ".join(f"{i}>{j}" for i, j in key[0])
+                    entries[key] = f"{phrase}; in {key[1]}; out {key[2]}"
+    return list(entries.values())
 
 
 def _families() -> Iterator[NetworkFamily]:

@@ -234,8 +234,8 @@ def _crossing(of: Assembly, terms: Sequence[int]) -> int | None:
     for e, term in zip(of.frame.entries, terms, strict=True):
         weights[frozenset([0, *(i + 1 for i, _ in e.feels)][-2:])] += term
     (above, below), (plus, minus) = _ends(of.force), _ends(of.sensor)
-    found = forests(weights, (above, below, plus, minus))
-    if found is None:
+    entries = forests(weights, (above, below, plus, minus))
+    if entries is None:
         return None
     ways = (((above, plus), (below, minus)), ((above, minus), (below, plus)))
-    return sum(found.get(frozenset(map(frozenset, way)), 0) for way in ways)
+    return sum(entries.get(frozenset(map(frozenset, way)), 0) for way in ways)

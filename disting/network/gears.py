@@ -60,15 +60,15 @@ def units(network: Network) -> dict[str, Height]:
         return {}
     ports = network.inputs[0], network.outputs[0]
     (a, m), (b, n) = (heights[next(iter(port.ends))] for port in ports)
-    found = dict[str, Height]()
+    entries = dict[str, Height]()
     for e in network.elements:
         number, powers = heights[next(filter(None, e.nodes))]
         unit = number**2 / (a * b)
         steps = tuple(2 * k - i - j for k, i, j in zip(powers, m, n, strict=True))
         if e.kind.divides:
             unit, steps = 1 / unit, tuple(-k for k in steps)
-        found[e.value] = unit, steps
-    return found
+        entries[e.value] = unit, steps
+    return entries
 
 
 def unknown_ratios(network: Network) -> list[str]:

@@ -69,16 +69,16 @@ def seen_by_blocks(
 
 def reached(elements: Sequence[Element], start: Iterable[int], backwards: bool) -> set[int]:
     """Compartments that flows reach from some, or from which some are reached."""
-    found = set(start)
+    nodes = set(start)
     while True:
         more = {
             ends[not backwards]
             for ends in (e.nodes for e in elements if e.letter == "a")
-            if ends[backwards] in found
+            if ends[backwards] in nodes
         }
-        if more <= found | {0}:
-            return found
-        found |= more - {0}
+        if more <= nodes | {0}:
+            return nodes
+        nodes |= more - {0}
 
 
 def seen_by_flows(

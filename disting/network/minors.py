@@ -104,17 +104,17 @@ def minors(part: Network, whole: Network) -> Iterator[dict[int, int]]:
 
 def _port_places(part: Network, whole: Network) -> Iterator[dict[int, int]]:
     """Yield the places of the nodes of ports, port by port, with their ends either way."""
-    found: list[dict[int, int]] = [{0: 0}]
+    rows: list[dict[int, int]] = [{0: 0}]
     for mine, port in zip(whole.ports, part.ports, strict=True):
         ways = [((mine.plus, port.plus), (mine.minus, port.minus))]
         ways.append(((mine.plus, port.minus), (mine.minus, port.plus)))
-        found = [
+        rows = [
             places | dict(way)
-            for places in found
+            for places in rows
             for way in ways
             if all(places.get(i, at) == at for i, at in way)
         ]
-    yield from found
+    yield from rows
 
 
 def _has_ports(part: Network, whole: Network, places: Places) -> bool:

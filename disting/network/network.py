@@ -211,9 +211,9 @@ def _unchecked(
 def _problems(network: Network) -> Iterator[str]:
     """Yield what is wrong, each with its remedy."""
     for what, kind in (("elements", Element), ("inputs", Port), ("outputs", Port)):
-        given = getattr(network, what)
-        if not isinstance(given, tuple) or not all(isinstance(x, kind) for x in given):
-            yield f"{what} of a network are a tuple of {kind.__name__}, not {shown(given)}"
+        value = getattr(network, what)
+        if not isinstance(value, tuple) or not all(isinstance(x, kind) for x in value):
+            yield f"{what} of a network are a tuple of {kind.__name__}, not {shown(value)}"
     if not isinstance(network.name, str) or not network.name.isprintable():
         yield f"the name of a network has printable characters only, not {shown(network.name)}"
     elements, ports = network.elements, network.ports
@@ -222,8 +222,8 @@ def _problems(network: Network) -> Iterator[str]:
     sorts = sorted({e.kind.sort for e in elements})
     if len(sorts) > 1:
         examples = (next(e.value for e in elements if e.kind.sort == s) for s in sorts)
-        told = " and ".join(f"{x} of {s}" for x, s in zip(examples, sorts, strict=True))
-        yield f"elements of one sort make a network, not {told}; describe them apart"
+        phrase = " and ".join(f"{x} of {s}" for x, s in zip(examples, sorts, strict=True))
+        yield f"elements of one sort make a network, not {phrase}; describe them apart"
     if len(network.nodes) > MOST_NODES or len(elements) > MOST_ELEMENTS:
         yield (
             f"a network has {MOST_NODES} nodes and {MOST_ELEMENTS} elements at most, not"
@@ -246,12 +246,12 @@ def _problems_of_names(elements: Sequence[Element]) -> Iterator[str]:
 
 
 def _problems_of_ends(network: Network, port: Port, what: str) -> Iterator[str]:
-    known = (0, *network.nodes)
-    missing = sorted({port.plus, port.minus} - {*known})
+    own_parts = (0, *network.nodes)
+    missing = sorted({port.plus, port.minus} - {*own_parts})
     if missing:
         yield (
             f"{what} is at node {missing[0]}, but no element is; nodes are"
-            f" {', '.join(map(str, known))}"
+            f" {', '.join(map(str, own_parts))}"
         )
     if port.plus == port.minus:
         yield f"{what} is between node {port.plus} and itself: it needs two different ends"

@@ -35,16 +35,16 @@ def simplest_outflows(
     if not all({*leaky} & reached({j}, flows) for j in leave):
         return {*leaky}
     ends = {*enter, *leave}
-    found = {_first_passed(m, flows, ends) for m in leaky}
-    return ends if len(enter) == len(leave) == 1 and ends <= found else found
+    nodes = {_first_passed(m, flows, ends) for m in leaky}
+    return ends if len(enter) == len(leave) == 1 and ends <= nodes else nodes
 
 
 def reached(starts: Collection[int], flows: Flows, without: Collection[int] = ()) -> set[int]:
     """Where flows lead to from some compartments, these too, with others left out."""
-    found = {*starts} - {*without}
-    while more := {j for i, j in flows if i in found} - found - {*without}:
-        found |= more
-    return found
+    nodes = {*starts} - {*without}
+    while more := {j for i, j in flows if i in nodes} - nodes - {*without}:
+        nodes |= more
+    return nodes
 
 
 def _first_passed(at: int, flows: Flows, ends: Collection[int]) -> int:

@@ -112,7 +112,7 @@ def numbered(network: Network, form: NormalForm) -> Drawn:
     """
     outside = (0,) if network.is_directed else ()  # it stays 0
     inside = {i for a, b, _ in form.edges for i in (a, b)} | {i for i, _ in form.nodes}
-    found = list[Drawn]()
+    the_pairs = list[Drawn]()
     for ends in _readings(network):
         held = [i for plus, minus in ends for i in ((plus,) if outside else (minus, plus))]
         for order in _orders(form, held, sorted(inside - {*outside, *held}), bool(outside)):
@@ -120,8 +120,8 @@ def numbered(network: Network, form: NormalForm) -> Drawn:
             pairs = [((new[a], new[b]), label) for a, b, label in form.edges]
             edges = [(p if outside else (min(p), max(p)), label) for p, label in pairs]
             ports = [(new[plus], new[minus]) for plus, minus in ends]
-            found.append((ports, sorted(edges), sorted((new[i], x) for i, x in form.nodes)))
-    return min(found)
+            the_pairs.append((ports, sorted(edges), sorted((new[i], x) for i, x in form.nodes)))
+    return min(the_pairs)
 
 
 def _orders(
@@ -157,11 +157,11 @@ def _orders(
 
 
 def _ranked(looks: Iterable[Any]) -> list[Any]:
-    found = list[Any]()
+    items = list[Any]()
     for look in sorted(looks):
-        if not found or found[-1] != look:
-            found.append(look)
-    return found
+        if not items or items[-1] != look:
+            items.append(look)
+    return items
 
 
 def _readings(network: Network) -> Iterator[tuple[tuple[int, int], ...]]:
@@ -217,7 +217,7 @@ class _Drawing:
             self.add(self.letter(halves, exponent), a, b, exponent=exponent)
             return self.elements[-1].value
         if form == "P":
-            return f"p({','.join([self.tree(one, a, b) for one in inside])})"
+            return f"p({','.join([self.tree(part, a, b) for part in inside])})"
         ends = [a, *(self.node() for _ in inside[1:]), b]
         return "-".join(
             [self.tree(x, *pair) for x, pair in zip(inside, pairwise(ends), strict=True)]
@@ -235,11 +235,11 @@ class _Drawing:
         if leaky:
             self.add("a", at, 0)
         for _ in range(count):
-            there = self.node()
-            self.add("v", there)
-            self.add("a", at, there)
-            self.add("a", there, at)
-            at = there
+            place = self.node()
+            self.add("v", place)
+            self.add("a", at, place)
+            self.add("a", place, at)
+            at = place
 
 
 def _tree(part: Part) -> Tree:
@@ -262,10 +262,10 @@ def _ladder(part: Part) -> Tree:
     terms = dict(part.terms).get((low, high), 0)
     if high == RESISTOR:
         low, high = high, low
-    found: Tree | None = high if high in part.single else None
+    the_part: Tree | None = high if high in part.single else None
     for _ in range(terms):
-        inner: Tree = ("S", (low, found)) if found else low
-        found = ("P", (high, inner))
+        inner: Tree = ("S", (low, the_part)) if the_part else low
+        the_part = ("P", (high, inner))
     if low not in part.single:
-        return found or low
-    return ("S", (low, found)) if found else low
+        return the_part or low
+    return ("S", (low, the_part)) if the_part else low

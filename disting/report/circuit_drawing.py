@@ -74,15 +74,15 @@ Edge = tuple[int, int, Part]
 
 def _pair(edges: list[Edge], kept: set[int]) -> tuple[Edge, Edge] | None:
     """Two edges that are one part."""
-    for i, one in enumerate(edges):
+    for i, parts in enumerate(edges):
         for other in edges[i + 1 :]:
-            shared = {*one[:2]} & {*other[:2]}
+            shared = {*parts[:2]} & {*other[:2]}
             if len(shared) == 2:
-                return one, other
+                return parts, other
             if shared and not shared & kept:
                 (node,) = shared
                 if sum(node in e[:2] for e in edges) == 2:
-                    return one, other
+                    return parts, other
     return None
 
 

@@ -87,12 +87,12 @@ def blocks(classes: tuple[Members, ...], groups: tuple[Members, ...]) -> tuple[M
     >>> blocks(((1, 4), (2, 3, 5)), ((1, 4), (2, 5)))
     ((2, 5), (3,), (1, 4))
     """
-    found: list[Members] = []
+    pairs: list[Members] = []
     for members in sorted(classes, key=_size_first):
         own = [group for group in groups if set(group) <= set(members)]
         singles = [(m,) for m in members if not any(m in group for group in own)]
-        found += [*sorted(own, key=_size_first), *singles]
-    return tuple(found)
+        pairs += [*sorted(own, key=_size_first), *singles]
+    return tuple(pairs)
 
 
 def one_sided(decided: Decided) -> Iterator[OneSided]:
@@ -101,12 +101,12 @@ def one_sided(decided: Decided) -> Iterator[OneSided]:
     """
     for left, right, v in decided.pairs(View.POSITIVE):
         if v.relation is Relation.DISTINGUISHABLE:
-            for finding, given, other in (
+            for finding, number, other in (
                 (v.left_positive, left, right),
                 (v.right_positive, right, left),
             ):
                 if finding is not None and finding.share in ABLE:
-                    yield OneSided(given, other, finding.share)
+                    yield OneSided(number, other, finding.share)
 
 
 def _size_first(members: Members) -> tuple[int, Members]:

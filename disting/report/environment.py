@@ -66,8 +66,8 @@ def source_of(text: str) -> str:
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
 
 
-def _element(name: str, text: str, known: dict[str, None]) -> Markup:
-    known[source_of(text)] = None
+def _element(name: str, text: str, entries: dict[str, None]) -> Markup:
+    entries[source_of(text)] = None
     return Markup(f"<{name}>{text}</{name}>")
 
 

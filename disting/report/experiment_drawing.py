@@ -70,7 +70,7 @@ def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
 
 def definitions(used: Iterable[tuple[Chain, Item]]) -> list[Markup]:
     """What sketches are made of beside the drawings of the chains, each once."""
-    layers = {layer.name: layer for layer in (added(*one) for one in used)}
+    layers = {layer.name: layer for layer in (added(*parts) for parts in used)}
     return [Part(f"more-{name}", layer).definition for name, layer in sorted(layers.items())]
 
 

@@ -106,7 +106,7 @@ def written_model(model: Model, letter: str = "G") -> TransferFunction:
         (letter, [(power, p) for power, p in enumerate(side) if not p.is_zero()])
         for letter, side in (("b", model.numerator), ("a", model.denominator))
     ]
-    size = sum(len(p) for _, found in sides for _, p in found)
+    size = sum(len(p) for _, pairs in sides for _, p in pairs)
     return _transfer(sides, spelled_out=size <= MOST_TERMS, called=letter)
 
 
@@ -232,7 +232,7 @@ def combinations(basis: Sequence[Combination]) -> tuple[Markup, ...]:
     coefficient.
     """
     parts = ([symbol(c.name)] if c.is_named else formula(c.formula) for c in basis)
-    return tuple(Markup(" ").join(map(math, found)) for found in parts)
+    return tuple(Markup(" ").join(map(math, texts)) for texts in parts)
 
 
 def _coefficients(polynomial: Polynomial) -> list[Coefficient]:
@@ -240,12 +240,12 @@ def _coefficients(polynomial: Polynomial) -> list[Coefficient]:
 
 
 @cache
-def _shown(known: Content) -> tuple[tuple[str, ...], str]:
+def _shown(own_parts: Content) -> tuple[tuple[str, ...], str]:
     """A polynomial in MathML and in LaTeX.
 
     Many chains of a family share it: a denominator does not depend on the ports.
     """
-    shown = _readable(polynomial_of(known))
+    shown = _readable(polynomial_of(own_parts))
     parts = factorised(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
     return tuple(parts), latex(shown)
 
@@ -263,14 +263,14 @@ def _typeset(parts: Sequence[str], stiffness: bool) -> tuple[Markup, ...]:
     )
 
 
-def _in_s(letter: str, found: Sequence[Coefficient]) -> str:
+def _in_s(letter: str, items: Sequence[Coefficient]) -> str:
     return "<mo>+</mo>".join(
-        symbol(f"{letter}{n}") + (symbol("s", n) if n else "") for n, _ in reversed(found)
+        symbol(f"{letter}{n}") + (symbol("s", n) if n else "") for n, _ in reversed(items)
     )
 
 
 def _latex(sides: Sequence[Side], flat: Sequence[tuple[str, str]], called: str) -> str:
-    top, bottom = (_latex_in_s(letter, tuple(n for n, _ in found)) for letter, found in sides)
+    top, bottom = (_latex_in_s(letter, tuple(n for n, _ in items)) for letter, items in sides)
     rows = [rf"{called}(s) &= \frac{{{top}}}{{{bottom}}}"] + [
         f"{latex_symbol(label)} &= {of}" for label, of in flat
     ]

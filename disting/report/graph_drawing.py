@@ -82,10 +82,10 @@ def _places(network: Network) -> dict[int, Point]:
     that is not connected with it behind it.
     """
     kept = network.nodes if network.sort is not Sort.CIRCUIT else (*network.nodes, 0)
-    there = {i for e in network.elements for i in e.nodes} | {
+    members = {i for e in network.elements for i in e.nodes} | {
         i for p in network.ports for i in (p.plus, p.minus)
     }
-    left = [i for i in kept if i in there]
+    left = [i for i in kept if i in members]
     near = defaultdict[int, list[int]](list)
     for a, b in (edge for e in network.elements for edge in edges(e)[:1]):
         if {a, b} <= set(left):

@@ -117,13 +117,13 @@ def guide(
     """
     texts = guide_texts()
     drawings = _files(".svg")
-    known = {*texts, *(PREFIX + name for name in notebooks)}
-    pages = {name: guide_page(name, text, known, drawings) for name, text in texts.items()}
+    own_names = {*texts, *(PREFIX + name for name in notebooks)}
+    pages = {name: guide_page(name, text, own_names, drawings) for name, text in texts.items()}
     made = (*python_pages(), *([command_page(commands)] if commands else []))
     *parts, last = [
         Part(title, tuple(pages[name] for name in names)) for title, names in guide_parts(texts)
     ]
-    executed = tuple(notebook_page(name, text, known) for name, text in notebooks.items())
+    executed = tuple(notebook_page(name, text, own_names) for name, text in notebooks.items())
     parts += [Part("Notebooks", executed)] if executed else []
     return (Part("", (pages[LISTING],)), *parts, Part(last.title, last.pages + made))
 
@@ -140,8 +140,8 @@ def guide_files(parts: tuple[Part, ...]) -> Iterator[tuple[str, bytes]]:
 
 def guide_texts() -> dict[str, str]:
     """Markdown of every page by its name, the listing first."""
-    found = {name.removesuffix(".md"): text for name, text in _files(".md").items()}
-    return {LISTING: found[LISTING]} | found
+    texts = {name.removesuffix(".md"): text for name, text in _files(".md").items()}
+    return {LISTING: texts[LISTING]} | texts
 
 
 def _files(ending: str) -> dict[str, str]:
@@ -161,10 +161,10 @@ def guide_parts(texts: dict[str, str]) -> list[tuple[str, list[str]]]:
     >>> guide_parts({"index": listing, "b": "", "d": ""})
     [('A', ['b']), ('C', ['d'])]
     """
-    _, *found = PART.split(texts[LISTING])
+    _, *rows = PART.split(texts[LISTING])
     parts = [
         (title, [m[1] for m in ADDRESS.finditer(text) if m[1] in texts])
-        for title, text in zip(found[::2], found[1::2], strict=True)
+        for title, text in zip(rows[::2], rows[1::2], strict=True)
     ]
     listed = {LISTING}.union(*(names for _, names in parts))
     parts[-1][1].extend(name for name in texts if name not in listed)

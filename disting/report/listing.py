@@ -45,11 +45,11 @@ class JudgedList:
         """The verdict with its evidence."""
         return self.decisions[view].verdict(left - 1, right - 1)
 
-    def reached(self, given: int, other: int) -> Reach | None:
+    def reached(self, number: int, other: int) -> Reach | None:
         """Which positive values of the one model have equivalents in the other one, where only
         some have, and the conditions are short.
         """
-        return self.conditions.get((given, other))
+        return self.conditions.get((number, other))
 
     def at_special_values(self, left: int, right: int) -> SpecialValues | None:
         """What two models that are the same for almost all positive values give at special ones;
@@ -68,8 +68,8 @@ class JudgedList:
         if special:
             return special.sentence("{L}", "{R}")
         named = ((low, high), "{L}", "{R}"), ((high, low), "{R}", "{L}")
-        told = (reach.sentence(*names) for pair, *names in named if (reach := self.reached(*pair)))
-        return " ".join(filter(None, told))
+        items = (reach.sentence(*names) for pair, *names in named if (reach := self.reached(*pair)))
+        return " ".join(filter(None, items))
 
     def pairs(self, view: View) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""

@@ -112,10 +112,10 @@ def guide_page(
         glossary.linked(
             inner for token, inner in pairs if inner.children and token.type != "heading_open"
         )
-    found = parser.renderer.render(
+    value = parser.renderer.render(
         tokens[3:], parser.options, {"drawings": drawings, "outputs": outputs}
     )
-    return GuidePage(name, title, sections, Markup(found))
+    return GuidePage(name, title, sections, Markup(value))
 
 
 def _parser() -> MarkdownIt:
@@ -145,9 +145,9 @@ def _drawing(
     _: object, tokens: Sequence[Token], place: int, __: object, env: Mapping[str, Mapping[str, str]]
 ) -> str:
     """A drawing in its place; nothing is fetched, so an image of another place is its words."""
-    found = env["drawings"].get(str(tokens[place].attrs["src"]))
+    text = env["drawings"].get(str(tokens[place].attrs["src"]))
     words = escape(tokens[place].content)
-    return FIGURE.format(Markup(found), words) if found else words
+    return FIGURE.format(Markup(text), words) if text else words
 
 
 def _pictures(lines: Sequence[str]) -> str:

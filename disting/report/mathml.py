@@ -59,9 +59,9 @@ def product(coefficient: int, powers: Mapping[str, int]) -> str:
     return number + "".join(starmap(symbol, powers.items()))
 
 
-def summands(found: Iterable[Term]) -> list[str]:
+def summands(items: Iterable[Term]) -> list[str]:
     """The terms of a sum, each with its sign, the first one without a plus."""
-    signed = [(_sign(c, first=i == 0), product(c, powers)) for i, (c, powers) in enumerate(found)]
+    signed = [(_sign(c, first=i == 0), product(c, powers)) for i, (c, powers) in enumerate(items)]
     return [sign + text for sign, text in signed]
 
 
@@ -97,11 +97,11 @@ def equation(left: str, right: str) -> Markup:
 
 def factorised(polynomial: Polynomial) -> list[str]:
     """The factors of a polynomial, the number and single symbols as one, sums in parentheses."""
-    content, found = factors(polynomial)
-    number = f"<mn>{abs(content)}</mn>" if abs(content) != 1 or not found else ""
-    alone = not number and len(found) == 1
-    single = "".join(_factor(p, e, alone) for p, e in found if len(p) == 1)
-    sums = [_factor(p, e, alone) for p, e in found if len(p) > 1]
+    content, pairs = factors(polynomial)
+    number = f"<mn>{abs(content)}</mn>" if abs(content) != 1 or not pairs else ""
+    alone = not number and len(pairs) == 1
+    single = "".join(_factor(p, e, alone) for p, e in pairs if len(p) == 1)
+    sums = [_factor(p, e, alone) for p, e in pairs if len(p) > 1]
     head = ("<mo>−</mo>" if content < 0 else "") + number + single
     return [head, *sums] if head else sums
 

@@ -237,11 +237,11 @@ def _verdicts(catalog: Catalog, number: int) -> Iterator[tuple[int, Verdict]]:
 
 
 def _twin(catalog: Catalog, model: Model, other: int, verdict: Verdict) -> Twin:
-    here = model.row.number
-    low, high = sorted((here, other))
-    twin, both = model_of(catalog, other), ways(here, other, verdict)
+    place = model.row.number
+    low, high = sorted((place, other))
+    twin, both = model_of(catalog, other), ways(place, other, verdict)
     said = _positive(both, other, one_sided=verdict.relation is Relation.DISTINGUISHABLE)
-    relation = standing(here, other, verdict)
+    relation = standing(place, other, verdict)
     return Twin(
         twin, f"{low}-{high}", relation, said, correspondence(model.row.chain, twin.row.chain)
     )

@@ -101,12 +101,12 @@ def _payload(catalog: Catalog, first: tuple[int, int]) -> Markup:
 
 
 def _able(catalog: Catalog) -> list[tuple[int, int, Share]]:
-    """(given, other, share): how many positive models of `given` have a positive equivalent in
+    """(given, other, share): how many positive models of `number` have a positive equivalent in
     `other`, of the pairs that are neither always nor never told apart.
     """
-    found = [(case.given, case.other, case.share) for case in one_sided(catalog)]
+    pairs = [(case.given, case.other, case.share) for case in one_sided(catalog)]
     for low, high in catalog.depending():
-        for given, other in ((low, high), (high, low)):
-            way = ways(given, other, catalog.verdict(low, high, View.POSITIVE))[0]
-            found.append((given, other, Share.UNKNOWN if way is None else way.share))
-    return found
+        for number, other in ((low, high), (high, low)):
+            way = ways(number, other, catalog.verdict(low, high, View.POSITIVE))[0]
+            pairs.append((number, other, Share.UNKNOWN if way is None else way.share))
+    return pairs

@@ -63,8 +63,8 @@ def machine_of(model: AnyModel) -> Network | None:
         return None
     # of a gear that is written from both of its sides each side would have a joint
     ways = {(_ends(e), e.nodes if e.ratio else (), e.ratio) for e in network.elements}
-    known = ungeared(network) is not None and len(ways) == len({ends for ends, *_ in ways})
-    return network if known else None
+    is_known = ungeared(network) is not None and len(ways) == len({ends for ends, *_ in ways})
+    return network if is_known else None
 
 
 def motion_page_of(shown: Listing, *, site: bool = False) -> str:
@@ -103,12 +103,12 @@ def motion_page_of(shown: Listing, *, site: bool = False) -> str:
 
 def _able(listing: JudgedList) -> list[tuple[int, int, Share]]:
     """(given, other, share) where it is known."""
-    known = [(case.given, case.other, case.share) for case in one_sided(listing)]
+    rows = [(case.given, case.other, case.share) for case in one_sided(listing)]
     for low, high in listing.depending(View.POSITIVE):
         v = listing.verdict(low, high, View.POSITIVE)
-        for given, other, side in ((low, high, v.left_positive), (high, low, v.right_positive)):
-            known.append((given, other, Share.UNKNOWN if side is None else side.share))
-    return known
+        for number, other, side in ((low, high, v.left_positive), (high, low, v.right_positive)):
+            rows.append((number, other, Share.UNKNOWN if side is None else side.share))
+    return rows
 
 
 def start_values_of(machine: Network) -> tuple[float, ...]:
@@ -131,13 +131,13 @@ def _listed(machine: Network) -> list[tuple[str, str, int]]:
 
 def _joints(machine: Network) -> dict[frozenset[int], Joint]:
     """The joints, each once, by their nodes."""
-    found = dict[frozenset[int], Joint]()
+    entries = dict[frozenset[int], Joint]()
     for e in machine.elements:
         if e.kind.ends > 1:
             (i, j), number = e.nodes if e.ratio else sorted(e.nodes), e.known_ratio
             gear: Joint = (i, j, e.ratio if number is None else float(number))
-            found.setdefault(_ends(e), gear if e.ratio else (i, j))
-    return found
+            entries.setdefault(_ends(e), gear if e.ratio else (i, j))
+    return entries
 
 
 def _ends(e: Element) -> frozenset[int]:
@@ -204,20 +204,20 @@ def _joined(machine: Network) -> list[tuple[int, int]]:
 
 def _columns(machine: Network) -> dict[int, float]:
     """By distance from the force; what is not joined to it stands behind the rest."""
-    joined, found = _joined(machine), dict[int, float]()
+    joined, entries = _joined(machine), dict[int, float]()
     starts = [i for p in machine.ports for i in (p.plus, p.minus) if i]
     for start in (*starts, *machine.nodes):
-        if start in found:
+        if start in entries:
             continue
-        x, column = max(found.values(), default=-1.0) // 1 + 1, [start]
+        x, column = max(entries.values(), default=-1.0) // 1 + 1, [start]
         while column:
             for i in column:
-                beside = [k for k in found if (min(i, k), max(i, k)) in joined]
-                found[i] = x + 0.5 * sum(found[k] >= x for k in beside)
+                beside = [k for k in entries if (min(i, k), max(i, k)) in joined]
+                entries[i] = x + 0.5 * sum(entries[k] >= x for k in beside)
             near = [k for pair in joined for k in pair if set(pair) & set(column)]
-            column = list(dict.fromkeys(k for k in near if k not in found))
+            column = list(dict.fromkeys(k for k in near if k not in entries))
             x += 1
-    return found
+    return entries
 
 
 def _cost(placed: dict[int, Place], joined: Sequence[tuple[int, int]]) -> float:
@@ -259,10 +259,10 @@ def _between(a: Place, b: Place, c: Place) -> bool:
     return min(a, b) < c < max(a, b)
 
 
-def _cross(one: Line, other: Line) -> bool:
+def _cross(parts: Line, other: Line) -> bool:
     """Whether two lines cross, or lie on each other."""
-    ends = [_side(*one, p) for p in other], [_side(*other, p) for p in one]
-    if set(one) & set(other):
+    ends = [_side(*parts, p) for p in other], [_side(*other, p) for p in parts]
+    if set(parts) & set(other):
         on = all(x == 0 for side in ends for x in side)
-        return on and any(_between(*one, p) or _between(*other, p) for p in (*one, *other))
+        return on and any(_between(*parts, p) or _between(*other, p) for p in (*parts, *other))
     return all(a * b < 0 for a, b in ends)

@@ -113,9 +113,9 @@ def _sentences(catalog: NextCatalog) -> Iterator[tuple[str, str]]:
     for members in catalog.groups:
         for low, high in combinations(members, 2):
             pair = named(catalog, (low, high))
-            told = anywhere(pair)
+            phrase = anywhere(pair)
             each = [f"If it is {name}, {conclusion(pair, k)}." for k, name in enumerate(pair.names)]
-            yield f"{low}-{high}", f"{told[0].upper()}{told[1:]}." if told else " ".join(each)
+            yield f"{low}-{high}", f"{phrase[0].upper()}{phrase[1:]}." if phrase else " ".join(each)
 
 
 def advice_of(advice: Further[Chain], structure: int, members: tuple[int, ...]) -> Advice:

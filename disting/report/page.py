@@ -206,14 +206,14 @@ def summary(catalog: Catalog, view: View) -> str:
     >>> summary(catalog(3, damped=False), View.TF)
     '26 pairs by condition 1, 15 by 4, 2 by 5, 2 by 6 and 10 by 7; none left undecided.'
     """
-    found = {name: n for name, n in catalog.counts(view).items() if n}
-    left = found.pop("", 0)
+    entries = {name: n for name, n in catalog.counts(view).items() if n}
+    left = entries.pop("", 0)
     first = iter(["pairs by condition "])
-    by_name = [name for name in found if RULES[name].role is not Role.DECISION]
-    parts = [f"{found[name]} {next(first, 'by ')}{name}" for name in by_name]
+    by_name = [name for name in entries if RULES[name].role is not Role.DECISION]
+    parts = [f"{entries[name]} {next(first, 'by ')}{name}" for name in by_name]
     parts += [
         f"{n} by {RULES[name].in_words(view.domain)}"
-        for name, n in found.items()
+        for name, n in entries.items()
         if name not in by_name
     ]
     return f"{listed(parts) or 'No pair decided'}; {left or 'none'} left undecided."
@@ -221,11 +221,11 @@ def summary(catalog: Catalog, view: View) -> str:
 
 def counts(catalog: Catalog) -> list[Count]:
     """Pairs by condition and view, every condition named, the undecided ones last."""
-    found = [catalog.counts(view) for view in VIEW_TITLES]
+    the_rows = [catalog.counts(view) for view in VIEW_TITLES]
     rows = [(rule.name, rule.sign, rule.title, rule.text, decides(rule)) for rule in RULES.values()]
     rows += [("", "", "undecided", "nothing decides", Relation.UNDECIDED)]
     return [
-        Count(sign, title, text, relation, tuple(f.get(name, 0) for f in found))
+        Count(sign, title, text, relation, tuple(f.get(name, 0) for f in the_rows))
         for name, sign, title, text, relation in rows
     ]
 

@@ -124,11 +124,11 @@ def packed(numbers: Sequence[int]) -> list[int]:
     >>> packed([7, 7, 7, 0, 7])
     [7, -2, 0, 7]
     """
-    found: list[int] = []
+    the_numbers: list[int] = []
     for number, run in groupby(numbers):
         again = sum(1 for _ in run) - 1
-        found += [number, -again] if again else [number]
-    return found
+        the_numbers += [number, -again] if again else [number]
+    return the_numbers
 
 
 def script_json(data: object) -> Markup:
@@ -173,7 +173,7 @@ def _shares(verdict: Verdict) -> Iterator[str]:
     """
     if verdict.decided_by == ADMISSIBLE.name:
         return
-    for finding, given, other in (
+    for finding, text, other in (
         (verdict.left_positive, "{L}", "{R}"),
         (verdict.right_positive, "{R}", "{L}"),
     ):
@@ -185,11 +185,11 @@ def _shares(verdict: Verdict) -> Iterator[str]:
             )
             every = finding.evidence and finding.evidence.without_exception(Domain.POSITIVE)
             generic = "" if every else " generic"
-            yield SHARES[finding.share].format(given, other, generic=generic) + seen + "."
+            yield SHARES[finding.share].format(text, other, generic=generic) + seen + "."
 
 
 def _undecided(verdict: Verdict) -> str:
     # notes name models, and a name may look like a place for a name: a word joiner parts it
-    told = "; ".join(verdict.notes).replace("{", "{\u2060")
-    notes = f" ({told})" if told else ""
+    phrase = "; ".join(verdict.notes).replace("{", "{\u2060")
+    notes = f" ({phrase})" if phrase else ""
     return f"Nothing here settles {{L}} and {{R}} over {verdict.domain} parameters{notes}."

@@ -36,13 +36,13 @@ def families(
     >>> families([catalog(3, damped=False)])
     {'chains-3-undamped': {'models': 11, 'folder': 'models/3-undamped'}}
     """
-    found: dict[str, dict[str, object]] = {
+    entries: dict[str, dict[str, object]] = {
         c.name: {"models": len(c.family), "folder": folder_of(c)} for c in catalogs
     }
-    found |= {
+    entries |= {
         damper_name(f.family.n_masses, f.family.damped): {"models": len(f.family)} for f in dampers
     }
-    return found | {
+    return entries | {
         s.name: {"sizes": [(c.n_masses, len(c.family)) for c in s.catalogs]} for s in across
     }
 

@@ -81,14 +81,14 @@ def headline(catalog: Catalog) -> str:
     >>> counts
     '43 distinguishable, 12 indistinguishable, 0 undecided'
     """
-    found = totals(catalog)
+    entries = totals(catalog)
     head = (
-        f"{plural(len(catalog.family), 'model')}, {plural(sum(found.values()), 'pair')}, over"
+        f"{plural(len(catalog.family), 'model')}, {plural(sum(entries.values()), 'pair')}, over"
         " positive parameters"
     )
     said = (
         f"{n} {SAID[relation]}"
-        for relation, n in found.items()
+        for relation, n in entries.items()
         if n or relation is not Relation.SOMETIMES
     )
     return f"{head}: {', '.join(said)}"

@@ -160,8 +160,8 @@ def write_report(
     site = Site(catalogs, dampers, across, parts, families(listed, damped, together))
     # each file is written when it is made: together they take more memory than all catalogues
     names = [_write(out, file) for file in _pages(site)]
-    here = set(names)
-    links = [p.link for p in PAGES if p.link[0] in here or (out / p.link[0]).is_file()]
+    members = set(names)
+    links = [p.link for p in PAGES if p.link[0] in members or (out / p.link[0]).is_file()]
     links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
     lists = list(lists_beside(out))
     links += [link for link, _ in lists]
@@ -208,18 +208,18 @@ def _notebooks(out: Path) -> dict[str, str]:
 
 def _beside(catalogs: Sequence[Catalog], out: Path) -> Iterator[Catalog]:
     """The shipped catalogues whose pages are in the folder already."""
-    given = {c.name for c in catalogs}
+    members = {c.name for c in catalogs}
     for n, damped in product(SHIPPED_SIZES, (False, True)):
         name = name_of(n, damped)
-        if name not in given and (out / f"{name}.html").is_file():
+        if name not in members and (out / f"{name}.html").is_file():
             yield catalog(n, damped=damped)
 
 
 def _dampers_beside(dampers: Sequence[DamperFamily], out: Path) -> Iterator[DamperFamily]:
     """The shipped families with ground dampers whose pages are in the folder already."""
-    given = {(f.family.n_masses, f.family.damped) for f in dampers}
+    members = {(f.family.n_masses, f.family.damped) for f in dampers}
     for n, damped in product(DAMPER_SIZES, (False, True)):
-        if (n, damped) not in given and (out / f"{damper_name(n, damped)}.html").is_file():
+        if (n, damped) not in members and (out / f"{damper_name(n, damped)}.html").is_file():
             yield damper_catalog(n, damped=damped)
 
 
@@ -227,9 +227,9 @@ def _across_beside(
     across: Sequence[SizesCatalog], catalogs: Sequence[Catalog], out: Path
 ) -> Iterator[SizesCatalog]:
     """The shipped catalogues of several sizes whose pages are in the folder already."""
-    given = {s.damped for s in across}
+    members = {s.damped for s in across}
     for damped in (False, True):
-        if damped not in given and (out / f"{sizes_name(damped)}.html").is_file():
+        if damped not in members and (out / f"{sizes_name(damped)}.html").is_file():
             yield sizes_catalog(damped=damped, known=catalogs)
 
 

@@ -137,7 +137,10 @@ def is_within(renaming: Mapping[str, str], limits: Limits) -> bool:
         (limits.get(name, anything), limits.get(image, anything))
         for name, image in renaming.items()
     ]
-    return all(there[0] <= here[0] and here[1] <= there[1] for here, there in pairs)
+    return all(
+        other_interval[0] <= own_interval[0] and own_interval[1] <= other_interval[1]
+        for own_interval, other_interval in pairs
+    )
 
 
 def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], Relation]:

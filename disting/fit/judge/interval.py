@@ -72,17 +72,17 @@ def intervals(candidate: Candidate, task: Task, scatter: Scatter) -> dict[str, I
     """The interval of each fitted parameter; 0 and infinity where it has no end."""
     values, errors = candidate.estimate.parameters, candidate.practical.relative_errors
     wide = float(t_distribution.isf(OUTSIDE / 2, scatter.freedom))
-    found = {n: _about(values[n], wide * e) for n, e in errors.items()}
+    entries = {n: _about(values[n], wide * e) for n, e in errors.items()}
     about = _likelihood(candidate, task, scatter)
     if any(e > STRAIGHT for e in errors.values()):
         response = task.plant(candidate.chain).response(values_of(candidate.estimate, task))
         own = float(about.whitened.total(response))
         most = STRAIGHT if own - about.lowest <= MOST_LIKELY else FROM_ZERO
-        found = {
-            n: found[n] if e <= most else _profiled(about, n, e <= FROM_ZERO)
+        entries = {
+            n: entries[n] if e <= most else _profiled(about, n, e <= FROM_ZERO)
             for n, e in errors.items()
         }
-    return _with_valleys(about, found, wide)
+    return _with_valleys(about, entries, wide)
 
 
 def _about(value: float, relative: float) -> Interval:
@@ -90,12 +90,12 @@ def _about(value: float, relative: float) -> Interval:
 
 
 def _with_valleys(
-    about: _Likelihood, found: Mapping[str, Interval], wide: float
+    about: _Likelihood, entries: Mapping[str, Interval], wide: float
 ) -> dict[str, Interval]:
     """Intervals that hold the other valleys too which the data do not exclude."""
     task, candidate = about.task, about.candidate
     names, plant = task.names(candidate.chain), task.plant(candidate.chain)
-    whole, box = dict(found), task.box(names)
+    whole, box = dict(entries), task.box(names)
     if not (candidate.estimate.valleys and box.free.any()):
         return whole
     starts = np.array(candidate.estimate.valleys)
@@ -104,8 +104,8 @@ def _with_valleys(
         int(box.free.sum()), about.known.freedom, level=OUTSIDE
     )
     for point in points[costs <= most]:
-        at = {n: float(v) for n, v in zip(names, point, strict=True) if n in found}
-        if all(found[n][0] <= value <= found[n][1] for n, value in at.items()):
+        at = {n: float(v) for n, v in zip(names, point, strict=True) if n in entries}
+        if all(entries[n][0] <= value <= entries[n][1] for n, value in at.items()):
             continue  # the same valley
         columns = about.whitened.of(plant, point)[1][:, box.free]
         spread = covariance(columns, equal(float(len(columns)), len(columns), 0))
@@ -196,13 +196,13 @@ def _end(rise: Callable[[float], float], start: float, step: float, most: float)
     """Where the profile reaches `most`, from `start` in steps that grow to `STEP`; infinite where
     it does not.
     """
-    inside, there = (start, 0.0), start
+    inside, value = (start, 0.0), start
     for _ in range(STEPS):
-        there += step
-        reached = rise(there)
+        value += step
+        reached = rise(value)
         if reached > most:
-            return _between(rise, inside, (there, reached), most)
-        inside, step = (there, reached), float(np.clip(2 * step, -STEP, STEP))
+            return _between(rise, inside, (value, reached), most)
+        inside, step = (value, reached), float(np.clip(2 * step, -STEP, STEP))
     return float(np.copysign(inf, step))
 
 

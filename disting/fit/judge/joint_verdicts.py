@@ -98,7 +98,11 @@ def representatives_under_all(
 
 
 def behaves_alike(
-    chain: Chain, values: Mapping[str, float], other: Chain, there: Mapping[str, float], task: Task
+    chain: Chain,
+    values: Mapping[str, float],
+    other: Chain,
+    other_entries: Mapping[str, float],
+    task: Task,
 ) -> bool:
     """Whether another structure with its own values has all responses too, with all sensors and
     changes at some places.
@@ -109,8 +113,10 @@ def behaves_alike(
     mine = _responses(chain, values, task.cost.setups_of(chain.structure), task)
     return any(
         all(
-            _same(one, two)
-            for one, two in zip(mine, _responses(other, there, setups, task), strict=True)
+            _same(own_values, two)
+            for own_values, two in zip(
+                mine, _responses(other, other_entries, setups, task), strict=True
+            )
         )
         for setups in placements(chain, other, task.cost.setups_of(chain.structure))
     )
@@ -126,8 +132,8 @@ def _responses(
     return task.cost.by_line(source_task.plant(chain).response(p))
 
 
-def _same(one: Complex, other: Complex) -> bool:
-    return bool(np.all(np.abs(one - other) <= SAME * np.abs(one)))
+def _same(values: Complex, other: Complex) -> bool:
+    return bool(np.all(np.abs(values - other) <= SAME * np.abs(values)))
 
 
 def _measured(chain: Chain, cost: AnyCost) -> MeasuredChain:

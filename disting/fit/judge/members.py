@@ -122,20 +122,20 @@ def members(
     """The candidates that are left, in their order, as members of the set."""
     inside = {c.chain: _contained(c, left) for c in left}
     chosen = [c for c in left if inside[c.chain] is None]
-    given = [
+    rows = [
         (c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters}, dict(limits))
         for c in chosen
     ]
-    found = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
-    for (chain, values, _), both in mapped(twins, given, executor):
-        found[chain] = _in_all(chain, values, *both, task)
-        progress("equivalents", len(found), len(given))
+    entries = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
+    for (chain, values, _), both in mapped(twins, rows, executor):
+        entries[chain] = _in_all(chain, values, *both, task)
+        progress("equivalents", len(entries), len(rows))
     return tuple(
         Member(
             c,
-            *found.get(c.chain, ((), ())),
-            disagreements=disagreements(c, task, test) if test and c.chain in found else (),
-            intervals=intervals(c, task, own_scatters[0]) if c.chain in found else {},
+            *entries.get(c.chain, ((), ())),
+            disagreements=disagreements(c, task, test) if test and c.chain in entries else (),
+            intervals=intervals(c, task, own_scatters[0]) if c.chain in entries else {},
             contains=inside[c.chain],
             differs=_differs(left[0], c, test or task.cost, task),
         )
@@ -261,10 +261,10 @@ def _differs(
     ]
     size = np.abs(np.log(both[1] / both[0]))
     hertz = np.concatenate([part.measured.frequency for part in cost.parts])
-    found = list[tuple[float, float]]()
+    pairs = list[tuple[float, float]]()
     for i in np.argsort(-size):
-        if all(max(hertz[i] / f, f / hertz[i]) > WIDE for f, _ in found):
-            found.append((float(hertz[i]), float(size[i])))
-        if len(found) == STRONGEST:
+        if all(max(hertz[i] / f, f / hertz[i]) > WIDE for f, _ in pairs):
+            pairs.append((float(hertz[i]), float(size[i])))
+        if len(pairs) == STRONGEST:
             break
-    return tuple(found)
+    return tuple(pairs)

@@ -56,14 +56,14 @@ def zeros(structure: Structure, p: Real) -> Complex:
     bordered = np.pad(_matrices(structure, p), ((0, 0), (0, 1), (0, 1)))
     bordered[2][:n, n], bordered[2][n, :n] = port_vectors(structure)
     mass, damping, stiffness = bordered
-    one, nothing = np.eye(n + 1), np.zeros((n + 1, n + 1))
-    found = eig(
-        np.block([[nothing, one], [-stiffness, -damping]]),
-        np.block([[one, nothing], [nothing, mass]]),
+    values, nothing = np.eye(n + 1), np.zeros((n + 1, n + 1))
+    value = eig(
+        np.block([[nothing, values], [-stiffness, -damping]]),
+        np.block([[values, nothing], [nothing, mass]]),
         right=False,
     )
     fastest = np.abs(poles(structure, p)).max()
-    return np.asarray(found[np.isfinite(found) & (np.abs(found) < REMOTE * fastest)])
+    return np.asarray(value[np.isfinite(value) & (np.abs(value) < REMOTE * fastest)])
 
 
 @dataclass(frozen=True)
@@ -109,16 +109,16 @@ def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
 def _values(structure: Structure, p: Real) -> list[Result]:
     """The results without errors; equally many for all parameters near by."""
     p = p[: len(structure.parameters)]
-    known = _named(structure, p)
-    masses = {n: v for n, v in known.items() if n[0] == "m"}
+    values = _named(structure, p)
+    masses = {n: v for n, v in values.items() if n[0] == "m"}
     motor = masses[f"m{structure.ports.act_plus}"]
     rows = [("total inertia", sum(masses.values()), "")]
     if len(masses) > 1:
         rows += [("motor inertia", motor, ""), ("load inertia", sum(masses.values()) - motor, "")]
-    rows += [(f"stiffness {n}", v, "") for n, v in known.items() if n[0] == "k"]
+    rows += [(f"stiffness {n}", v, "") for n, v in values.items() if n[0] == "k"]
     rows += [
         ("dead time" if n == "Td" else "time constant of the lag", v, "s")
-        for n, v in known.items()
+        for n, v in values.items()
         if n[0] == "T"
     ]
     for what, roots in (("antiresonance", zeros(structure, p)), ("resonance", poles(structure, p))):
@@ -136,9 +136,9 @@ def _matrices(structure: Structure, p: Real) -> Real:
 @lru_cache(maxsize=REMEMBERED)
 def _shares(structure: Structure) -> Real:
     """What each parameter at 1 adds to M, D and K, shape (n_p, 3, N, N)."""
-    one = dict.fromkeys(structure.parameters, 1.0)
-    whole = np.stack(matrices(structure, one))
-    doubled = (matrices(structure, {**one, name: 2.0}) for name in structure.parameters)
+    entries = dict.fromkeys(structure.parameters, 1.0)
+    whole = np.stack(matrices(structure, entries))
+    doubled = (matrices(structure, {**entries, name: 2.0}) for name in structure.parameters)
     return np.stack([np.stack(more) - whole for more in doubled])
 
 
@@ -170,8 +170,8 @@ def between_lines(
     []
     """
     p = np.array([values[name] for name in structure.parameters])
-    found = [oscillating(roots(structure, p)) for roots in (poles, zeros)]
-    for pole, zero in product(*found):
+    pairs = [oscillating(roots(structure, p)) for roots in (poles, zeros)]
+    for pole, zero in product(*pairs):
         hertz = np.array([pole.imag, zero.imag]) / (2 * pi)
         before, other = np.searchsorted(grid, hertz)
         if before == other and 0 < before < len(grid):

@@ -44,10 +44,10 @@ def read_in_words(measured: FrequencyResponse) -> str:
     origin = f"{measured.origin}: " if measured.origin else ""
     reading = f"{measured.reading}; " if measured.reading else ""
     quantity = assumed(measured)
-    told = "" if quantity is None else " (assumed)"
+    phrase = "" if quantity is None else " (assumed)"
     if quantity is not None and quantity is not measured.sensor:
-        told = f", from a {quantity.value} (assumed)"
-    return f"{origin}{reading}sensor: {measured.sensor.value}{told}"
+        phrase = f", from a {quantity.value} (assumed)"
+    return f"{origin}{reading}sensor: {measured.sensor.value}{phrase}"
 
 
 def assumed(measured: FrequencyResponse) -> Sensor | None:
@@ -76,22 +76,22 @@ def other_quantities(
     task, own_estimates = explored(searched, task)
     nearest = min(own_estimates, key=lambda fit: _criterion(fit, task))
     before, most = _criterion(nearest, task), share_about(nearest, task)
-    found = list[tuple[float, Sensor, Estimate]]()
+    pairs = list[tuple[float, Sensor, Estimate]]()
     for quantity in Sensor:
         if quantity is taken:
             continue
-        progress(f"read as {quantity.value}", len(found), len(Sensor) - 1)
+        progress(f"read as {quantity.value}", len(pairs), len(Sensor) - 1)
         shifted = _shifted(task.cost.measured, taken.order - quantity.order)
         seen = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
         fits = estimates(_small(own_estimates), seen, store=store, executor=executor).values()
         best = min(fits, key=lambda fit: _criterion(fit, seen))
         if _criterion(best, seen) <= before + AS_WELL and explains(best, seen, most):
-            found.append((_criterion(best, seen), quantity, best))
+            pairs.append((_criterion(best, seen), quantity, best))
     return tuple(
         f"read as {quantity.value}, {reference(fit.chain)} fits the data as well or better"
         f" (J = {fit.j:.3g} with {len(fit.parameters)} parameters): that it is"
         f" {taken.value} is assumed; give --quantity {quantity.value}, or --quantity {taken.value}"
-        for _, quantity, fit in sorted(found, key=lambda one: one[0])
+        for _, quantity, fit in sorted(pairs, key=lambda parts: parts[0])
     )
 
 
@@ -159,13 +159,13 @@ def _small(candidates: Sequence[Estimate]) -> tuple[Chain, ...]:
     """
     sizes = {c.chain.n_masses for c in candidates}
     wanted = sizes & set(SMALL) or {min(sizes)}
-    found = dict[Chain, None]()
+    entries = dict[Chain, None]()
     for n in sorted(wanted):
         chain = next(c.chain for c in candidates if c.chain.n_masses == n)
         for dampers in ((), tuple(range(1, n + 1))):
             for lag in (False, True):
-                found[replace(chain, ground_dampers=dampers, lag=lag, dead_time=True)] = None
-    return tuple(found)
+                entries[replace(chain, ground_dampers=dampers, lag=lag, dead_time=True)] = None
+    return tuple(entries)
 
 
 def _missed(fit: Estimate, task: Task) -> Real:

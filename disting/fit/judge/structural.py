@@ -69,8 +69,8 @@ def _told(chain: Chain, assessment: Practical, settings: Settings) -> Practical:
         return assessment
     chosen = basis(chain.structure, proof, max(t.rank for t in proof), settings.seed).chosen
     indices = assessment.condition_indices[:rank] + (inf,) * lacking
-    given = " and what is given" * (len(assessment.names) < len(chain.parameters))
-    words = in_words([c.formula for c in chosen]) + given
+    text = " and what is given" * (len(assessment.names) < len(chain.parameters))
+    words = in_words([c.formula for c in chosen]) + text
     return replace(assessment, condition_indices=indices, collinearity=inf, unidentifiable=words)
 
 

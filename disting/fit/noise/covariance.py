@@ -67,27 +67,31 @@ def equal(j: float, n_y: int, n_p: int) -> Noise:
 
 
 def expected(
-    fitted: Real, sigma: Real, seen: Real | None = None, there: Real | None = None
+    fitted: Real, sigma: Real, seen: Real | None = None, other_values: Real | None = None
 ) -> Real:
     """Standard deviation of residuals of the true structure, shape (n_y,): scatter of the lines
     and of the parameters.
 
     `fitted` = sensitivities S at the lines of the fit, shape (n_y, n_p), which scatter by `sigma`;
-    `seen`, `there` = the same at the lines that are judged, if these are others. A fit drawn by
-    loud lines misses quiet ones by more than they scatter.
+    `seen`, `other_values` = the same at the lines that are judged, if these are others. A fit drawn
+    by loud lines misses quiet ones by more than they scatter.
     """
-    seen, there = (fitted, sigma) if seen is None or there is None else (seen, there)
+    seen, other_values = (
+        (fitted, sigma) if seen is None or other_values is None else (seen, other_values)
+    )
     if not fitted.shape[1]:
-        return there
+        return other_values
     length = np.linalg.norm(fitted, axis=0)
     length = np.where(length > 0, length, 1.0)
     left, values, right = np.linalg.svd(fitted / length, full_matrices=False)
-    known = values > VANISHING * values[0]
-    half = (left[:, known] * sigma[:, None]) / values[known] @ right[known]
+    entry = values > VANISHING * values[0]
+    half = (left[:, entry] * sigma[:, None]) / values[entry] @ right[entry]
     # in units of the lengths: the square of a column that hardly matters has no number
     seen = seen / length
     return np.asarray(
-        np.sqrt(there**2 + np.maximum(np.einsum("ij,jk,ik->i", seen, half.T @ half, seen), 0.0))
+        np.sqrt(
+            other_values**2 + np.maximum(np.einsum("ij,jk,ik->i", seen, half.T @ half, seen), 0.0)
+        )
     )
 
 
@@ -119,8 +123,8 @@ def correlation(residual: Real) -> float:
     """
     halves = residual.reshape(2, -1)
     power = float(np.sum(halves**2))
-    found = float(np.sum(halves[:, 1:] * halves[:, :-1])) / power if power else 0.0
-    return min(found, MOST) if found > SIGNIFICANT / sqrt(residual.size) else 0.0
+    value = float(np.sum(halves[:, 1:] * halves[:, :-1])) / power if power else 0.0
+    return min(value, MOST) if value > SIGNIFICANT / sqrt(residual.size) else 0.0
 
 
 def _carried(rows: Real, r: float) -> Real:

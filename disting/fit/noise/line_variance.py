@@ -116,17 +116,17 @@ def quietest(mean: Real, power: Real) -> Real:
     """The coefficients of most powers: those are left out that are far above what the lower quarter
     tells, as many as they be, such as where a response bends.
     """
-    found = coefficients(mean, power)
+    values = coefficients(mean, power)
     for _ in range(ROUNDS):
-        if not found.any():
+        if not values.any():
             break
-        ratio = power / np.maximum(mean @ found, np.finfo(float).tiny)
+        ratio = power / np.maximum(mean @ values, np.finfo(float).tiny)
         near = ratio <= FAR * np.quantile(ratio, 0.25) / -log(0.75)
         fresh = coefficients(mean[near], power[near], 0.0) / kept_mean(exp(-FAR))
-        if np.allclose(fresh, found, rtol=CLOSE):
+        if np.allclose(fresh, values, rtol=CLOSE):
             break
-        found = fresh
-    return found
+        values = fresh
+    return values
 
 
 def coefficients(mean: Real, power: Real, trim: float = LARGEST_LEFT_OUT) -> Real:
@@ -138,13 +138,15 @@ def coefficients(mean: Real, power: Real, trim: float = LARGEST_LEFT_OUT) -> Rea
         return np.zeros(mean.shape[1])
     expected = np.full(len(power), usual)
     used, kept = np.ones(len(power), bool), 1.0
-    found = np.zeros(mean.shape[1])
+    values = np.zeros(mean.shape[1])
     for turn in range(ROUNDS):
         weight = used / expected
         weighted = mean * weight[:, None]
         length = np.maximum(np.linalg.norm(weighted, axis=0), np.finfo(float).tiny)
-        found = nnls(weighted / length, power * weight, maxiter=MOST_STEPS)[0] / length / kept
-        fresh = np.maximum(mean @ found, SMALLEST * np.median(mean @ found) + np.finfo(float).tiny)
+        values = nnls(weighted / length, power * weight, maxiter=MOST_STEPS)[0] / length / kept
+        fresh = np.maximum(
+            mean @ values, SMALLEST * np.median(mean @ values) + np.finfo(float).tiny
+        )
         if turn and np.max(np.abs(np.log(fresh / expected))) < CLOSE:
             break
         expected = np.sqrt(fresh * expected) if turn else fresh
@@ -152,7 +154,7 @@ def coefficients(mean: Real, power: Real, trim: float = LARGEST_LEFT_OUT) -> Rea
             ratio = power / expected
             used = ratio <= np.quantile(ratio, 1 - trim)
             kept = kept_mean(trim)
-    return np.asarray(found)
+    return np.asarray(values)
 
 
 def kept_mean(trim: float) -> float:

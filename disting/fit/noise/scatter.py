@@ -134,12 +134,12 @@ def _from_neighbours(
     """
     plain = contrasts(measured.omega, measured.G)
     columns = shapes(plain.size)
-    found = [(columns @ quietest(plain.expected(columns), plain.power), plain.size)]
+    pairs = [(columns @ quietest(plain.expected(columns), plain.power), plain.size)]
     for seen in (contrasts(measured.omega, measured.G, other) for other in fitted):
         columns = shapes(seen.size)
-        found.append((columns @ coefficients(seen.expected(columns), seen.power), seen.size))
-    levels = [float(np.mean(np.log(np.maximum(v, (LEAST * size) ** 2)))) for v, size in found]
-    variance, size = found[_preferred(levels)]
+        pairs.append((columns @ coefficients(seen.expected(columns), seen.power), seen.size))
+    levels = [float(np.mean(np.log(np.maximum(v, (LEAST * size) ** 2)))) for v, size in pairs]
+    variance, size = pairs[_preferred(levels)]
     rho = np.sqrt(variance / 2) / size
     return Scatter(np.maximum(rho, LEAST), size, source, freedom(measured.omega))
 
@@ -175,19 +175,19 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
 
 def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Scatter:
     """With what neighbouring lines say of standard deviations."""
-    there = freedom(measured.omega)
+    value = freedom(measured.omega)
     level = _excess(seen, variance) + 1
-    if level > f_distribution.isf(SURE, there, own.freedom):
-        found = _widened(variance, seen, measured)
-        if found is None:
+    if level > f_distribution.isf(SURE, value, own.freedom):
+        values = _widened(variance, seen, measured)
+        if values is None:
             return own
         return replace(
             own,
-            rho=np.maximum(np.sqrt(found / 2) / seen.size, LEAST),
+            rho=np.maximum(np.sqrt(values / 2) / seen.size, LEAST),
             source="neighbouring lines, which jump by more than their standard deviations",
-            freedom=there,
+            freedom=value,
         )
-    if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, there, own.freedom):
+    if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, value, own.freedom):
         return replace(
             own,
             doubt=(

@@ -122,9 +122,9 @@ def _count(value: Any) -> int:
 
 def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, Parameters]]:
     """In the order of the file, those with values last, which stand."""
-    for found in plain["alternatives"]:
-        if found["relation"] != Relation.INDISTINGUISHABLE:
-            yield chain_from_dict(found), {}
+    for value in plain["alternatives"]:
+        if value["relation"] != Relation.INDISTINGUISHABLE:
+            yield chain_from_dict(value), {}
     members = [m for m in plain["not_excluded"][1:] if not m.get("contains")]
     yield from map(model_from_dict, members)
 
@@ -153,9 +153,9 @@ def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[L
             other = add(twin["name"], chain)
             own[other].extend(_whole(twin["parameters"], other))
             free[other] = max(free.get(other, 0), _count(twin.get("free_choices", 0)))
-    for found in plain["alternatives"]:
-        if found["relation"] == Relation.INDISTINGUISHABLE:
-            add(reference(chain_from_dict(found)), model)
+    for value in plain["alternatives"]:
+        if value["relation"] == Relation.INDISTINGUISHABLE:
+            add(reference(chain_from_dict(value)), model)
     for chain, all_values in own.items():
         yield Left(
             chain, chain in fitted, tuple(all_values), tuple(like[chain]), free.get(chain, 0)
@@ -167,20 +167,20 @@ def _listed(name: str, chain: Chain) -> Chain:
     return chain_of(name, Family(chain.n_masses, chain.damped, chain.sensor))
 
 
-def _whole(given: Parameters, chain: Chain) -> Iterator[Parameters]:
+def _whole(entries: Parameters, chain: Chain) -> Iterator[Parameters]:
     """Values under the names of the listed form, under those of the chain; nothing where some are
     missing.
     """
-    there = as_listed(chain).renaming
-    if all(there[name] in given for name in chain.parameters):
-        yield {name: number_of(given[there[name]]) for name in chain.parameters}
+    other_entries = as_listed(chain).renaming
+    if all(other_entries[name] in entries for name in chain.parameters):
+        yield {name: number_of(entries[other_entries[name]]) for name in chain.parameters}
 
 
 def _same(plain: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """Names and reasons."""
-    for found in plain["alternatives"]:
-        if found["relation"] == Relation.INDISTINGUISHABLE:
-            yield reference(chain_from_dict(found)), found["reason"]
+    for value in plain["alternatives"]:
+        if value["relation"] == Relation.INDISTINGUISHABLE:
+            yield reference(chain_from_dict(value)), value["reason"]
     for member in plain["not_excluded"][:1]:
         for twin in member["equivalents"]:
             yield twin["name"], "the same response for the fitted values"

@@ -208,11 +208,11 @@ def shown(chain: Chain, values: Parameters, item: Item, bench: Bench) -> Complex
     return plant.response(np.array([values[name] for name in chain.parameters]))
 
 
-def step(one: Complex | None, other: Complex | None, bench: Bench) -> Step:
+def step(values: Complex | None, other: Complex | None, bench: Bench) -> Step:
     """How far another response is from the one that is taken for true."""
-    if one is None or other is None:
-        return STILL if one is other else MOVES
-    apart = np.abs(other / one - 1) / bench.rho
+    if values is None or other is None:
+        return STILL if values is other else MOVES
+    apart = np.abs(other / values - 1) / bench.rho
     at = int(apart.argmax())
     return Step(float(np.sum(apart**2)), float(apart[at]), float(bench.hertz[at]))
 
@@ -241,12 +241,12 @@ class Foretold:
         sized = ((kind.name, kind.power) for kind in self.costs.kinds(2))
         return {name: self.bench.size(power) for name, power in sized if power is not None}
 
-    def at(self, kind: Kind, here: Spot, there: Spot) -> Step | None:
+    def at(self, kind: Kind, own_spot: Spot, other_spot: Spot) -> Step | None:
         """The difference of two structures at these masses, the first taken for true; None where
         one has no known values.
         """
-        rows = [self.responses.get((Item(kind, i), k), ()) for k, i in (here, there)]
-        steps = [step(one, other, self.bench) for one, other in product(*rows)]
+        rows = [self.responses.get((Item(kind, i), k), ()) for k, i in (own_spot, other_spot)]
+        steps = [step(own_values, other, self.bench) for own_values, other in product(*rows)]
         return min(steps, default=None)
 
     def least(self, structure: int, item: Item, other: int) -> tuple[Step, int] | None:
@@ -254,8 +254,8 @@ class Foretold:
         mass at which it is that small; None as in `at`.
         """
         masses = range(1, self.left[other].chain.n_masses + 1)
-        found = [(self.at(item.kind, (structure, item.at), (other, j)), j) for j in masses]
-        return min(((s, j) for s, j in found if s is not None), default=None)
+        pairs = [(self.at(item.kind, (structure, item.at), (other, j)), j) for j in masses]
+        return min(((s, j) for s, j in pairs if s is not None), default=None)
 
     def power(self, structure: int, other: int, the_step: Step) -> float:
         """Probability of excluding the other one by this difference, if it is this structure."""

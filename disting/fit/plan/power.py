@@ -97,8 +97,8 @@ class Plan(Shown):
     def is_contained(self) -> bool:
         """Whether the rival contains the model, as elements or the verdict on inclusion tell."""
         both = None if self.verdict is None else self.verdict.inclusions
-        known = both is not None and both.closure.inclusion is Inclusion.LEFT_IN_RIGHT
-        return known or self.joint == self.other
+        is_known = both is not None and both.closure.inclusion is Inclusion.LEFT_IN_RIGHT
+        return is_known or self.joint == self.other
 
     @property
     def joint(self) -> Chain | None:

@@ -143,10 +143,10 @@ class Rival:
         """The rival's elements that have no effect, and what they have become."""
         columns = np.linalg.norm(self.cost.of(self.plant, self.best.p)[1], axis=0)
         gone = columns < WITHOUT_EFFECT * columns.max(initial=0.0)
-        found = self.parameters
+        values = self.parameters
         return {
-            name: _limit(found[name] / self.search.usual[name])
-            for name, limit in zip(found, gone, strict=True)
+            name: _limit(values[name] / self.search.usual[name])
+            for name, limit in zip(values, gone, strict=True)
             if limit
         }
 

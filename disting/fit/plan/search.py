@@ -82,8 +82,8 @@ def responses_of(
     values; raises InputError for missing, unknown or negative ones, and where one is zero.
     """
     plant = plant_of(structure, omega)
-    given = checked(structure, values)
-    whole = plant.response(np.array([given[name] for name in plant.parameters]))
+    source_values = checked(structure, values)
+    whole = plant.response(np.array([source_values[name] for name in plant.parameters]))
     if not np.all(whole):
         raise InputError(
             f"{name_of(structure)}: a sensor shows nothing of an input: leave one of both away"

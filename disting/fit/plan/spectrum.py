@@ -83,9 +83,9 @@ class Adversary:
 
     def add(self, p: Real) -> None:
         """One more fit."""
-        found = len(self.rival.rho) * (apart(self.rival, p) / self.rival.rho) ** 2
+        values = len(self.rival.rho) * (apart(self.rival, p) / self.rival.rho) ** 2
         self.points.append(p)
-        self.cuts.append(found)
+        self.cuts.append(values)
 
     def bound(self, shares: Real) -> float:
         """What lambda of these shares is at most, from the fits so far."""
@@ -155,7 +155,7 @@ def _programme(cuts: Real) -> tuple[Real, float]:
     scale = float(cuts.mean())
     scaled = np.maximum(cuts / scale, TINY)  # raised, so that the bound stays one
     for method in ("highs", "highs-ipm"):
-        found = linprog(
+        value = linprog(
             np.append(np.zeros(n_f), -1.0),
             A_ub=np.hstack([-scaled, np.ones((n_c, 1))]),
             b_ub=np.zeros(n_c),
@@ -164,8 +164,8 @@ def _programme(cuts: Real) -> tuple[Real, float]:
             bounds=(0, None),
             method=method,
         )
-        if found.x is not None:
-            return np.maximum(found.x[:-1], 0.0), float(-found.fun) * scale
+        if value.x is not None:
+            return np.maximum(value.x[:-1], 0.0), float(-value.fun) * scale
     return _loose(cuts)
 
 
@@ -195,9 +195,9 @@ def best_band(adversary: Adversary) -> Band:
     best, size = every[0][0], -1.0
     for band, shares in every:
         if adversary.bound(shares) > size:
-            found = adversary.noncentrality(shares)
-            if found > size:
-                best, size = band, found
+            value = adversary.noncentrality(shares)
+            if value > size:
+                best, size = band, value
     size = adversary.searched(_alike(hertz, best))
     return Band(*best, size)
 

@@ -200,14 +200,14 @@ def _grid(chain: Chain, p: Real, controller: Controller) -> Real:
     own, roots = (x[np.abs(x) > STILL * np.abs(own).max(initial=0.0)] for x in (own, roots))
     if np.any(-own.real < LIGHTEST * np.abs(own)):
         raise InputError("margins need a machine whose resonances are damped")
-    known = np.array([*np.abs(roots), *_corners(chain, p, controller)])
-    low = known.min() / BELOW
+    values = np.array([*np.abs(roots), *_corners(chain, p, controller)])
+    low = values.min() / BELOW
     grows = _growth(chain, controller) > 0
     for _ in range(LOWER if grows else 0):
         if abs(loop_gain(chain, p, controller, np.array([low]))[0]) > LARGE:
             break
         low /= BELOW
-    wide = np.geomspace(low, known.max() * ABOVE, PLAIN)
+    wide = np.geomspace(low, values.max() * ABOVE, PLAIN)
     pairs = roots[roots.imag > 0]
     steps = np.concatenate([-NEAR, NEAR])
     close = (np.abs(pairs.imag)[:, None] + np.abs(pairs.real)[:, None] * steps).ravel()
@@ -218,6 +218,6 @@ def _corners(chain: Chain, p: Real, c: Controller) -> list[float]:
     """Frequencies at which times, and the gains against all masses as one, show [rad/s]."""
     named = dict(zip(chain.parameters, map(float, p), strict=True))
     mass = sum(value for name, value in named.items() if name[0] == "m")
-    found = [1 / value for name, value in named.items() if name[0] == "T" and value > 0]
-    found += [c.P / mass, (c.P / mass) ** 0.5, (c.I / mass) ** 0.5, c.V, 1 / c.Tf if c.Tf else 0.0]
-    return [x for x in (*found, c.I / c.P if c.P else 0.0) if x]
+    values = [1 / value for name, value in named.items() if name[0] == "T" and value > 0]
+    values += [c.P / mass, (c.P / mass) ** 0.5, (c.I / mass) ** 0.5, c.V, 1 / c.Tf if c.Tf else 0.0]
+    return [x for x in (*values, c.I / c.P if c.P else 0.0) if x]

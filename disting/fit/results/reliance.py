@@ -115,10 +115,10 @@ def statements(
 
 def _spread(values: Iterable[float]) -> tuple[float, float]:
     """Range of the draws of one structure, the outer ones left out."""
-    known = np.array(list(values))
-    if not np.all(np.isfinite(known)):
-        return (float(known.min()), inf)
-    low, high = np.percentile(known, [OUTER, 100 - OUTER])
+    own_values = np.array(list(values))
+    if not np.all(np.isfinite(own_values)):
+        return (float(own_values.min()), inf)
+    low, high = np.percentile(own_values, [OUTER, 100 - OUTER])
     return float(low), float(high)
 
 
@@ -176,11 +176,11 @@ def _roots_at(sample: Drawn, roots_of: Callable[..., Complex], k: int) -> Comple
 
 def _followed(sample: Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
     """The root in all draws in which it is still there."""
-    found = (
+    items = (
         nearest(oscillating(_roots_at(sample, roots_of, k)), root, inf)
         for k in range(len(sample.p))
     )
-    return [r for r in found if r is not None]
+    return [r for r in items if r is not None]
 
 
 def nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> complex | None:

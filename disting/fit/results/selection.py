@@ -211,10 +211,10 @@ class Selection(Shown):
     command: str = ""
 
     def __repr__(self) -> str:
-        found = "none is admissible" if self.selected is None else reference(self.selected.chain)
+        text = "none is admissible" if self.selected is None else reference(self.selected.chain)
         left = len(self.members) + len(self.containing)
         members = f", {left} not excluded" if left else ""
-        return summary(self, f"{found} of {plural(len(self.candidates), 'candidate')}{members}")
+        return summary(self, f"{text} of {plural(len(self.candidates), 'candidate')}{members}")
 
     def plot(self, ax: "Axes | Sequence[Axes] | None" = None) -> tuple["Axes", ...]:
         """Bode diagram with matplotlib: the data on test, and the structures that they do not

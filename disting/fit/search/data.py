@@ -163,9 +163,9 @@ class Weighing:
         """
         whole = (Further(self.first.measured, Setup(), self.test), *self.further)
         ends = np.cumsum([len(extra.measured) for extra in whole])[:-1]
-        known = [np.split(response, ends) for response in fitted]
+        rows = [np.split(response, ends) for response in fitted]
         own = [
-            self._weights(extra.measured, extra.test, [each[k] for each in known])
+            self._weights(extra.measured, extra.test, [each[k] for each in rows])
             for k, extra in enumerate(whole)
         ]
         size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))

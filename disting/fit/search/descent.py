@@ -80,14 +80,14 @@ def rough(
             )
             # Most steps lead downwards: their slope is computed along with their cost, which saves
             # a response a step.
-            reached, *there = _normal(plant, cost, box, tried)
+            reached, *rows = _normal(plant, cost, box, tried)
             better = reached < costs[part]
             settled = better & (reached > costs[part] * (1 - WORTHLESS))
             damping[part] *= np.where(better, 0.2, 8.0)
             damping[part[settled]] = np.inf
             won = part[better]
             points[won], costs[won] = tried[better], reached[better]
-            curvature[won], slope[won] = (array[better] for array in there)
+            curvature[won], slope[won] = (array[better] for array in rows)
         active = active[damping[active] < HOPELESS]
         if not active.size:
             break
@@ -153,7 +153,7 @@ def fine(
             for edge in (box.low, box.high)
         ]
     inside = np.clip(np.zeros(int(free.sum())), bounds[0] + 1e-12, bounds[1] - 1e-12)
-    found = least_squares(
+    value = least_squares(
         residual,
         inside,
         sensitivity,
@@ -163,6 +163,6 @@ def fine(
         gtol=1e-12,
         max_nfev=300,
     )
-    best, before = 2.0 * float(found.cost), float(cost.total(plant.response(origin)))
-    reached = np.where(free, np.maximum(at(found.x), SMALLEST), origin)
+    best, before = 2.0 * float(value.cost), float(cost.total(plant.response(origin)))
+    reached = np.where(free, np.maximum(at(value.x), SMALLEST), origin)
     return (reached, best) if best < before else (origin, before)

@@ -238,7 +238,7 @@ def _nested(
     felt = extended(chain, _common(contained), scale(task.cost.measured), UNFELT)
     slight = _stacked([_own(contained) | dict(start) for start in felt], chain, task)
     unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
-    return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda found: found[1])
+    return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda parts: parts[1])
 
 
 def _stacked(starts: Sequence[Parameters], chain: Chain, task: Task) -> Real:

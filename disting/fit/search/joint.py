@@ -89,15 +89,15 @@ class JointPlant:
         machine, computed once a state.
         """
         units: dict[tuple[object, ...], Motion] = {}
-        found = []
+        pairs = []
         for part, at in zip(self.parts, self._places, strict=True):
             force = part.structure.ports[:2]
             lines = part.omega.tobytes(), part.window and part.window.duration
             state, own = (force, part.still, part.added, *lines), p[..., at]
             if state not in units:
                 units[state] = part.motion(own)
-            found.append((part, own, at, units[state]))
-        return found
+            pairs.append((part, own, at, units[state]))
+        return pairs
 
     @cached_property
     def _own(self) -> tuple[str, ...]:
@@ -107,13 +107,13 @@ class JointPlant:
     def _places(self) -> list[NDArray[np.intp]]:
         """Where the parameters of each part stand."""
         n = len(self.parts[0].parameters)
-        found = []
+        rows = []
         for setup in self.setups:
             at = np.arange(n)
             if self._own and setup.delay:
                 at[-1] = n + self._own.index(setup.delay)
-            found.append(at)
-        return found
+            rows.append(at)
+        return rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,12 +205,12 @@ class JointCost(SquaredCost):
         missing, or of which it is not known which mass is which: it has the first one.
         """
         setups = self.setups_of(chain.structure)
-        there = measurable(chain, setups)
+        other_parts = measurable(chain, setups)
         if self.places and chain.structure not in self.places:
-            there = (True, *(False for _ in setups[1:]))
-        if all(there):
+            other_parts = (True, *(False for _ in setups[1:]))
+        if all(other_parts):
             return self
-        kept = [(p, s) for p, s, has in zip(self.parts, setups, there, strict=True) if has]
+        kept = [(p, s) for p, s, has in zip(self.parts, setups, other_parts, strict=True) if has]
         parts, setups = zip(*kept, strict=True)
         return JointCost(parts, setups, self.delays)
 

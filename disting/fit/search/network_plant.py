@@ -93,14 +93,14 @@ class NetworkPlant:
     def _matrix(self, p: Real) -> Complex:
         """P, shape (..., n_f, n, n)."""
         size = len(self._plain.nodes)
-        found = np.zeros((*p.shape[:-1], self.omega.size, size, size), dtype=np.complex128)
+        values = np.zeros((*p.shape[:-1], self.omega.size, size, size), dtype=np.complex128)
         for e, pulls, feels in self._terms:
             value = p[..., self._at[e.value], None] if e.value else np.ones(1)
             term = self._power(e, p) * (1 / value if e.kind.divides else value)
             for i, u in pulls.items():
                 for j, v in feels.items():
-                    found[..., i - 1, j - 1] += term * (self._size(u, p) * self._size(v, p))
-        return found
+                    values[..., i - 1, j - 1] += term * (self._size(u, p) * self._size(v, p))
+        return values
 
     def _seen(self, side: Sized, z: Complex, p: Real) -> Complex:
         """v.x or u.y, shape (..., n_f)."""
@@ -173,10 +173,10 @@ class NetworkPlant:
         return self._vector(self._plain.outputs[0])
 
     def _vector(self, port: Port) -> Complex:
-        found = np.zeros(len(self._plain.nodes), dtype=np.complex128)
+        values = np.zeros(len(self._plain.nodes), dtype=np.complex128)
         for i, x in self._placed(port.ends).items():
-            found[i - 1] = float(x)
-        return found
+            values[i - 1] = float(x)
+        return values
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,13 +217,13 @@ class NetworkPlants:
     @cached_property
     def _parts(self) -> list[tuple[NetworkPlant, NDArray[np.intp]]]:
         """The plant of each response, and where its parameters stand."""
-        found = []
+        pairs = []
         cells = (cell for row in self.network.cells for cell in row)
         for cell, omega in zip(cells, self.omegas, strict=True):
             part = NetworkPlant(cell, omega, self.breadth)
             at = [self.parameters.index(name) for name in part.parameters]
-            found.append((part, np.array(at, dtype=np.intp)))
-        return found
+            pairs.append((part, np.array(at, dtype=np.intp)))
+        return pairs
 
 
 AnyNetworkPlant = NetworkPlant | NetworkPlants

@@ -247,15 +247,15 @@ def _filled(
 ) -> Parameters:
     """A start from masses and springs in their order, the rest at natural sizes."""
     kinds = {kind: [n for n in chain.parameters if n[0] == kind] for kind in "mk"}
-    known = dict(zip(kinds["m"], map(float, masses), strict=True)) | dict(
+    values = dict(zip(kinds["m"], map(float, masses), strict=True)) | dict(
         zip(kinds["k"], map(float, springs), strict=False)
     )
-    return _completed(chain.parameters, known, size)
+    return _completed(chain.parameters, values, size)
 
 
-def _completed(names: Sequence[str], known: Parameters, size: Scale) -> dict[str, float]:
+def _completed(names: Sequence[str], entries: Parameters, size: Scale) -> dict[str, float]:
     """All parameters; dampers beside springs follow the springs."""
-    values = dict(known)
+    values = dict(entries)
     for name in names:
         if name not in values:
             values[name] = size.of(name, values["k" + name[1:]] if name[0] == "d" else size.mass)

@@ -62,15 +62,15 @@ def network_of(
         raise InputError(f"notations are {listed(NOTATIONS)}, not {shown(notation)}")
     if len(text) > LONGEST:
         raise InputError(f"a network is written in {LONGEST} characters at most; use a file")
-    found = [notation] if notation else notations_of(text)
-    if not found:
+    texts = [notation] if notation else notations_of(text)
+    if not texts:
         raise InputError(
             f"{shown(text)} is no network: write a circuit as R0-p(R1,C1), a machine as 1=2=3; F1;"
             " S3, or compartments as 1>2, 2>0; in 1; out 2"
         )
     lines = filter(None, map(str.strip, text.split("\n")))
-    called = name or ("; " if found == ["spice"] else " ").join(lines)
-    read = {what: _read(text, what, called, as_sensor(quantity)) for what in found}
+    called = name or ("; " if texts == ["spice"] else " ").join(lines)
+    read = {what: _read(text, what, called, as_sensor(quantity)) for what in texts}
     good = {what: made for what, made in read.items() if isinstance(made, Network)}
     if len(set(good.values())) > 1:
         raise InputError(

@@ -97,7 +97,7 @@ def _of_lists(text: str, name: str) -> Network:
         raise InputError(LISTS) from None
     if not isinstance(lists, list) or not all(map(_is_list_of_numbers, lists)):
         raise InputError(LISTS)
-    flows = [(i, j) for i, there in enumerate(lists, 1) for j in there]
+    flows = [(i, j) for i, other_value in enumerate(lists, 1) for j in other_value]
     flows += [(i, 0) for i in sides.get("leaks", [])]
     named = {j for _, j in flows}.union(*sides.values())
     if max(named, default=0) > len(lists):
@@ -107,5 +107,5 @@ def _of_lists(text: str, name: str) -> Network:
     return of_flows(flows, sides.get("inputs", []), sides.get("outputs", []), name)
 
 
-def _is_list_of_numbers(given: object) -> bool:
-    return isinstance(given, list) and all(isinstance(i, int) for i in given)
+def _is_list_of_numbers(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(i, int) for i in value)

@@ -82,9 +82,9 @@ def _is_read_back(entry: Entry, network: Network) -> bool:
 def _notation(key: str, notation: str) -> str:
     if key == "machine":
         return "machine"
-    known = (*DIALECTS, "spice") if key == "circuit" else NOTATIONS
-    if notation and notation not in known:
-        raise InputError(f'"notation" is one of {listed(known)}, not {shown(notation)}')
+    names = (*DIALECTS, "spice") if key == "circuit" else NOTATIONS
+    if notation and notation not in names:
+        raise InputError(f'"notation" is one of {listed(names)}, not {shown(notation)}')
     return notation
 
 
@@ -99,8 +99,8 @@ def _of_flows(entry: Entry, name: str) -> Network:
         pairs.append((_node(flow[0]), _node(flow[1])))
     ports = []
     for key in ("input", "output"):
-        given = entry.get(key, [])
-        ports.append([_node(i) for i in (given if isinstance(given, list) else [given])])
+        value = entry.get(key, [])
+        ports.append([_node(i) for i in (value if isinstance(value, list) else [value])])
     return of_flows(pairs, ports[0], ports[1], name)
 
 
@@ -118,13 +118,17 @@ def _of_elements(entry: Entry, name: str, quantity: Sensor) -> Network:
     return Network(elements, sides[0], sides[1], quantity.order if machine else 0, name)
 
 
-def _element(given: object) -> Element:
-    if not isinstance(given, list) or len(given) < 2 or not isinstance(given[0], str):
+def _element(source_value: object) -> Element:
+    if (
+        not isinstance(source_value, list)
+        or len(source_value) < 2
+        or not isinstance(source_value[0], str)
+    ):
         raise InputError(
             'an element is a list of a name and its nodes, such as ["k12", 1, 2], not'
-            f" {shown(given)}"
+            f" {shown(source_value)}"
         )
-    name, *rest = given
+    name, *rest = source_value
     kind = KINDS["v"] if name == "v" else kind_of(name)
     more = rest.pop() if len(rest) > kind.ends else ""
     phase = kind.letter == "P"
@@ -140,10 +144,10 @@ def _element(given: object) -> Element:
     return Element(value, kind.letter, places, more)
 
 
-def _ports(given: object) -> tuple[Port, ...]:
-    if not isinstance(given, list):
-        given = [given]
-    each = given if any(isinstance(p, list) for p in given) else [given] if given else []
+def _ports(value: object) -> tuple[Port, ...]:
+    if not isinstance(value, list):
+        value = [value]
+    each = value if any(isinstance(p, list) for p in value) else [value] if value else []
     ports = []
     for port in each:
         ends = port if isinstance(port, list) else [port]
@@ -153,9 +157,9 @@ def _ports(given: object) -> tuple[Port, ...]:
     return tuple(ports)
 
 
-def _node(given: object) -> int:
+def _node(value: object) -> int:
     """A number as JSON has it, or as the text of one."""
-    text = str(given)
-    if isinstance(given, bool) or not text.isascii() or not text.isdecimal() or len(text) > 4:
-        raise InputError(f"nodes are whole numbers, 0 for the ground, not {shown(given)}")
+    text = str(value)
+    if isinstance(value, bool) or not text.isascii() or not text.isdecimal() or len(text) > 4:
+        raise InputError(f"nodes are whole numbers, 0 for the ground, not {shown(value)}")
     return int(text)

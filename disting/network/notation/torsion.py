@@ -112,8 +112,8 @@ def drive_train(data: Entry, name: str) -> DriveTrain:
 
 def _read(component: Any, built: _Places) -> None:
     """Add the elements of a component, one behind the other."""
-    given = of_type(component, dict, "a component is an object with a name and elements")
-    name, elements = given.get("name"), given.get("elements")
+    value = of_type(component, dict, "a component is an object with a name and elements")
+    name, elements = value.get("name"), value.get("elements")
     place, before = built.new(), list[_Part]()
     for at, entry in enumerate(of_type(elements, list, '"elements" is a list'), 1):
         called = f"{name}.{entry.get('name', at)}" if isinstance(entry, dict) else f"{name}.{at}"
@@ -180,20 +180,20 @@ def _factors(nodes: Mapping[int, int], built: _Places, wanted: Sequence[int]) ->
         a, b, ratio = nodes[parent.start], nodes[child.start], -_size(parent) / _size(child)
         near[a].append((b, ratio))
         near[b].append((a, 1 / ratio))
-    found = dict[int, Factor]()
+    entries = dict[int, Factor]()
     for root in (*wanted, *list(near)):
-        todo = [] if root in found else [(root, Fraction(1))]
+        todo = [] if root in entries else [(root, Fraction(1))]
         while todo:
             at, f = todo.pop()
-            if found.setdefault(at, (root, f)) != (root, f):
+            if entries.setdefault(at, (root, f)) != (root, f):
                 raise InputError("gears that mesh in a ring do not turn: open the ring")
             todo += [(other, f * ratio) for other, ratio in near.pop(at, ())]
-    if any(abs(found[node][1]) != 1 for node in wanted):
+    if any(abs(entries[node][1]) != 1 for node in wanted):
         raise InputError(
             "force and sensor are at two gears that mesh, so that one moves as the other one: name"
             " one of them for both"
         )
-    return found
+    return entries
 
 
 def _senses(
@@ -209,15 +209,15 @@ def _senses(
         if a != b:
             near[a].append((b, turned))
             near[b].append((a, turned))
-    found = dict[int, int]()
+    entries = dict[int, int]()
     for first in list(near):
-        todo = [] if first in found else [(first, 1)]
+        todo = [] if first in entries else [(first, 1)]
         while todo:
             at, sense = todo.pop()
-            if found.setdefault(at, sense) != sense:
+            if entries.setdefault(at, sense) != sense:
                 raise InputError("shafts and gears close a ring that cannot turn: open the ring")
             todo += [(other, sense * turned) for other, turned in near.pop(at, ())]
-    return found
+    return entries
 
 
 def _size(gear: _Part) -> Fraction:
@@ -229,17 +229,17 @@ def _size(gear: _Part) -> Fraction:
 
 def _number(part: _Part, key: str, *, positive: bool = False) -> Fraction:
     """A size as it is written; 0 where it is missing."""
-    given = part.given.get(key, 0)
+    value = part.given.get(key, 0)
     try:
-        size = -1.0 if isinstance(given, bool) else float(given)
+        size = -1.0 if isinstance(value, bool) else float(value)
     except (TypeError, ValueError):
         size = -1.0
     # of longer texts and farther powers the fraction would have too many digits
-    is_number = size == 0 or (1 / LARGEST < size < LARGEST and len(str(given)) <= LONGEST)
+    is_number = size == 0 or (1 / LARGEST < size < LARGEST and len(str(value)) <= LONGEST)
     if not is_number or (positive and not size):
         wanted = "a positive number" if positive else "a number, zero or positive"
-        raise InputError(f"{key} of {part.given['called']} is {wanted}, not {shown(given)}")
-    return Fraction(str(given)) if size else Fraction(0)
+        raise InputError(f"{key} of {part.given['called']} is {wanted}, not {shown(value)}")
+    return Fraction(str(value)) if size else Fraction(0)
 
 
 def _sizes(

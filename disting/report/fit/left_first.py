@@ -39,8 +39,8 @@ def again(lead: Onward) -> str:
     if best is not None:
         kind, size = best.item.kind, ":SIZE" if best.item.kind.takes_size else ""
         what = f"{kind.name}={best.item.at}{size}"
-    given = f"--left {shlex.quote(lead.source)} --experiment NEW:{what}"
-    return f"{lead.named.command} {given}"
+    text = f"--left {shlex.quote(lead.source)} --experiment NEW:{what}"
+    return f"{lead.named.command} {text}"
 
 
 def first_sentence(lead: Onward) -> str:
@@ -95,18 +95,18 @@ def _alone(named: Named, source: str) -> Iterator[str]:
 
 def _worst(errors: Mapping[str, float]) -> str:
     """The parameter that is known worst: its error falls with the root of the periods."""
-    name = max(errors, key=lambda one: errors[one])
+    name = max(errors, key=lambda text: errors[text])
     error = errors[name]
     if not error <= UNDETERMINED:
         return (
             f"the data do not determine {name}: another sensor, another place of the force or a"
             " wider band may help"
         )
-    known = f"{name} has the largest error, ± {percent(error)} (one standard error)"
+    own_name = f"{name} has the largest error, ± {percent(error)} (one standard error)"
     if error <= KNOWN:
-        return known
+        return own_name
     return (
-        f"{known}: {readable((error / KNOWN) ** 2)} times as many periods, or lines in the same"
+        f"{own_name}: {readable((error / KNOWN) ** 2)} times as many periods, or lines in the same"
         f" range, reduce it to ± {percent(KNOWN)} as far as noise is the cause"
     )
 

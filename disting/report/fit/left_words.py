@@ -64,8 +64,8 @@ class Onward:
         for group in self.groups:
             names = [self.left[k].name for k in (a, b)]
             if set(names) <= set(group.names):
-                here, there = map(group.names.index, names)
-                return group.answer(here, item, there) is Answer.SURELY
+                own_place, other_place = map(group.names.index, names)
+                return group.answer(own_place, item, other_place) is Answer.SURELY
         return self.stood.standing(a, b) is not Standing.EQUAL
 
 
@@ -146,11 +146,11 @@ def left_rows(lead: Onward) -> Iterator[tuple[str, ...]]:
     index = {own_survivor.name: k for k, own_survivor in enumerate(lead.left)}
     for row in (*(r for group in lead.groups for r in rows(group)), *_apart(lead)):
         plain = dict(zip(CSV_COLUMNS, row, strict=True))
-        here = index[plain["left"]], int(plain["at_left"])
-        there = index[plain["right"]], int(plain["at_right"])
+        own_spot = index[plain["left"]], int(plain["at_left"])
+        other_spot = index[plain["right"]], int(plain["at_right"])
         kind = next(k for k in lead.costs.cheapest_first if k.name == plain["experiment"])
-        step = lead.seen.at(kind, here, there) if lead.seen else None
-        yield (*row, *_numbers(lead, here[0], there[0], step))
+        step = lead.seen.at(kind, own_spot, other_spot) if lead.seen else None
+        yield (*row, *_numbers(lead, own_spot[0], other_spot[0], step))
 
 
 def left_to_dict(lead: Onward) -> dict[str, Any]:
@@ -296,5 +296,5 @@ def _numbers(lead: Onward, a: int, b: int, step: Step | None) -> tuple[str, ...]
 def _measures(seen: Foretold, a: int, b: int, step: Step) -> dict[str, float | None]:
     """Numbers by MEASURED_COLUMNS; None but for the power where only one of the two moves."""
     sizes = step.largest, step.frequency, step.noncentrality
-    told = [None] * 3 if step.is_motion else sizes
-    return dict(zip(MEASURED_COLUMNS, (*told, seen.power(a, b, step)), strict=True))
+    own_rows = [None] * 3 if step.is_motion else sizes
+    return dict(zip(MEASURED_COLUMNS, (*own_rows, seen.power(a, b, step)), strict=True))

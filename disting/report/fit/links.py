@@ -55,8 +55,8 @@ class Site:
     @property
     def home(self) -> str | None:
         """What the addresses of its pages begin with; None where it has no guide."""
-        there = (self.root / "guide" / "index.html").is_file()
-        return f"{self._way(self.root.resolve())}/" if there else None
+        is_there = (self.root / "guide" / "index.html").is_file()
+        return f"{self._way(self.root.resolve())}/" if is_there else None
 
     def _link(self, name: str, file: str, fragment: str) -> Link:
         return Link(name, self._way((self.root / file).resolve()) + fragment)
@@ -128,8 +128,8 @@ def commands(selection: Selection) -> tuple[str, ...]:
     chain, fitted = _without_zeros(first.chain, first.estimate.parameters)
     form, damped = as_listed(chain), damping_option(chain.damped)
     values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in fitted.items())
-    there = f'--to "{chain.n_masses}+b*" --set {values}'
-    return (*steps, f"disting equivalents {reference(chain)} {damped} {there}")
+    name = f'--to "{chain.n_masses}+b*" --set {values}'
+    return (*steps, f"disting equivalents {reference(chain)} {damped} {name}")
 
 
 def _without_zeros(chain: Chain, values: Mapping[str, float]) -> tuple[Chain, dict[str, float]]:

@@ -147,10 +147,10 @@ def _words(model: AnyStructure) -> tuple[str, str]:
 
 
 def _doubt(rival: Rival) -> str:
-    found = "" if rival.recovered else ", and the search did not find the model's own values again"
+    text = "" if rival.recovered else ", and the search did not find the model's own values again"
     return (
         f"Doubtful: {rival.best.reached} of {len(rival.best.costs)} starting points led to the"
-        f" rival's best fit{found}; a better fit may exist, and then the power is lower"
+        f" rival's best fit{text}; a better fit may exist, and then the power is lower"
     )
 
 

@@ -151,12 +151,12 @@ def bands_in_words(
     sure = confidence(candidate, task, omega, at)
     own = series_of(candidate, task, train, test, at)
     bars = [_bars(s) for s in own if s.has_bars]
-    told = {s.label: s.scatter.source for s in own if s.has_bars}
+    texts = {s.label: s.scatter.source for s in own if s.has_bars}
     said = [
         f"Scatter of the {m.series.label}: {_interval(m.series.scatter.typical)} (95 %), from"
         f" {m.series.scatter.source}."
         for m in misses
-        if told.get(m.series.label) != m.series.scatter.source
+        if texts.get(m.series.label) != m.series.scatter.source
     ]
     under = [beneath_in_words(s) for s in own if s.measured.distortion is not None]
     return [*bars, _model_band(sure, omega), *under[:1]], [*said, _outside(misses)]

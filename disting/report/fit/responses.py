@@ -92,11 +92,11 @@ def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]
     cost = selection.task.cost
     if len(cost.parts) == 1:
         return []
-    found = []
+    pairs = []
     for at, (setup, part) in enumerate(zip(cost.setups, cost.parts, strict=True)):
         size = fit_percent(candidate, selection.task, part.measured, at)
-        found.append((setup.text, f"{size:.4g} %" if isfinite(size) else "–"))
-    return found
+        pairs.append((setup.text, f"{size:.4g} %" if isfinite(size) else "–"))
+    return pairs
 
 
 def seen_together(chain: Chain, selection: Selection) -> Scene:

@@ -90,7 +90,9 @@ def _joint_to_dict(selection: Selection) -> dict[str, Any]:
             for at, (part, setup, residual) in enumerate(rows)
         ],
         "nothing_learned": list(selection.silent),
-        "places": [{"name": name, "measured": there} for name, there in places(selection)],
+        "places": [
+            {"name": name, "measured": other_name} for name, other_name in places(selection)
+        ],
     }
 
 

@@ -92,12 +92,12 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
     names = candidate.practical.names
     if not 2 <= len(names) <= MOST:
         return None
-    found = [
+    pairs = [
         (chosen, min(index, INFINITE))
         for chosen, index in collinearity_by_subset(_triangle(candidate, task))
     ]
-    indices = np.array([index for _, index in found])
-    pair, worst = max((row for row in found if len(row[0]) == 2), key=lambda row: row[1])
+    indices = np.array([index for _, index in pairs])
+    pair, worst = max((row for row in pairs if len(row[0]) == 2), key=lambda row: row[1])
     both = " and ".join(names[i] for i in pair)
     values = (
         f"{_index(indices[-1])} for all {len(names)}, {_index(worst)} for the worst pair, {both}"
@@ -107,7 +107,7 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
     def draw(figure: "Figure") -> None:
         """Dots by their size, with what is allowed."""
         panel = figure.subplots()
-        _dots(panel, np.array([len(chosen) for chosen, _ in found]), indices)
+        _dots(panel, np.array([len(chosen) for chosen, _ in pairs]), indices)
         limit = thresholds.collinearity
         panel.axhline(
             limit,

@@ -78,8 +78,8 @@ def learned(selection: Selection) -> tuple[str, ...]:
 def which_mass(selection: Selection) -> tuple[str, ...]:
     """Where further responses are in structures that have other places, in sentences."""
     return tuple(
-        f"in {name} this is {there}: of all its masses these fit best"
-        for name, there in places(selection)
+        f"in {name} this is {other_name}: of all its masses these fit best"
+        for name, other_name in places(selection)
     )
 
 

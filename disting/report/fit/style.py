@@ -287,8 +287,8 @@ def _with_own_ids(text: str, name: str) -> str:
 
 def _with_common_style(group: re.Match[str]) -> str:
     """Markers of one style with this style at their group: a measurement has hundreds of them."""
-    found = set(re.findall(r' style="[^"]*"', group[2]))
-    if len(found) != 1 or "style=" in group[1]:
+    members = set(re.findall(r' style="[^"]*"', group[2]))
+    if len(members) != 1 or "style=" in group[1]:
         return group[0]
-    (style,) = found
+    (style,) = members
     return f"<g{group[1]}{style}>{group[2].replace(style, '')}</g>"

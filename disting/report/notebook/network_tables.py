@@ -14,10 +14,10 @@ from disting.verdict.model_equivalents import ModelEquivalent
 @table_of.register
 def _gate(shown: Gate) -> str:
     groups = [(group[0], ", ".join(group[1:])) for group in shown.groups]
-    known = [(name, identifiability.sentence) for name, identifiability in shown.parameters.items()]
+    rows = [(name, identifiability.sentence) for name, identifiability in shown.parameters.items()]
     return block(
-        line(f"{plural(len(known), 'model')} to be fitted", bold=True),
-        table(["model", "what data determine"], known[:LONGEST]),
+        line(f"{plural(len(rows), 'model')} to be fitted", bold=True),
+        table(["model", "what data determine"], rows[:LONGEST]),
         table(["kept", "the same"], groups[:LONGEST]) if groups else "",
     )
 
@@ -36,7 +36,7 @@ def _equivalent(shown: ModelEquivalent) -> str:
     _, sets = shown.sets
     return block(
         line(shown.verdict.sentence, bold=True),
-        *(facts((name, str(value)) for name, value in one.items()) for _, one in sets),
+        *(facts((name, str(value)) for name, value in entries.items()) for _, entries in sets),
     )
 
 

@@ -105,10 +105,10 @@ def _panels(ax: Any) -> "tuple[Axes, ...]":
     if ax is None:
         figure = _pyplot().figure(figsize=(7, 5), layout="constrained")
         return tuple(figure.subplots(2, 1, sharex=True, height_ratios=[3, 2]))
-    given = tuple(np.ravel(np.asarray(ax, dtype=object)))
-    if len(given) not in (1, 2):
-        raise DistingError(f"a Bode diagram has one or two axes, not {len(given)}")
-    return given
+    parts = tuple(np.ravel(np.asarray(ax, dtype=object)))
+    if len(parts) not in (1, 2):
+        raise DistingError(f"a Bode diagram has one or two axes, not {len(parts)}")
+    return parts
 
 
 def _pyplot() -> Any:

@@ -124,11 +124,11 @@ def _identifiability(shown: Identifiability) -> str:
         (p, "determinable" if p in alone else "not by itself", alone.get(p, ""))
         for p in shown.parameters
     )
-    known = ", ".join(shown.combinations)
+    own_name = ", ".join(shown.combinations)
     return block(
         line(shown.sentence, bold=True),
         table(["parameter", "from the response", "one value only"], rows),
-        line(f"{plural(shown.rank, 'independent combination')}: {known}."),
+        line(f"{plural(shown.rank, 'independent combination')}: {own_name}."),
     )
 
 
@@ -165,8 +165,8 @@ def _response(shown: FrequencyResponse) -> str:
 
 
 def _noise(shown: FrequencyResponse) -> str:
-    known = [("standard deviations", shown.deviation), ("coherence", shown.coherence)]
-    return ", ".join(what for what, values in known if values is not None) or "nothing"
+    rows = [("standard deviations", shown.deviation), ("coherence", shown.coherence)]
+    return ", ".join(what for what, values in rows if values is not None) or "nothing"
 
 
 @table_of.register

@@ -188,8 +188,8 @@ def paper_page(findings: Findings, pictures: Sequence[Picture], beside: Containe
 
 def figure_of(place: str, pictures: Sequence[Picture]) -> str:
     """Name of the picture of which a claim's place speaks, "" where there is none."""
-    found = (p.name for p in pictures if re.search(rf"{re.escape(p.printed)}(?!\d)", place))
-    return next(found, "")
+    items = (p.name for p in pictures if re.search(rf"{re.escape(p.printed)}(?!\d)", place))
+    return next(items, "")
 
 
 def model_rows(findings: Findings) -> list[tuple[ModelRow, int]]:

@@ -136,8 +136,8 @@ def _members(node: ast.stmt, place: Place, bases: Sequence[str]) -> Iterator[Ent
         if ast.get_docstring(node) and (special or not node.name.startswith("_")):
             yield _function(node.name, place, node, within=True)
     elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-        given = "ClassVar" not in ast.unparse(node.annotation) and not _is_derived(node.value)
-        if given and not node.target.id.startswith("_"):
+        is_given = "ClassVar" not in ast.unparse(node.annotation) and not _is_derived(node.value)
+        if is_given and not node.target.id.startswith("_"):
             yield _value(node.target.id, Kind.FIELD, place, node, "")
     elif isinstance(node, ast.Assign) and ENUMS.intersection(bases):
         yield from (
