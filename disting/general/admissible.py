@@ -106,6 +106,9 @@ def of_ways(
         )
         if found:
             return _sometimes(found)
+        by_signs = _by_inequalities(left, right)
+        if by_signs is not None:
+            return by_signs
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
