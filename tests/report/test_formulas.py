@@ -79,7 +79,10 @@ def test_a_minus_before_a_sum_leaves_its_brackets() -> None:
     a, b = variables(["a", "b"]).values()
     inside = '<mrow><mo stretchy="false">(</mo><mi>a</mi><mo>−</mo><mi>b</mi><mo stretchy="false">)</mo></mrow>'
     assert expression(b - a) == f"<mo>−</mo>{inside}"
-    assert expression((b - a) / b) == f"<mfrac><mrow><mo>−</mo>{inside}</mrow><mrow><mi>b</mi></mrow></mfrac>"
+    assert (
+        expression((b - a) / b)
+        == f"<mfrac><mrow><mo>−</mo>{inside}</mrow><mrow><mi>b</mi></mrow></mfrac>"
+    )
     assert expression(a - b) == "<mi>a</mi><mo>−</mo><mi>b</mi>"
 
 
