@@ -183,7 +183,7 @@ def _typed(text: str) -> str:
         return f"<mi>{text.replace('infinity', '∞')}</mi>"
     if root := ROOT.fullmatch(text):
         first, inside, below = map(_typed, root.groups())
-        return f"<mfrac><mrow>{first}<mo>+</mo><msqrt>{inside}</msqrt></mrow>{below}</mfrac>"
+        return fraction(f"{first}<mo>+</mo><msqrt>{inside}</msqrt>", below)
     found = tree(text)
     ring = symbols(sorted({*symbols_of(found)}) or ["s"])
     return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(found))

@@ -99,7 +99,7 @@ def factorised(polynomial: Polynomial) -> list[str]:
     """The factors of a polynomial, the number and single symbols as one, sums in parentheses."""
     content, found = factors(polynomial)
     number = f"<mn>{abs(content)}</mn>" if abs(content) != 1 or not found else ""
-    alone = not number and len(found) == 1
+    alone = not number and content > 0 and len(found) == 1
     single = "".join(_factor(p, e, alone) for p, e in found if len(p) == 1)
     sums = [_factor(p, e, alone) for p, e in found if len(p) > 1]
     head = ("<mo>−</mo>" if content < 0 else "") + number + single
