@@ -45,7 +45,7 @@ def build(
     """
     family = Family(n_masses, damped)
     subjects = [engine.subject(f"A{number}", chain) for number, chain in enumerate(family, 1)]
-    found = {
+    decisions = {
         part: engine.decisions(subjects, Query(view), executor=executor, progress=progress)
         for part, view in PARTS.items()
     }
@@ -60,11 +60,12 @@ def build(
         "conditions": "1-9",
         "settings": engine.settings.to_dict(),
     }
-    known = engine.identifiabilities(list(family), executor=executor, progress=progress)
+    identifiabilities = engine.identifiabilities(list(family), executor=executor, progress=progress)
     models = (
-        _model(number, s, i) for number, (s, i) in enumerate(zip(subjects, known, strict=True), 1)
+        _model(number, s, i)
+        for number, (s, i) in enumerate(zip(subjects, identifiabilities, strict=True), 1)
     )
-    records = [header, *models, *_pairs(found)]
+    records = [header, *models, *_pairs(decisions)]
     return Catalog.from_records(records)
 
 
@@ -92,19 +93,19 @@ def _model(number: int, subject: ComparedChain, identifiability: Identifiability
     }
 
 
-def _pairs(found: dict[str, Decisions]) -> Iterator[Record]:
-    size = len(found["tf"].subjects)
+def _pairs(decisions: dict[str, Decisions]) -> Iterator[Record]:
+    size = len(decisions["tf"].subjects)
     for i in range(size):
         for j in range(i + 1, size):
-            both = found[Stage.FIBRE].inclusions.get((i, j))
+            both = decisions[Stage.FIBRE].inclusions.get((i, j))
             told = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
             yield (
                 {"left": i + 1, "right": j + 1}
                 | told
-                | _shares(found[Stage.FIBRE], i, j)
+                | _shares(decisions[Stage.FIBRE], i, j)
                 | {
                     part: step(decided, i, j)
-                    for part, decided in found.items()
+                    for part, decided in decisions.items()
                     if decided.relation(i, j) is not Relation.UNDECIDED
                     and (part in ("tf", "markov") or _only_by(part, decided, i, j))
                 }

@@ -178,10 +178,10 @@ def shipped() -> Matrix:
     return read(shipped_folder())
 
 
-def write(found: Matrix, folder: Path) -> Path:
+def write(the_matrix: Matrix, folder: Path) -> Path:
     """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    path = write_whole(folder / FILE, [found.text()])
+    path = write_whole(folder / FILE, [the_matrix.text()])
     write_provenance(folder)
     return path
 

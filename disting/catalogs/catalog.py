@@ -160,8 +160,8 @@ class Catalog(Shown):
         """Number of pairs by deciding condition, "exact" for the exact decision, "" for the
         undecided ones.
         """
-        found = Counter(verdict.decided_by for *_, verdict in self.pairs(view))
-        return {name: found[name] for name in ("", *RULES) if found[name] or not name}
+        counter = Counter(verdict.decided_by for *_, verdict in self.pairs(view))
+        return {name: counter[name] for name in ("", *RULES) if counter[name] or not name}
 
     def matrix(self, view: View = View.POSITIVE) -> "pd.DataFrame":
         """Symmetric matrix of the relations' names, models 1..n as index and columns; "" on the
@@ -238,8 +238,8 @@ class Catalog(Shown):
         return combinations(range(1, 1 + len(self.family)), 2)
 
     def _verdicts(self, low: int, high: int) -> dict[View, Verdict]:
-        found: dict[View, Verdict] = self._once((low, high), partial(self._read, low, high))
-        return found
+        verdicts: dict[View, Verdict] = self._once((low, high), partial(self._read, low, high))
+        return verdicts
 
     def _read(self, low: int, high: int) -> dict[View, Verdict]:
         """The verdicts of all views: who asks for one asks for others, and to read the record is

@@ -134,7 +134,7 @@ def damper_family(
     """
     family, sets = Family(n_masses, damped), which.of(n_masses)
     chains = [replace(chain, ground_dampers=masses) for chain in family for masses in sets]
-    found = classes(
+    the_classes = classes(
         chains,
         engine or Engine(),
         settled=read_settled((canonical(chain).chain for chain in chains), folder),
@@ -142,7 +142,7 @@ def damper_family(
         executor=executor,
         progress=progress,
     )
-    return DamperFamily(family, sets, found)
+    return DamperFamily(family, sets, the_classes)
 
 
 def damper_name(n_masses: int, damped: bool) -> str:
@@ -161,11 +161,11 @@ def damper_catalog(n_masses: int, *, damped: bool = True) -> DamperFamily:
     return read(shipped_folder(), n_masses, damped)
 
 
-def text_of(found: DamperFamily, settings: Settings) -> str:
+def text_of(the_family: DamperFamily, settings: Settings) -> str:
     """The file's text, naming the command that found it; the bytes do not depend on the machine
     or the order of the work.
     """
-    family, classes, size = found.family, found.found, len(found.sets)
+    family, classes, size = the_family.family, the_family.found, len(the_family.sets)
     header: Record = {
         "schema": SCHEMA,
         "catalog": damper_name(family.n_masses, family.damped),
@@ -180,9 +180,9 @@ def text_of(found: DamperFamily, settings: Settings) -> str:
     header |= {"undecided": sorted(map(list, classes.open_groups))}
     records = [header]
     for number in range(1, len(family) + 1):
-        here = slice((number - 1) * size, number * size)
-        rows = [[None if x < 0 else int(x) for x in row] for row in classes.columns[here]]
-        lists = {name: getattr(classes, name)[here].tolist() for name in COLUMNS}
+        own_slice = slice((number - 1) * size, number * size)
+        rows = [[None if x < 0 else int(x) for x in row] for row in classes.columns[own_slice]]
+        lists = {name: getattr(classes, name)[own_slice].tolist() for name in COLUMNS}
         records.append({"model": number, "columns": rows, **lists})
     return lines(records)
 
@@ -204,11 +204,11 @@ def read(folder: Path, n_masses: int, damped: bool) -> DamperFamily:
         raise CatalogError(f"{path} cannot be read ({reason}); {remedy}") from None
 
 
-def write(found: DamperFamily, settings: Settings, folder: Path) -> Path:
+def write(family: DamperFamily, settings: Settings, folder: Path) -> Path:
     """Write the file; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    name = damper_name(found.family.n_masses, found.family.damped)
-    path = write_whole(folder / f"{name}.jsonl", [text_of(found, settings)])
+    name = damper_name(family.family.n_masses, family.family.damped)
+    path = write_whole(folder / f"{name}.jsonl", [text_of(family, settings)])
     write_provenance(folder)
     return path
 

@@ -71,9 +71,9 @@ def premise_text(left: Premise | None, right: Premise | None) -> tuple[str, str]
     return damped, quantity
 
 
-def share_text(found: PositiveFinding | None) -> str:
+def share_text(finding: PositiveFinding | None) -> str:
     """Text of a column: always, sometimes, never, unknown, or "" where it is not asked."""
-    return "" if found is None else found.share.value
+    return "" if finding is None else finding.share.value
 
 
 def cell(name: int | str) -> int | str:

@@ -51,15 +51,15 @@ Record = dict[str, Any]
 def read_settled(canonical_chains: Iterable[Chain], folder: Path | None = None) -> Settled:
     """What is settled of these canonical chains: in the shipped file, and in the folder's own."""
     named = {str(chain): chain for chain in canonical_chains}
-    found = Settled()
+    findings = Settled()
     folders = dict.fromkeys(where.resolve() for where in (shipped_folder(), folder) if where)
     for path in (where / SETTLED for where in folders):
         for text in intact_text(path).splitlines() if path.is_file() else ():
             record = json.loads(text)
             if record["left"] in named and record["right"] in named:
                 pair = named[record["left"]], named[record["right"]]
-                found[pair] = Finding.from_json(json.dumps(record["finding"]))
-    return found
+                findings[pair] = Finding.from_json(json.dumps(record["finding"]))
+    return findings
 
 
 def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:

@@ -113,11 +113,11 @@ class NextCatalog:
             return None
         if at not in self._read:
             self._read[at] = _further(self, self.records[at])
-        group, found = self.groups[at - 1], self._read[at]
+        group, advice = self.groups[at - 1], self._read[at]
         if tuple(numbers) != group:
-            found = found.only([group.index(m) for m in numbers])
+            advice = advice.only([group.index(m) for m in numbers])
         asked = costs.kinds(self.family.n_masses)
-        return replace(found, costs=costs) if found.tables.keys() >= set(asked) else None
+        return replace(advice, costs=costs) if advice.tables.keys() >= set(asked) else None
 
 
 @cache
@@ -155,8 +155,8 @@ def build_next(
     records = [header]
     for done, members in enumerate(groups, 1):
         named = [empty.named(m) for m in members]
-        found = further(named, engine, executor=executor, progress=progress)
-        tables = {k.name: _plain(t) for k, t in found.tables.items() if isinstance(t, Placement)}
+        advice = further(named, engine, executor=executor, progress=progress)
+        tables = {k.name: _plain(t) for k, t in advice.tables.items() if isinstance(t, Placement)}
         records.append({"group": list(members), **tables})
         progress("groups", done, len(groups))
     return lines(records)
@@ -263,7 +263,7 @@ def _placed(
     ValueError for what is none.
     """
     rows = [dict(zip(tests, map(int, row), strict=True)) for row in plain["columns"]]
-    found = Placement(
+    placement = Placement(
         kind,
         n_masses,
         tuple(LETTERS[letter] for letter in plain["gains"]),
@@ -273,7 +273,7 @@ def _placed(
         frozenset((int(a), int(b)) for a, b in plain["open"]),
         int(plain["safety"]),
     )
-    lists = (found.gains, found.columns, found.classes, found.links)
+    lists = (placement.gains, placement.columns, placement.classes, placement.links)
     if {len(each) for each in lists} != {n_masses * structures}:
         raise ValueError("masses are missing")
-    return found
+    return placement

@@ -50,15 +50,15 @@ class StoredPair:
                 premises=premises,
                 **relations,
             )
-        found = step.finding
+        finding = step.finding
         return Verdict(
             *names,
             step.relation,
-            found.rule.name,
+            finding.rule.name,
             step.representation,
-            found.certainty,
-            found.safety,
-            found.evidence,
+            finding.certainty,
+            finding.safety,
+            finding.evidence,
             view.domain,
             premises=premises,
             **relations,
@@ -99,10 +99,10 @@ class StoredPair:
         if INCLUSIONS in self.record:
             both = _inclusions(repr(self.record[INCLUSIONS]))
             image, closure = both.image.inclusion, both.closure.inclusion
-        here, there = self._shares
+        own_finding, other_finding = self._shares
         return {
-            "left_positive": here,
-            "right_positive": there,
+            "left_positive": own_finding,
+            "right_positive": other_finding,
             "image": image,
             "closure": closure,
             "inclusions": both,
@@ -119,10 +119,10 @@ class StoredPair:
         """What the shares of both sides give, if they are asked for: of models that are
         indistinguishable over complex parameters.
         """
-        here, there = self._shares
-        if here is None or there is None:
+        own_finding, other_finding = self._shares
+        if own_finding is None or other_finding is None:
             return None
-        return Step(Stage.PARAMETERS, _positive_ways(here, there))
+        return Step(Stage.PARAMETERS, _positive_ways(own_finding, other_finding))
 
     def _notes(self, view: View) -> tuple[str, ...]:
         """Why a pair is undecided."""
@@ -141,8 +141,8 @@ def _step(stage: Stage, text: str) -> Step:
     proves = {relation: outcome for outcome, relation in PROVES[rule.role].items()}
     outcome = proves[Relation(plain.get("relation", next(iter(proves))))]
     evidence = evidence_from(plain["evidence"])
-    found = Finding(rule, outcome, Certainty(plain["certainty"]), plain["safety"], evidence)
-    return Step(stage, found)
+    finding = Finding(rule, outcome, Certainty(plain["certainty"]), plain["safety"], evidence)
+    return Step(stage, finding)
 
 
 @lru_cache(DIFFERENT)

@@ -86,8 +86,8 @@ def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
         i, j = record["left"] - 1, record["right"] - 1
         for name, given, other in ((LEFT_POSITIVE, i, j), (RIGHT_POSITIVE, j, i)):
             if name in record:
-                found = PositiveFinding.from_dict(record[name])
-                yield POSITIVELY, (forms[given], forms[other]), found
+                finding = PositiveFinding.from_dict(record[name])
+                yield POSITIVELY, (forms[given], forms[other]), finding
         if INCLUSIONS in record:
             both = inclusions_from_dict(record[INCLUSIONS])
             small, large = (i, j) if ranks[i] < ranks[j] else (j, i)

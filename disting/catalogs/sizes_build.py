@@ -45,7 +45,7 @@ def build_sizes(
         if stored.record(0)["settings"] == engine.settings.to_dict():
             for known in answers_in(stored):
                 engine.remember(*known)
-    found = combined(
+    decisions = combined(
         SHIPPED_SIZES,
         damped=damped,
         query=Query(View.EXACT),
@@ -57,11 +57,11 @@ def build_sizes(
         "schema": SCHEMA,
         "catalog": name_of(damped),
         "sizes": list(SHIPPED_SIZES),
-        "models": len(found.subjects),
+        "models": len(decisions.subjects),
         "command": COMMAND,
         "settings": engine.settings.to_dict(),
     }
-    return lines([header, *_pairs(found)])
+    return lines([header, *_pairs(decisions)])
 
 
 def write(text: str, damped: bool, folder: Path) -> Path:
@@ -119,12 +119,12 @@ def false_evidence(stored: SizesCatalog, progress: Progress = silent) -> Iterato
         progress("evidence", done, len(across))
 
 
-def _pairs(found: Decisions) -> Iterator[Record]:
+def _pairs(decisions: Decisions) -> Iterator[Record]:
     """A record a pair of two sizes."""
-    sizes, names = found.sizes, [s.name for s in found.subjects]
+    sizes, names = decisions.sizes, [s.name for s in decisions.subjects]
     for i, j in combinations(range(len(names)), 2):
         if sizes[i] != sizes[j]:
-            both = found.inclusions.get((i, j))
+            both = decisions.inclusions.get((i, j))
             told = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
-            where = found.verdict(i, j).representation.value
-            yield {"left": names[i], "right": names[j], **told, where: step(found, i, j)}
+            where = decisions.verdict(i, j).representation.value
+            yield {"left": names[i], "right": names[j], **told, where: step(decisions, i, j)}

@@ -93,8 +93,10 @@ class SizesCatalog(Shown):
     def relation(self, left: int, right: int, view: View = View.POSITIVE) -> Relation:
         """Relation of two models, without the verdict: those of two sizes are told apart."""
         low, high = self._pair(left, right, view)
-        (one, i), (other, j) = self._places[low - 1], self._places[high - 1]
-        return one.relation(i, j, view) if one is other else Relation.DISTINGUISHABLE
+        (this_catalog, i), (other, j) = self._places[low - 1], self._places[high - 1]
+        return (
+            this_catalog.relation(i, j, view) if this_catalog is other else Relation.DISTINGUISHABLE
+        )
 
     def pairs(self, view: View = View.POSITIVE) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""
@@ -127,14 +129,14 @@ class SizesCatalog(Shown):
 
     def _read(self, low: int, high: int, view: View) -> Verdict:
         left, right = self.names[low - 1], self.names[high - 1]
-        (one, i), (other, j) = self._places[low - 1], self._places[high - 1]
-        if one is other:
-            return one.verdict(i, j, view)
+        (this_catalog, i), (other, j) = self._places[low - 1], self._places[high - 1]
+        if this_catalog is other:
+            return this_catalog.verdict(i, j, view)
         if view is not View.EXACT:  # what distinguishes over complex parameters does so over all
             return replace(self.verdict(low, high, View.EXACT), domain=view.domain)
         try:
             pair = StoredPair(self.records[self._across[left, right]])
-            return pair.verdict(view, (left, right), (one.premise, other.premise))
+            return pair.verdict(view, (left, right), (this_catalog.premise, other.premise))
         except (KeyError, TypeError, ValueError, AttributeError) as reason:
             raise CatalogError(
                 f"{self.name}, {left} and {right} cannot be read ({reason!r});"
@@ -191,10 +193,10 @@ def sizes_catalog(
         raise CatalogError(f"there is no {path}; make it with '{COMMAND}'") from None
     except (OSError, ValueError, LookupError, TypeError) as reason:
         raise CatalogError(f"{path} cannot be read ({reason}); make it with '{COMMAND}'") from None
-    given = {(c.n_masses, c.damped): c for c in known}
+    catalogs = {(c.n_masses, c.damped): c for c in known}
     return SizesCatalog(
         tuple(
-            given.get((n, damped)) or catalog(n, damped=damped, folder=folder)
+            catalogs.get((n, damped)) or catalog(n, damped=damped, folder=folder)
             for n in SHIPPED_SIZES
         ),
         records,
@@ -204,8 +206,8 @@ def sizes_catalog(
 def pairs_across() -> Iterator[tuple[str, str]]:
     """Names of all pairs of two sizes, the smaller model first, in the order of the file."""
     named = combined_family(SHIPPED_SIZES, damped=False)
-    for (left, one), (right, other) in combinations(named, 2):
-        if one.n_masses != other.n_masses:
+    for (left, chain), (right, other) in combinations(named, 2):
+        if chain.n_masses != other.n_masses:
             yield left, right
 
 

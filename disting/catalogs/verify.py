@@ -65,8 +65,11 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
                     f"{stored.name}, {left}:{right}, {view}: the evidence of condition"
                     f" {v.decided_by} does not hold"
                 )
-        v, (one, other) = stored.verdict(left, right, View.EXACT), (subjects[left], subjects[right])
-        for what in false_of_inclusions(v.inclusions, one, other):
+        v, (side, other) = (
+            stored.verdict(left, right, View.EXACT),
+            (subjects[left], subjects[right]),
+        )
+        for what in false_of_inclusions(v.inclusions, side, other):
             yield f"{stored.name}, {left}:{right}: {what} does not hold"
         yield from _false_shares(stored, subjects, left, right)
         progress("evidence", done, total)
@@ -77,10 +80,10 @@ def _false_shares(
 ) -> Iterator[str]:
     """Of what is known of positive equivalents."""
     v = stored.verdict(left, right, View.EXACT)
-    for found, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
-        if found is None or found.evidence is None:
+    for finding, given, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
+        if finding is None or finding.evidence is None:
             continue
-        if not subjects[given].proves(subjects[other], found):
+        if not subjects[given].proves(subjects[other], finding):
             yield (
                 f"{stored.name}, {given}:{other}: the evidence on positive equivalents does not"
                 " hold"
@@ -138,49 +141,51 @@ def false_settled(
     """
     classes = stored.found
     place = {canonical(chain).chain: i for i, chain in enumerate(classes.chains)}
-    known = read_settled(place, folder)
-    asked = [(found, *pair, settings) for pair, found in known.items()]
-    for done, ((found, *chains, _), is_true) in enumerate(
+    findings = read_settled(place, folder)
+    asked = [(finding, *pair, settings) for pair, finding in findings.items()]
+    for done, ((finding, *chains, _), is_true) in enumerate(
         mapped(finding_holds, asked, executor), 1
     ):
         left, right = (place[chain] for chain in chains)
         pair = stored.pair_text(left, right)
         if not is_true or classes.rank[left] != classes.rank[right]:
             yield f"{pair}: the evidence does not hold"
-        if classes.relation(left, right) is not DECIDES.get(found.outcome):
+        if classes.relation(left, right) is not DECIDES.get(finding.outcome):
             yield f"{pair}: settled, but not in the file"
         progress("settled evidence", done, len(asked))
 
 
 def settle_dampers(
-    found: DamperFamily, folder: Path, settings: Settings, told: Callable[[str], None]
+    family: DamperFamily, folder: Path, settings: Settings, told: Callable[[str], None]
 ) -> int:
     """Ask shares and ideals about a representative of each open pair of classes that nothing
     settled; the number settled. `told` gets a sentence a pair.
     """
-    chains = found.found.chains
-    known, count = read_settled({canonical(chain).chain for chain in chains}, folder), 0
-    for low, high in _open(found, known):
-        one, other = (ComparedChain("", chains[place]) for place in (low, high))
-        first, second = one.in_order(other)
+    chains = family.found.chains
+    findings, count = read_settled({canonical(chain).chain for chain in chains}, folder), 0
+    for low, high in _open(family, findings):
+        side, other = (ComparedChain("", chains[place]) for place in (low, high))
+        first, second = side.in_order(other)
         finding = patient_finding(first, second, settings)
         decided = DECIDES.get(finding.outcome)
-        told(f"{found.pair_text(low, high)}: {decided or finding.note}")
+        told(f"{family.pair_text(low, high)}: {decided or finding.note}")
         if decided:
             append(folder, first, second, finding)
-            known[first, second] = finding
+            findings[first, second] = finding
             count += 1
     return count
 
 
-def _open(found: DamperFamily, known: Mapping[tuple[Chain, Chain], Finding]) -> Iterator[Places]:
+def _open(
+    family: DamperFamily, findings: Mapping[tuple[Chain, Chain], Finding]
+) -> Iterator[Places]:
     """Yield representatives of each pair of classes that is open and does not follow from what is
     known, which may grow meanwhile.
     """
-    classes = found.found
+    classes = family.found
     group = {canonical(c).chain: int(g) for c, g in zip(classes.chains, classes.group, strict=True)}
     for one, other in sorted(classes.open_groups):
-        links = [(group[a], group[b], x.outcome) for (a, b), x in known.items()]
+        links = [(group[a], group[b], x.outcome) for (a, b), x in findings.items()]
         same = Forest.of(1 + max(group.values()))
         for a, b, outcome in links:
             if outcome is Outcome.HOLDS:
@@ -188,13 +193,13 @@ def _open(found: DamperFamily, known: Mapping[tuple[Chain, Chain], Finding]) -> 
         root = same.root
         apart = [{root(a), root(b)} for a, b, outcome in links if outcome is Outcome.FAILS]
         if root(one) != root(other) and {root(one), root(other)} not in apart:
-            yield _representative(found, one), _representative(found, other)
+            yield _representative(family, one), _representative(family, other)
 
 
-def _representative(found: DamperFamily, group: int) -> int:
+def _representative(family: DamperFamily, group: int) -> int:
     """The place of the member of a class with the fewest dampers, as `verdict.class_search` chooses
     it.
     """
-    chains = found.found.chains
-    places = (place for place, g in enumerate(found.found.group) if g == group)
+    chains = family.found.chains
+    places = (place for place, g in enumerate(family.found.group) if g == group)
     return min(places, key=lambda p: (len(chains[p].ground_dampers), chains[p].indices))

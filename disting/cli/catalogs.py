@@ -92,9 +92,9 @@ def candidates(options: argparse.Namespace) -> int:
     from disting.fit.search.candidates import figure_1
 
     with engine_for(options) as (engine, pool, progress):
-        found = matrix(figure_1(), engine=engine, executor=pool, progress=progress)
-    counts = ", ".join(f"{n} {relation}" for relation, n in found.counts().items())
-    print(f"{write(found, options.out)}: {len(found.chains)} models, {counts}")
+        the_matrix = matrix(figure_1(), engine=engine, executor=pool, progress=progress)
+    counts = ", ".join(f"{n} {relation}" for relation, n in the_matrix.counts().items())
+    print(f"{write(the_matrix, options.out)}: {len(the_matrix.chains)} models, {counts}")
     return 0
 
 
@@ -136,8 +136,8 @@ def menus(options: argparse.Namespace) -> int:
             stored: list[Catalog | DamperFamily] = [catalog(n, damped=damped)]
             if n in WITH_DAMPERS:
                 stored.append(damper_catalog(n, damped=damped))
-            for one in stored:
-                text = build_next(one, engine, executor=pool, progress=progress)
+            for this_catalog in stored:
+                text = build_next(this_catalog, engine, executor=pool, progress=progress)
                 print(write(text, options.out))
     return 0
 
@@ -151,9 +151,10 @@ def settle(options: argparse.Namespace) -> int:
 
     with engine_for(options) as (engine, _, _):
         for n in options.masses:
-            found = (read(options.catalog, n, damped) for damped in (False, True))
+            the_families = (read(options.catalog, n, damped) for damped in (False, True))
             count = sum(
-                settle_dampers(family, options.catalog, engine.settings, print) for family in found
+                settle_dampers(family, options.catalog, engine.settings, print)
+                for family in the_families
             )
             print(f"{n} masses with dampers to the ground: {count} pairs of classes settled")
     return 0
@@ -209,8 +210,8 @@ def _wrong_of_one_size(
         stored.append(catalog(n, damped=damped, folder=folder))
     if n in WITH_DAMPERS:
         stored.append(read(folder, n, damped))
-    for one in stored:
-        found += verify_next(one, folder, fresh, executor=pool, progress=progress)
+    for this_catalog in stored:
+        found += verify_next(this_catalog, folder, fresh, executor=pool, progress=progress)
     return found
 
 

@@ -75,12 +75,12 @@ def _inclusion(verdict: Verdict) -> list[str]:
     ]
 
 
-def _why(found: InclusionFinding, verdict: Verdict) -> str:
+def _why(finding: InclusionFinding, verdict: Verdict) -> str:
     """Grade and evidence of one statement, or why it is not known."""
-    if found.evidence is None:
-        return f"not known: {found.reason}"
-    sure = f", {found.certainty.in_words(found.safety)}" if found.certainty else ""
-    return f"{found.inclusion}{sure}: {found.evidence.sentence(verdict.left, verdict.right)}"
+    if finding.evidence is None:
+        return f"not known: {finding.reason}"
+    sure = f", {finding.certainty.in_words(finding.safety)}" if finding.certainty else ""
+    return f"{finding.inclusion}{sure}: {finding.evidence.sentence(verdict.left, verdict.right)}"
 
 
 def both_ways(
@@ -93,8 +93,8 @@ def both_ways(
     """
     names = (verdict.left, verdict.right)
     shares = shares or (verdict.left_positive, verdict.right_positive)
-    for name, other, found in zip(names, reversed(names), shares, strict=True):
-        if found is not None:
-            why = found.evidence.sentence(name, other) if found.evidence else found.reason
-            seen = f" ({found.empirical.sentence})" if found.empirical else ""
-            yield f"{where}: {name} in {other} {found.share}{seen}. {why}"
+    for name, other, finding in zip(names, reversed(names), shares, strict=True):
+        if finding is not None:
+            why = finding.evidence.sentence(name, other) if finding.evidence else finding.reason
+            seen = f" ({finding.empirical.sentence})" if finding.empirical else ""
+            yield f"{where}: {name} in {other} {finding.share}{seen}. {why}"

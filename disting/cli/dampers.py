@@ -122,7 +122,7 @@ def build(options: argparse.Namespace) -> int:
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses or SHIPPED_SIZES:
             for damped in (False, True):
-                found = damper_family(
+                family = damper_family(
                     n,
                     damped=damped,
                     folder=options.out,
@@ -130,7 +130,7 @@ def build(options: argparse.Namespace) -> int:
                     executor=pool,
                     progress=progress,
                 )
-                print(f"{write(found, engine.settings, options.out)}: {counted(found)}")
+                print(f"{write(family, engine.settings, options.out)}: {counted(family)}")
     return 0
 
 
@@ -143,16 +143,16 @@ def _whole_family(options: argparse.Namespace) -> int:
             "whole families are decided over complex parameters; over positive ones ask for one"
             " model, such as 3:4"
         )
-    found = _family(int(options.model), options)
+    family = _family(int(options.model), options)
     if options.csv:
-        emitted_lines(options.csv, found.csv_lines())
+        emitted_lines(options.csv, family.csv_lines())
     if options.csv == "-":
         return 0
     rules = ", ".join(
-        f"{n} by {_rule(rule)}" for rule, n in found.found.counts_by_rule().items() if rule
+        f"{n} by {_rule(rule)}" for rule, n in family.found.counts_by_rule().items() if rule
     )
-    groups = found.classes()
-    print(f"{counted(found)}\n{rules}")
+    groups = family.classes()
+    print(f"{counted(family)}\n{rules}")
     print(
         f"{len(groups)} classes of indistinguishable models, the largest of"
         f" {max(map(len, groups), default=0)}"
@@ -180,12 +180,12 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
         )
 
 
-def counted(found: DamperFamily) -> str:
+def counted(family: DamperFamily) -> str:
     """Models, pairs and how surely all of it holds, in one line."""
-    counts = found.found.counts()
+    counts = family.found.counts()
     told = ", ".join(f"{n} {relation}" for relation, n in counts.items())
-    head = f"{len(found)} models, {sum(counts.values())} pairs, over complex parameters: {told}"
-    return f"{head}; {joint_in_words(classes_safety(found.found))}"
+    head = f"{len(family)} models, {sum(counts.values())} pairs, over complex parameters: {told}"
+    return f"{head}; {joint_in_words(classes_safety(family.found))}"
 
 
 def _rule(rule: str) -> str:

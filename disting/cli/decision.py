@@ -51,11 +51,11 @@ def run(options: argparse.Namespace) -> int:
     asked = query(options.conditions, View.EXACT, options.domain)
     if options.also:
         return _under_experiments(sides, asked, options)
-    found = judged(sides, asked, options)
+    judgement = judged(sides, asked, options)
     if options.json:
-        _written(file_of(found, asked, options), options)
+        _written(file_of(judgement, asked, options), options)
     if options.json != "-":
-        print("\n".join(_told(found, dict(options.bound))))
+        print("\n".join(_told(judgement, dict(options.bound))))
     return 0
 
 
@@ -97,24 +97,29 @@ def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, A
         return everywhere_file(left, right, options.also, query=asked, engine=engine)
 
 
-def file_of(found: Judged, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
+def file_of(judgement: Judged, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models with all that its check needs."""
     beside = None
-    if has_more(found.verdict):
-        beside = judged(found.models, exact(asked), options).verdict
-    return as_file(StoredVerdict(found.models, (), asked, Settings(), found.verdict, beside))
+    if has_more(judgement.verdict):
+        beside = judged(judgement.models, exact(asked), options).verdict
+    return as_file(
+        StoredVerdict(judgement.models, (), asked, Settings(), judgement.verdict, beside)
+    )
 
 
 def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
     emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
 
 
-def _told(found: Judged, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:
+def _told(judgement: Judged, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:
     """The verdict in words, within ranges if there are any."""
-    verdict, chains = found.verdict, _chains(found.models)
-    special = _at_special_values(found.models, verdict)
-    drawn, everywhere = list(map(in_letters, found.models)), special is not None and special.is_same
-    yield explained(verdict, drawn, found.known, measured(found.models), everywhere)
+    verdict, chains = judgement.verdict, _chains(judgement.models)
+    special = _at_special_values(judgement.models, verdict)
+    drawn, everywhere = (
+        list(map(in_letters, judgement.models)),
+        special is not None and special.is_same,
+    )
+    yield explained(verdict, drawn, judgement.known, measured(judgement.models), everywhere)
     said = special.sentence(verdict.left, verdict.right) if special else ""
     yield from [f"special    {said}"] * bool(said)
     if chains and limits:
@@ -167,23 +172,23 @@ def _under_experiments(
             _written(whole, options)
         if options.json == "-":
             return 0
-        found = compare_everywhere(left, right, options.also, query=asked, engine=engine)
+        placements = compare_everywhere(left, right, options.also, query=asked, engine=engine)
     asked_for = [parse_experiment(text).experiment for text in options.also]
     experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
     lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
-    print("\n".join([*_every_way(found, chains, asked_for), "", *lines]))
+    print("\n".join([*_every_way(placements, chains, asked_for), "", *lines]))
     return 0
 
 
 def _every_way(
-    found: Everywhere, chains: Sequence[Chain], experiments: Sequence[Experiment]
+    placements: Everywhere, chains: Sequence[Chain], experiments: Sequence[Experiment]
 ) -> Iterator[str]:
     """One way in full, several with what is common to them; one and the same chain is drawn with
     the experiments of each side.
     """
     left, right = names_of(*chains)
-    if len(found.verdicts) == 1:
-        places, verdict = found.verdicts[0]
+    if len(placements.verdicts) == 1:
+        places, verdict = placements.verdicts[0]
         drawings = list(map(text_drawing, chains))
         if left == right:
             sides = experiments, [move(e, places) for e in experiments]
@@ -198,10 +203,10 @@ def _every_way(
         Answer.NEVER: "not told apart, wherever the places are in {}",
         Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
         Answer.UNKNOWN: "not known for all places in {}",
-    }[found.answer]
-    yield f"{found.answer.upper()}: {left} and {other} are {told.format(other)}"
+    }[placements.answer]
+    yield f"{placements.answer.upper()}: {left} and {other} are {told.format(other)}"
     yield ""
-    for places, verdict in found.verdicts:
+    for places, verdict in placements.verdicts:
         yield f"  {_placed(places, left, other)}: {verdict.sentence}"
         yield from (f"    {note}" for note in verdict.notes if verdict.evidence)
 

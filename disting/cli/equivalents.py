@@ -99,27 +99,29 @@ def run(options: argparse.Namespace) -> int:
     if options.formulas or options.latex or options.sympy:
         if options.also:
             raise InputError("--also asks for values, not for formulas: leave one of them away")
-        (given,) = chains_named([options.model], damped=options.damped)
-        print("\n".join(_formulas(given, chains_of(options.to, given), options)))
+        (chain,) = chains_named([options.model], damped=options.damped)
+        print("\n".join(_formulas(chain, chains_of(options.to, chain), options)))
         return 0
     if not options.values:
         example = "--set m1=1,m2=2,.. (or --formulas for formulas)"
         raise InputError(f"values of the given model are needed: {example}")
     values = assignments(options.values)
-    found = find(options.model, values, options.to, damped=options.damped, also=options.also)
+    equivalents = find(options.model, values, options.to, damped=options.damped, also=options.also)
     if options.json:
-        emitted(options.json, json.dumps(found.to_dict(), indent=1, ensure_ascii=False) + "\n")
+        emitted(
+            options.json, json.dumps(equivalents.to_dict(), indent=1, ensure_ascii=False) + "\n"
+        )
     else:
-        print("\n".join(_lines(found)))
+        print("\n".join(_lines(equivalents)))
     return 0
 
 
-def _lines(found: Equivalents) -> Iterator[str]:
-    values = ", ".join(f"{name} = {_decimal(value)}" for name, value in found.values.items())
-    yield f"{found.name}  {text_drawing(found.chain)}"
+def _lines(equivalents: Equivalents) -> Iterator[str]:
+    values = ", ".join(f"{name} = {_decimal(value)}" for name, value in equivalents.values.items())
+    yield f"{equivalents.name}  {text_drawing(equivalents.chain)}"
     yield f"given: {values}"
-    yield from (f"experiment {i}  {text}" for i, text in enumerate(found.experiments, 1))
-    listed = [listing for listing in found.listings if listing.members]
+    yield from (f"experiment {i}  {text}" for i, text in enumerate(equivalents.experiments, 1))
+    listed = [listing for listing in equivalents.listings if listing.members]
     for listing in listed:
         yield ""
         yield from _listing(listing)
@@ -130,8 +132,8 @@ def _lines(found: Equivalents) -> Iterator[str]:
             " rounding to 15 digits included"
         )
     yield ""
-    yield from _unlisted(found.listings)
-    yield _closing(found)
+    yield from _unlisted(equivalents.listings)
+    yield _closing(equivalents)
 
 
 def _decimal(value: Fraction) -> str:
@@ -205,19 +207,21 @@ def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
         yield f"{', '.join(names) if few else f'{every} {len(names)} structures'}: {said}"
 
 
-def _closing(found: Equivalents) -> str:
+def _closing(result: Equivalents) -> str:
     """One sentence: what this means for an experiment."""
-    others = [listing for listing in found.listings if listing.chain != found.chain]
-    chains = list(dict.fromkeys(listing.chain for listing in found.listings))
-    what = "responses" if found.experiments else "transfer function"
-    this = f"{'these' if found.experiments else 'this'} {what}"
-    who = "None of these experiments" if found.experiments else NONE_HERE
+    others = [listing for listing in result.listings if listing.chain != result.chain]
+    chains = list(dict.fromkeys(listing.chain for listing in result.listings))
+    what = "responses" if result.experiments else "transfer function"
+    this = f"{'these' if result.experiments else 'this'} {what}"
+    who = "None of these experiments" if result.experiments else NONE_HERE
     physical = [
         f"{listing.name}{_placed(listing)}"
         for listing in others
         if any(m.signs is Signs.POSITIVE for m in listing.members)
     ]
-    own = [m for listing in found.listings if listing.chain == found.chain for m in listing.members]
+    own = [
+        m for listing in result.listings if listing.chain == result.chain for m in listing.members
+    ]
     twins = sum(m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN for m in own)
     said = []
     if physical:
@@ -236,10 +240,10 @@ def _closing(found: Equivalents) -> str:
     if own and twins:
         said.append(f"Other positive values of the same structure give the same {what} too.")
     elif own and all(
-        listing.complete for listing in found.listings if listing.chain == found.chain
+        listing.complete for listing in result.listings if listing.chain == result.chain
     ):
         said.append("In its own structure no other positive values do.")
-    if found.proportional and physical:
+    if result.proportional and physical:
         said.append(
             "All springs have the same ratio k/d here; other ratios may rule out some of these."
         )
@@ -250,25 +254,31 @@ def _and(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} or {names[-1]}"
 
 
-def _formulas(given: Chain, others: Sequence[Chain], options: argparse.Namespace) -> Iterator[str]:
+def _formulas(chain: Chain, others: Sequence[Chain], options: argparse.Namespace) -> Iterator[str]:
     mark = "% " if options.latex else "# " if options.sympy else ""
     none = []
     for other in others:
-        found = explicit_map(given, other)
-        if found is None:
+        formula_map = explicit_map(chain, other)
+        if formula_map is None:
             none.append(name_of(other))
             continue
-        yield f"{mark}{name_of(given)}  {text_drawing(given)}"
+        yield f"{mark}{name_of(chain)}  {text_drawing(chain)}"
         yield f"{mark}{name_of(other)}  {text_drawing(other)}   (primed)"
-        yield f"{mark}by {', then '.join(found.steps) or 'identity'}; {_checked(found)}"
-        yield found.latex if options.latex else found.python if options.sympy else found.text
+        yield f"{mark}by {', then '.join(formula_map.steps) or 'identity'}; {_checked(formula_map)}"
+        yield (
+            formula_map.latex
+            if options.latex
+            else formula_map.python
+            if options.sympy
+            else formula_map.text
+        )
         yield ""
     if none:
         yield f"{mark}no rational formulas known here: {', '.join(none)}"
 
 
-def _checked(found: Map) -> str:
-    if not found.safety:
+def _checked(formula_map: Map) -> str:
+    if not formula_map.safety:
         return "identity of the transfer functions proven"
-    sure = found.certainty.in_words(found.safety)
+    sure = formula_map.certainty.in_words(formula_map.safety)
     return f"identity of the transfer functions checked, {sure}"

@@ -46,41 +46,41 @@ def run(options: argparse.Namespace) -> int:
 
         return run_networks(options)
     controller = controller_named(options.controller) if options.controller else None
-    given = data(options)
+    source_data = data(options)
     left = _left(options)
     if left is None:
         announced(Work.FITS, _counted(options), options.jobs or cores())
-    candidates = _candidates(options, given, left.chains if left else ())
+    candidates = _candidates(options, source_data, left.chains if left else ())
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
-    home = _as_measured(left.model, given) if left else None
-    found = _selected(options, given, candidates, home, controller)
+    home = _as_measured(left.model, source_data) if left else None
+    selection = _selected(options, source_data, candidates, home, controller)
     if options.json:
-        plain = selection_to_dict(found)
+        plain = selection_to_dict(selection)
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
         emitted(options.json, f"{text}\n")
     if options.json != "-":
-        print(printable("\n".join(told(found, given.train))))
+        print(printable("\n".join(told(selection, source_data.train))))
     if options.out:
-        _write(found, given.train, given.test, options)
+        _write(selection, source_data.train, source_data.test, options)
         if options.json != "-":
-            print("\n".join(_onward(found, options.out)))
-    return 0 if found.explanation.explains else 1
+            print("\n".join(_onward(selection, options.out)))
+    return 0 if selection.explanation.explains else 1
 
 
 def _selected(
     options: argparse.Namespace,
-    given: Data,
+    source_data: Data,
     candidates: Sequence[Chain],
     home: Chain | None,
     controller: Controller | None,
 ) -> Selection:
     """What is found with these options; `home` names the places of further responses."""
     with engine_for(options) as (engine, pool, progress):
-        found = select(
-            given.train,
+        selection = select(
+            source_data.train,
             candidates,
-            test=given.test,
-            further=given.further,
+            test=source_data.test,
+            further=source_data.further,
             home=home,
             alike=options.weights == "none",
             thresholds=Thresholds(*options.thresholds),
@@ -99,13 +99,13 @@ def _selected(
             executor=pool,
             progress=progress,
         )
-    return replace(found, command=_again(options.words))
+    return replace(selection, command=_again(options.words))
 
 
-def _onward(found: Selection, out: Path) -> Iterator[str]:
+def _onward(selection: Selection, out: Path) -> Iterator[str]:
     """Where the page is and, where several structures are left, how to go on."""
     yield f"\nwritten to {out}; open {out / 'fit.html'}"
-    if len(found.members) > 1 or any(m.twins for m in found.members):
+    if len(selection.members) > 1 or any(m.twins for m in selection.members):
         yield f"what to measure next: disting next {shlex.quote(str(out / 'fit.json'))}"
 
 
@@ -130,8 +130,8 @@ def _left(options: argparse.Namespace) -> Named | None:
     return named_by(options.left)
 
 
-def _as_measured(chain: Chain, given: Data) -> Chain:
-    return replace(chain, sensor=given.train.sensor)
+def _as_measured(chain: Chain, source_data: Data) -> Chain:
+    return replace(chain, sensor=source_data.train.sensor)
 
 
 def _again(words: Sequence[str]) -> str:
@@ -150,44 +150,44 @@ def _again(words: Sequence[str]) -> str:
 
 
 def _candidates(
-    options: argparse.Namespace, given: Data, left: Sequence[Chain] = ()
+    options: argparse.Namespace, source_data: Data, left: Sequence[Chain] = ()
 ) -> tuple[Chain, ...]:
     """The structures to fit, or those that an earlier fit left; raises InputError where a parameter
     named by --fix or --bound is in none of them.
     """
-    quantity = given.train.sensor
+    quantity = source_data.train.sensor
     if left:
-        found = tuple(_as_measured(chain, given) for chain in left)
+        chains = tuple(_as_measured(chain, source_data) for chain in left)
     elif options.family:
-        found = whole_family(options.masses, quantity)
+        chains = whole_family(options.masses, quantity)
     else:
-        found = chosen_ports(
+        chains = chosen_ports(
             options.masses, options.actuator, sensors(options)[0], options.gap, quantity
         )
     if not left:
-        found = tuple(replace(chain, damped=is_damped(options)) for chain in found)
-    known = {name for chain in found for name in chain.parameters}
-    known |= {further.setup.delay for further in given.further} - {""}
+        chains = tuple(replace(chain, damped=is_damped(options)) for chain in chains)
+    known = {name for chain in chains for name in chain.parameters}
+    known |= {further.setup.delay for further in source_data.further} - {""}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in known]
     if unknown:
         raise InputError(
             f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(known))}"
         )
-    return found
+    return chains
 
 
 def _write(
-    found: Selection,
+    selection: Selection,
     train: FrequencyResponse,
     test: FrequencyResponse | None,
     options: argparse.Namespace,
 ) -> None:
     from disting.report.fit import exported, write_fit_report
 
-    names = found.selected.practical.names if options.profiles and found.selected else ()
-    write_fit_report(found, options.out, train, test, profiles=names, site=options.site)
-    models = exported(found, train)
+    names = selection.selected.practical.names if options.profiles and selection.selected else ()
+    write_fit_report(selection, options.out, train, test, profiles=names, site=options.site)
+    models = exported(selection, train)
     if models:
-        write_mat(options.out / "model.mat", models, found.task.sign)
-        script = control_script(models, found.task.sign)
+        write_mat(options.out / "model.mat", models, selection.task.sign)
+        script = control_script(models, selection.task.sign)
         write_whole(options.out / "models.py", script.encode())

@@ -44,16 +44,24 @@ def data(options: argparse.Namespace) -> Data:
         from disting.simulation import demo
 
         train, test = (demo(i).response("acceleration") for i in (0, 1))
-        found = Data(train, test, ())
+        the_data = Data(train, test, ())
     else:
-        found = _from_files(options)
-    found = _each(found, lambda one: one.masked(*options.band)) if options.band else found
-    found = _each(found, lambda one: one.thinned(options.lines or MOST_LINES))
-    both = [(found.train, found.test), *((f.measured, f.test) for f in found.further)]
-    for response in (one for pair in both for one in pair if one is not None):
+        the_data = _from_files(options)
+    the_data = (
+        _each(the_data, lambda this_response: this_response.masked(*options.band))
+        if options.band
+        else the_data
+    )
+    the_data = _each(
+        the_data, lambda this_response: this_response.thinned(options.lines or MOST_LINES)
+    )
+    both = [(the_data.train, the_data.test), *((f.measured, f.test) for f in the_data.further)]
+    for response in (
+        this_response for pair in both for this_response in pair if this_response is not None
+    ):
         for note in (*response.notes, *response.suspicions):
             complain(f"{response.origin or 'data'}: {note}")
-    return found
+    return the_data
 
 
 def sensors(options: argparse.Namespace) -> list[str]:
@@ -146,16 +154,16 @@ def measured(
     if column:
         settings["column"] = column
     each = [_begun(f, settings, which) if together and count > 1 else settings for f in files]
-    found = mean_of(
+    response = mean_of(
         [read(file, **own) for file, own in zip(files, each, strict=True)],
         outliers=options.outliers,
     )
-    found = scaled(found, options.scale) if options.scale is not None else found
-    found = in_si(found, input=units.get("input"), output=units.get("output"))
+    response = scaled(response, options.scale) if options.scale is not None else response
+    response = in_si(response, input=units.get("input"), output=units.get("output"))
     return (
-        with_constant(found, options.torque_constant)
+        with_constant(response, options.torque_constant)
         if options.torque_constant is not None
-        else found
+        else response
     )
 
 
@@ -202,11 +210,11 @@ def _signs(options: argparse.Namespace, count: int) -> list[int]:
 
 def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -> Iterator[Further]:
     """The responses of one experiment: those of all sensors, or of the one that it names."""
-    found = EXPERIMENT.fullmatch(text)
-    if not found:
+    match = EXPERIMENT.fullmatch(text)
+    if not match:
         raise InputError(f"{FORM}, not {shown(text)}")
-    file, given = Path(found[1]), dict[str, list[str]]()
-    for part in found[2].split(","):
+    file, given = Path(match[1]), dict[str, list[str]]()
+    for part in match[2].split(","):
         name, equals, value = part.partition("=")
         if name not in ("sensor", "force", "column", *CHANGED) or not (equals and value):
             raise InputError(f"{FORM}, not {shown(text)}")
@@ -244,10 +252,10 @@ def _measured(name: str, value: str) -> str:
     return value
 
 
-def _each(found: Data, change: Callable[[FrequencyResponse], FrequencyResponse]) -> Data:
+def _each(the_data: Data, change: Callable[[FrequencyResponse], FrequencyResponse]) -> Data:
     """The same change of all responses."""
     further = tuple(
         replace(f, measured=change(f.measured), test=change(f.test) if f.test else None)
-        for f in found.further
+        for f in the_data.further
     )
-    return Data(change(found.train), change(found.test) if found.test else None, further)
+    return Data(change(the_data.train), change(the_data.test) if the_data.test else None, further)

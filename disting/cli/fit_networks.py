@@ -46,31 +46,31 @@ def run(options: argparse.Namespace) -> int:
     measured = _measured(options, networks)
     first = measured[0]
     with engine_for(options) as (engine, _, progress):
-        found = fit_networks(measured, networks, engine=engine, progress=progress)
+        selection = fit_networks(measured, networks, engine=engine, progress=progress)
     if options.json:
-        emitted(options.json, json.dumps(found.to_dict(), indent=1, ensure_ascii=False) + "\n")
+        emitted(options.json, json.dumps(selection.to_dict(), indent=1, ensure_ascii=False) + "\n")
     if options.json != "-":
-        print("\n".join(_told(found, first)))
-    return 0 if found.left else 1
+        print("\n".join(_told(selection, first)))
+    return 0 if selection.left else 1
 
 
 def _networks(texts: Sequence[str]) -> list[Network]:
     """Those of texts, of files of models, of families; raises InputError."""
-    found = list[Network]()
+    networks = list[Network]()
     for text in texts:
         if text in FAMILIES or text.endswith(".json"):
             models = listed_models(Path(text) if text.endswith(".json") else text)
             unknown = [m.name for m in models if m.network is None]
             if unknown:
                 raise InputError(f"{unknown[0]} is no network: describe it by its elements")
-            found += [replace(m.network, name=m.name) for m in models if m.network is not None]
+            networks += [replace(m.network, name=m.name) for m in models if m.network is not None]
         else:
-            found.append(network_of(text))
-    names = [network.name for network in found]
+            networks.append(network_of(text))
+    names = [network.name for network in networks]
     doubled = sorted({name for name in names if names.count(name) > 1})
     if doubled:
         raise InputError(f"{doubled[0]} is named twice")
-    return found
+    return networks
 
 
 def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[FrequencyResponse]:
@@ -84,28 +84,29 @@ def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[
     if is_circuit:
         options.quantity = options.quantity or Sensor.POSITION.value  # an impedance has none
     read = data(options)
-    found = [read.train, *(further.measured for further in read.further)]
+    responses = [read.train, *(further.measured for further in read.further)]
     if not is_circuit:
-        return found
-    turned = [as_impedance(one) for one in found]
-    if any(TURNED in one.notes for one in turned):
+        return responses
+    turned = [as_impedance(response) for response in responses]
+    if any(TURNED in response.notes for response in turned):
         complain(TURNED)
     return turned
 
 
-def _told(found: NetworkSelection, measured: FrequencyResponse) -> Iterator[str]:
+def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[str]:
     """The answer, then a line a network, then values."""
     yield f"{measured.origin}: {measured.reading or f'{len(measured)} lines'}"
-    yield f"scatter of a line: {100 * found.scatter.typical:.2g} %, from {found.scatter.source}"
+    scatter = selection.scatter
+    yield f"scatter of a line: {100 * scatter.typical:.2g} %, from {scatter.source}"
     yield ""
-    yield found.sentence
+    yield selection.sentence
     yield ""
-    width = max(len(f.network.name) for f in found.fits)
+    width = max(len(f.network.name) for f in selection.fits)
     yield f"{'network':{width}}  values  determined  chi2 per line"
-    for f in found.fits:
+    for f in selection.fits:
         said = _standing(f)
         yield f"{f.network.name:{width}}  {len(f.values):6}  {f.rank:10}  {f.chi2:8.3g}  {said}"
-    best = found.fits[0]
+    best = selection.fits[0]
     yield ""
     yield f"{best.network.name}:"
     units = UNITS if best.network.sort is Sort.CIRCUIT else {}

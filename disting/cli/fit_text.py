@@ -39,17 +39,17 @@ OTHERWISE = {
 }
 
 
-def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
+def told(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The result for people: what they must know in at most five lines, then the rest."""
-    yield from (read_in_words(part.measured) for part in found.task.cost.parts)
+    yield from (read_in_words(part.measured) for part in selection.task.cost.parts)
     yield ""
-    yield from first_lines(found)
+    yield from first_lines(selection)
     yield ""
-    left, more = [m.candidate for m in found.members], len(found.containing)
+    left, more = [m.candidate for m in selection.members], len(selection.containing)
     beside = f" ({more} more contain{'s' * (more == 1)} one of these)" * bool(more)
     yield (
-        f"{len(found.candidates)} candidates fitted to {_lines(found)}{_saved(found)}, validated on"
-        f" {found.validation}"
+        f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
+        f" validated on {selection.validation}"
     )
     yield (
         f"{len(left)} not excluded{beside}, the simplest first:"
@@ -57,91 +57,97 @@ def told(found: Selection, train: FrequencyResponse) -> Iterator[str]:
         else "none is left; the best ones:"
     )
     yield ""
-    yield from _table((left or found.candidates)[:SHOWN])
-    cost = cost_in_words(found.task.cost)
+    yield from _table((left or selection.candidates)[:SHOWN])
+    cost = cost_in_words(selection.task.cost)
     yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
-    yield f"badly determined, the higher the worse: {columns(found.thresholds)}"
+    yield f"badly determined, the higher the worse: {columns(selection.thresholds)}"
     yield ""
-    yield from _described(found, train)
-    yield from _excluded(found)
-    yield from _set(found)
-    yield from _relied_on(found)
-    if found.selected and found.explanation.explains:
+    yield from _described(selection, train)
+    yield from _excluded(selection)
+    yield from _set(selection)
+    yield from _relied_on(selection)
+    if selection.selected and selection.explanation.explains:
         yield ""
-        yield from _alternatives(found)
-    rest = [said for said in suspicions(found) if said not in first_lines(found)]
+        yield from _alternatives(selection)
+    rest = [said for said in suspicions(selection) if said not in first_lines(selection)]
     yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
     yield from (
-        ["", "next:", *(f"  {command}" for command in commands(found))] if commands(found) else []
+        ["", "next:", *(f"  {command}" for command in commands(selection))]
+        if commands(selection)
+        else []
     )
 
 
-def _described(found: Selection, train: FrequencyResponse) -> Iterator[str]:
+def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The selected structure, or the best one, with its values."""
-    chain, explains = found.described.chain, found.explanation.explains
+    chain, explains = selection.described.chain, selection.explanation.explains
     what = "selected" if explains else "the best one, which does not explain the data"
     yield (
-        f"{what if found.selected else 'the best one'}: {name_of(chain)}   {text_drawing(chain)}"
+        f"{what if selection.selected else 'the best one'}: {name_of(chain)}"
+        f"   {text_drawing(chain)}"
     )
-    yield from [f"  {renamed(found)}"] if renamed(found) else []
-    yield f"  {fit_in_words(found, train, None if found.test is train else found.test)}"
-    yield from (f"  {line}" for line in _each(found))
-    yield from (f"  {line}" for line in _parameters(found))
+    yield from [f"  {renamed(selection)}"] if renamed(selection) else []
+    yield f"  {fit_in_words(selection, train, None if selection.test is train else selection.test)}"
+    yield from (f"  {line}" for line in _each(selection))
+    yield from (f"  {line}" for line in _parameters(selection))
     yield ""
-    yield from (f"  {line}" for line in _results(physical(found.described, found.task), train))
+    yield from (
+        f"  {line}" for line in _results(physical(selection.described, selection.task), train)
+    )
 
 
-def _lines(found: Selection) -> str:
+def _lines(selection: Selection) -> str:
     """How much data there is."""
-    sizes = [str(len(part.measured)) for part in found.task.cost.parts]
+    sizes = [str(len(part.measured)) for part in selection.task.cost.parts]
     several = f" of {len(sizes)} responses" * (len(sizes) > 1)
     return f"{' + '.join(sizes)} frequency lines{several}"
 
 
-def _each(found: Selection) -> Iterator[str]:
+def _each(selection: Selection) -> Iterator[str]:
     """What the judged data of each of several responses say, and what says nothing."""
-    judging, c = found.judging, found.described
-    said = explanations(judging, c.residual, c.missed, found.explanation.scatter)
-    known = dict(zip((setup.text for setup in judging.setups), said, strict=True))
-    for name, fit in fits_of(found, c):
-        one = known.get(name)
+    judging, c = selection.judging, selection.described
+    said = explanations(judging, c.residual, c.missed, selection.explanation.scatter)
+    own_explanations = dict(zip((setup.text for setup in judging.setups), said, strict=True))
+    for name, fit in fits_of(selection, c):
+        explanation = own_explanations.get(name)
         judged = (
-            f"chi2 per line {one.chi2:.3g}, its lines scatter by {percent(one.scatter.typical)}; "
-            if one
+            f"chi2 per line {explanation.chi2:.3g}, its lines scatter by"
+            f" {percent(explanation.scatter.typical)}; "
+            if explanation
             else ""
         )
         yield f"{name}: {judged}fit {fit} of its training data"
-    yield from learned(found)
-    yield from which_mass(found)
+    yield from learned(selection)
+    yield from which_mass(selection)
 
 
-def _excluded(found: Selection) -> Iterator[str]:
+def _excluded(selection: Selection) -> Iterator[str]:
     """Where none may be selected, why, and what helps."""
-    if found.selected:
+    if selection.selected:
         return
     yield ""
     yield from (
-        f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}" for c in found.candidates[:SHOWN]
+        f"  {text_drawing(c.chain)}: {'; '.join(c.reasons)}" for c in selection.candidates[:SHOWN]
     )
     yield "more excitation or wider --thresholds may help"
-    if any(c.practical.unidentifiable for c in found.candidates[:SHOWN]):
+    if any(c.practical.unidentifiable for c in selection.candidates[:SHOWN]):
         yield (
             "not identifiable: only known parameters (--fix NAME=VALUE) or another place of force"
             " and sensor help"
         )
 
 
-def _set(found: Selection) -> Iterator[str]:
+def _set(selection: Selection) -> Iterator[str]:
     """The structures that the data do not exclude, each with what does the same."""
-    if not found.members:
+    if not selection.members:
         return
     yield ""
     yield (
         f"structures that this data does not exclude (each tested against each other at level"
         f" {100 * LEVEL:g} %):"
     )
-    width = max(len(m.name) for m in found.members)
-    for m in found.members:
+    width = max(len(m.name) for m in selection.members)
+    for m in selection.members:
         yield (
             f"  {m.name:{width}}  J {m.candidate.j_test:.4g} "
             f" {text_drawing(m.candidate.chain)}{_differing(m)}"
@@ -156,20 +162,22 @@ def _set(found: Selection) -> Iterator[str]:
             yield f"    may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
         if m.open:
             yield f"    not decided: {', '.join(m.open)}"
-        larger = [other.name for other in found.containing if other.contains == m.candidate.chain]
+        larger = [
+            other.name for other in selection.containing if other.contains == m.candidate.chain
+        ]
         if larger:
             yield f"    or more, not determined by this data: {_named(larger)}"
 
 
-def _relied_on(found: Selection) -> Iterator[str]:
+def _relied_on(selection: Selection) -> Iterator[str]:
     """What holds for all of them."""
-    if found.relied_on:
+    if selection.relied_on:
         yield ""
         yield (
             "what you may rely on if the machine is one of these, or what may as well be one of"
             " them (95 %; not looked at: larger ones that contain one, and those not decided):"
         )
-        yield from (f"  {statement.text}" for statement in found.relied_on)
+        yield from (f"  {statement.text}" for statement in selection.relied_on)
 
 
 def _differing(member: Member) -> str:
@@ -179,9 +187,11 @@ def _differing(member: Member) -> str:
     return f"  differs most at {hertz:.3g} Hz, by {100 * size:.2g} %"
 
 
-def _saved(found: Selection) -> str:
+def _saved(selection: Selection) -> str:
     return (
-        f" ({found.saved} more have the same positive models as one of them)" if found.saved else ""
+        f" ({selection.saved} more have the same positive models as one of them)"
+        if selection.saved
+        else ""
     )
 
 
@@ -217,10 +227,10 @@ def _index(value: float) -> str:
     return f"{value:.3g}" if isfinite(value) else "–"
 
 
-def _parameters(found: Selection) -> Iterator[str]:
-    c = found.described
-    apart = {d.name: d for m in found.members[:1] for d in m.disagreements}
-    wide = found.members[0].intervals if found.members else {}
+def _parameters(selection: Selection) -> Iterator[str]:
+    c = selection.described
+    apart = {d.name: d for m in selection.members[:1] for d in m.disagreements}
+    wide = selection.members[0].intervals if selection.members else {}
     for name, value in c.estimate.parameters.items():
         error = c.practical.relative_errors.get(name)
         if error is None:
@@ -232,8 +242,10 @@ def _parameters(found: Selection) -> Iterator[str]:
         yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
 
 
-def _flag(found: Disagreement) -> str:
-    return f"   test data: {found.test:.3g}, {found.distance:.2g} standard errors apart"
+def _flag(disagreement: Disagreement) -> str:
+    return (
+        f"   test data: {disagreement.test:.3g}, {disagreement.distance:.2g} standard errors apart"
+    )
 
 
 def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterator[str]:
@@ -243,12 +255,12 @@ def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterat
         yield f"{r.name:{width}}  {value} {result_unit(r, measured)}".rstrip()
 
 
-def _alternatives(found: Selection) -> Iterator[str]:
+def _alternatives(selection: Selection) -> Iterator[str]:
     """What has the same positive models, what has some of them, what is open; always with the
     domain.
     """
     by_relation: dict[Relation, list[Chain]] = {}
-    for a in found.alternatives:
+    for a in selection.alternatives:
         by_relation.setdefault(a.relation, []).append(a.chain)
     same = by_relation.get(Relation.INDISTINGUISHABLE, [])
     if same:
@@ -257,7 +269,7 @@ def _alternatives(found: Selection) -> Iterator[str]:
             " force and sensor can tell them apart:"
         )
         yield from (f"  {name_of(chain)}" for chain in same)
-    elif not found.alternatives and not any(m.twins for m in found.members[:1]):
+    elif not selection.alternatives and not any(m.twins for m in selection.members[:1]):
         yield (
             "no other candidate with as many masses gives the same response, special values aside:"
             " better data can tell them apart"

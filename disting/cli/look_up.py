@@ -29,8 +29,8 @@ def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
     )
     if not stored:
         return None
-    found = catalog(a.n_masses, damped=a.damped).verdict(left.number, right.number, asked.view)
-    return replace(found, left=str(left), right=str(right))
+    verdict = catalog(a.n_masses, damped=a.damped).verdict(left.number, right.number, asked.view)
+    return replace(verdict, left=str(left), right=str(right))
 
 
 def in_order(chains: Sequence[Chain], verdict: Verdict) -> list[Chain]:

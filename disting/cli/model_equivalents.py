@@ -44,12 +44,12 @@ def run(options: argparse.Namespace) -> int:
             "of networks and models of a file values and formulas are listed, not experiments:"
             " leave --also away"
         )
-    (given,) = _named(options.model, options)
+    (source_model,) = _named(options.model, options)
     listed = map(of_network, family_of(options.family).networks) if options.family else ()
     named = _named(options.to, options) if options.to else []
-    others = [model for model in (*listed, *named) if model.name != given.name]
-    keep_apart(model.name for model in (given, *others))
-    if [model.name for model in named] == [given.name]:  # which other values does it have
+    others = [model for model in (*listed, *named) if model.name != source_model.name]
+    keep_apart(model.name for model in (source_model, *others))
+    if [model.name for model in named] == [source_model.name]:  # which other values does it have
         others = named
     values = assignments(options.values) if options.values else None
     formulas = options.formulas or options.latex or options.sympy
@@ -57,21 +57,21 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("formulas are for any values: leave --set away, or ask for values alone")
     with engine_for(options) as (engine, _, progress):
         if options.family:
-            recall_of(given, options.family, engine)
-        found = model_equivalents(given, others, values, engine=engine)
-        written = list(_formulas(given, found, options, progress)) if formulas else []
+            recall_of(source_model, options.family, engine)
+        equivalents = model_equivalents(source_model, others, values, engine=engine)
+        written = list(_formulas(source_model, equivalents, options, progress)) if formulas else []
     if options.json:
         whole = {
             "format": Format.NETWORK_EQUIVALENTS.value,
-            "given": given.name,
-            "equivalents": [x.to_dict() for x in found],
+            "given": source_model.name,
+            "equivalents": [x.to_dict() for x in equivalents],
         }
         emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
         return 0
-    other = "network" if given.network else "model"
-    other = other if others == [given] else f"other {other}"
-    head = _counted(given.name, plural(len(others), other), found)
-    print("\n".join([_mark(options) + head, *(written if formulas else _lines(found))]))
+    other = "network" if source_model.network else "model"
+    other = other if others == [source_model] else f"other {other}"
+    head = _counted(source_model.name, plural(len(others), other), equivalents)
+    print("\n".join([_mark(options) + head, *(written if formulas else _lines(equivalents))]))
     return 0
 
 
@@ -88,19 +88,19 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
     return [Model.from_chain(chain, name=name_of(chain))]
 
 
-def _counted(given: str, others: str, found: list[ModelEquivalent]) -> str:
+def _counted(given: str, others: str, equivalents: list[ModelEquivalent]) -> str:
     """How many of the others do the same."""
-    same = [x for x in found if x.verdict.relation is Relation.INDISTINGUISHABLE]
+    same = [x for x in equivalents if x.verdict.relation is Relation.INDISTINGUISHABLE]
     return (
         f"{given}: of {others} {len(same)} can do the same for all positive values,"
-        f" {sum(x.verdict.relation is OPEN[1] for x in found)} for some,"
-        f" {sum(x.verdict.relation is OPEN[0] for x in found)} undecided"
+        f" {sum(x.verdict.relation is OPEN[1] for x in equivalents)} for some,"
+        f" {sum(x.verdict.relation is OPEN[0] for x in equivalents)} undecided"
     )
 
 
-def _lines(found: list[ModelEquivalent]) -> Iterator[str]:
+def _lines(equivalents: list[ModelEquivalent]) -> Iterator[str]:
     """Each with its verdict and, where values are given, its own."""
-    for x in found:
+    for x in equivalents:
         yield f"{x.model.name}  {x.verdict.told} ({x.verdict.rule or 'nothing settles it'})"
         if x.exponents:
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
@@ -112,12 +112,12 @@ def _lines(found: list[ModelEquivalent]) -> Iterator[str]:
             yield from (f"  {line}" for line in _synthesis(x.synthesis))
 
 
-def _exception(found: Alternatives) -> Iterator[str]:
+def _exception(alternatives: Alternatives) -> Iterator[str]:
     """Why there is no positive set although both do the same for all positive values."""
-    if found.exist(Domain.POSITIVE) is Outcome.FAILS:
+    if alternatives.exist(Domain.POSITIVE) is Outcome.FAILS:
         yield (
             "these values are special, for almost all others there is one"
-            if all(x > 0 for _, x in found.values)
+            if all(x > 0 for _, x in alternatives.values)
             else "given values are not all positive, which is what the verdict is about"
         )
 
@@ -135,17 +135,17 @@ EXTENTS = {
 }
 
 
-def _synthesis(found: Synthesis) -> Iterator[str]:
+def _synthesis(synthesis: Synthesis) -> Iterator[str]:
     """Positive sets of values, and whether there are more."""
-    for values in found.sets:
+    for values in synthesis.sets:
         exact = {n: x for n, x in values.items() if len(str(x)) <= LONGEST}
         yield ", ".join(f"{n} = {spelled(exact.get(n, float(x)))}" for n, x in values.items())
-    yield EXTENTS[found.extent]
+    yield EXTENTS[synthesis.extent]
 
 
 def _formulas(
-    given: AnyModel,
-    found: list[ModelEquivalent],
+    model: AnyModel,
+    equivalents: list[ModelEquivalent],
     options: argparse.Namespace,
     progress: Progress,
 ) -> Iterator[str]:
@@ -153,15 +153,15 @@ def _formulas(
     none are known.
     """
     mark = _mark(options)
-    for done, x in enumerate(found):
-        progress("formulas", done, len(found))
+    for done, x in enumerate(equivalents):
+        progress("formulas", done, len(equivalents))
         yield ""
         if x.verdict.relation is not Relation.INDISTINGUISHABLE:
             yield f"{mark}{x.model.name}: {x.verdict.told} (no formulas; --set gives values)"
             continue
         yield f"{mark}{x.model.name}   (primed)"
         try:
-            forms = closed_forms(given, x.model, x.verdict)
+            forms = closed_forms(model, x.model, x.verdict)
         except NoFormulas as none:
             yield f"{mark}no formulas: {none} (--set gives values)"
             continue
@@ -182,13 +182,13 @@ def _formulas(
             yield form.latex if options.latex else form.python if options.sympy else form.text
 
 
-def _values(found: Alternatives) -> Iterator[str]:
+def _values(alternatives: Alternatives) -> Iterator[str]:
     """All positive sets of values, or some with what is known of the others."""
-    positive = found.within(Domain.POSITIVE)
+    positive = alternatives.within(Domain.POSITIVE)
     if not positive:
-        yield found.sentence
+        yield alternatives.sentence
     yield from map(str, positive)
-    if positive and found.extent is Extent.FAMILY:
+    if positive and alternatives.extent is Extent.FAMILY:
         yield "and infinitely many more"
-    if positive and found.extent is Extent.UNKNOWN:
+    if positive and alternatives.extent is Extent.UNKNOWN:
         yield "and perhaps more"

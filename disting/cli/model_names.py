@@ -58,7 +58,7 @@ def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chai
         )
     )
     lists = {path: read_models(path) for path, _ in map(parted, texts) if path}
-    keep_apart(model.name for found in lists.values() for model in found)
+    keep_apart(model.name for models in lists.values() for model in models)
     return [
         lists[path][name] if path else networks[text] or chains[text]
         for text, (path, name) in zip(texts, map(parted, texts), strict=True)

@@ -80,22 +80,22 @@ def run(options: argparse.Namespace) -> int:
         # no dependences are shown, which are dear
         plain = Engine(replace(engine.settings, subset_limit=0), engine.store)
         profiles = plain.profiles_of(family, executor=pool, progress=progress) if asked else ()
-        known: Sequence[Found] = (
+        identifiabilities: Sequence[Found] = (
             _under_experiments(family, also, engine, pool, progress)
             if also
             else _identifiabilities(family, engine, pool, progress, options.identifiability)
         )
-    print("\n".join(_table(family, profiles, known)))
+    print("\n".join(_table(family, profiles, identifiabilities)))
     for gap in sorted({chain.gap for chain in family}):
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         print(f"parameters, gap {gap}: {' '.join(parameters)}")
-    _explain(bool(profiles), bool(known), bool(also))
+    _explain(bool(profiles), bool(identifiabilities), bool(also))
     print(LEGEND)
     for number, experiment in enumerate([Experiment(), *also], 1) if also else ():
         print(f"experiment {number}  {experiment.text}")
     if options.identifiability or also:
-        for number, found in enumerate(known, 1):
-            print(f"A{number}: {found.sentence}")
+        for number, identifiability in enumerate(identifiabilities, 1):
+            print(f"A{number}: {identifiability.sentence}")
     return 0
 
 
@@ -118,11 +118,11 @@ def _of_list(source: Listed, options: argparse.Namespace) -> int:
     if options.also:
         raise InputError("--also belongs to chains: a model of a list has no masses to name")
     refuse_chain_options(options)
-    found = listed_models(source)
-    asked = [(unnamed(model),) for model in found]
+    models = listed_models(source)
+    asked = [(unnamed(model),) for model in models]
     with engine_for(options) as (engine, pool, progress):
         engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
-        for model, question in zip(found, asked, strict=True):
+        for model, question in zip(models, asked, strict=True):
             print(f"{model.name}: {engine.answer(PARAMETERS, question, engine.settings).sentence}")
     return 0
 
@@ -138,15 +138,17 @@ def _of_network(network: Network, options: argparse.Namespace) -> int:
         )
     model = of_network(network)
     with engine_for(options) as (engine, _, _progress):
-        found = engine.answer(PARAMETERS, (unnamed(model),), engine.settings)
+        identifiability = engine.answer(PARAMETERS, (unnamed(model),), engine.settings)
     print(f"{model.name}  {in_letters(model, MOST_TERMS, '')}")
     if network.unseen:
         print(f"what cannot be seen, as no way leads through it: {listed(network.unseen)}")
-    print(found.sentence)
+    print(identifiability.sentence)
     return 0
 
 
-def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Found]) -> Iterator[str]:
+def _table(
+    family: Family, profiles: Sequence[Profile], identifiabilities: Sequence[Found]
+) -> Iterator[str]:
     """A line a model: its number, gap, ports, degrees, ranks and drawing; 80 columns hold five
     masses, drawings are not cut.
     """
@@ -155,8 +157,12 @@ def _table(family: Family, profiles: Sequence[Profile], known: Sequence[Found]) 
         _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
         ports = (f"{act_plus}-{act_minus}", f"{meas_plus}-{meas_minus}")
         found = _found(profiles[place]) if profiles else (NOT_ASKED,) * 3
-        rank = str(known[place].rank if known else profiles[place].rank) if profiles else NOT_ASKED
-        sets = _sets(known[place]) if known else NOT_ASKED
+        rank = (
+            str(identifiabilities[place].rank if identifiabilities else profiles[place].rank)
+            if profiles
+            else NOT_ASKED
+        )
+        sets = _sets(identifiabilities[place]) if identifiabilities else NOT_ASKED
         yield _line((str(place + 1), str(gap), *ports, *found, rank, sets, text_drawing(chain)))
 
 
@@ -186,10 +192,10 @@ def _identifiabilities(
 
 def _one_model(text: str) -> Experiment:
     """The experiment of an option that names masses of one model; raises InputError."""
-    found = parse_experiment(text)
-    if found.places:
+    item = parse_experiment(text)
+    if item.places:
         raise InputError(f"{text} names masses of two models: write {text.partition('/')[0]} alone")
-    return found.experiment
+    return item.experiment
 
 
 def _under_experiments(
@@ -206,10 +212,14 @@ def _under_experiments(
     return [engine.answer(IDENTIFIABLE, measured, engine.settings) for measured in asked]
 
 
-def _sets(found: Found) -> str:
+def _sets(identifiability: Found) -> str:
     """How many parameter sets have one behaviour."""
-    if found.level is Level.NOT:
+    if identifiability.level is Level.NOT:
         return "∞"
-    if found.most is None:
+    if identifiability.most is None:
         return "?"
-    return str(found.most) if found.least == found.most else f"{found.least}–{found.most}"
+    return (
+        str(identifiability.most)
+        if identifiability.least == identifiability.most
+        else f"{identifiability.least}–{identifiability.most}"
+    )

@@ -97,10 +97,15 @@ def run(options: argparse.Namespace) -> int:
         if isinstance(group, str):
             print(group)
             return 0
-        found = _shipped(group, is_damped(options), costs) or further(
+        advice = _shipped(group, is_damped(options), costs) or further(
             group, engine, costs=costs, executor=pool, progress=progress
         )
-    return _written(options, _of_all([found]), json.dumps(to_dict(found), indent=1), told(found))
+    return _written(
+        options,
+        _of_all([advice]),
+        json.dumps(to_dict(advice), indent=1),
+        told(advice),
+    )
 
 
 def _networks(options: argparse.Namespace, costs: Costs) -> int:
@@ -120,8 +125,13 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
             print(apart)
             return 0
         group = list(zip(names, networks, strict=True))
-        found = further_networks(group, engine, costs=costs, executor=pool, progress=progress)
-    return _written(options, _of_all([found]), json.dumps(to_dict(found), indent=1), told(found))
+        advice = further_networks(group, engine, costs=costs, executor=pool, progress=progress)
+    return _written(
+        options,
+        _of_all([advice]),
+        json.dumps(to_dict(advice), indent=1),
+        told(advice),
+    )
 
 
 def _written(options: argparse.Namespace, lines: Table, plain: str, text: str) -> int:
@@ -135,9 +145,12 @@ def _written(options: argparse.Namespace, lines: Table, plain: str, text: str) -
     return 0
 
 
-def _of_all(found: Iterable[AnyFurther]) -> Table:
+def _of_all(all_advice: Iterable[AnyFurther]) -> Table:
     """Every experiment at every pair of places."""
-    return [CSV_COLUMNS, *(row for one in found for row in rows(one))]
+    return [
+        CSV_COLUMNS,
+        *(row for advice in all_advice for row in rows(advice)),
+    ]
 
 
 def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
@@ -150,39 +163,39 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
             text = "\n\n".join([*networks.sentences, *map(told, networks.groups)])
             written = json.dumps(networks.to_dict(), indent=1)
             return _written(options, _of_all(networks.groups), written, text)
-        found = onward(options, costs, engine, pool, progress)
-    menus = [line for group in found.groups for line in ("", *_told(group, brief=True))]
-    domain = ["", DOMAIN.format(place="mass"), BRIEF] if found.groups else []
-    written = json.dumps(plain(found), indent=1, ensure_ascii=False, allow_nan=False)
-    return _written(options, table(found), written, in_text(found, [*domain, *menus]))
+        lead = onward(options, costs, engine, pool, progress)
+    menus = [line for group in lead.groups for line in ("", *_told(group, brief=True))]
+    domain = ["", DOMAIN.format(place="mass"), BRIEF] if lead.groups else []
+    written = json.dumps(plain(lead), indent=1, ensure_ascii=False, allow_nan=False)
+    return _written(options, table(lead), written, in_text(lead, [*domain, *menus]))
 
 
-def told(found: AnyFurther) -> str:
+def told(advice: AnyFurther) -> str:
     """The menu for each structure, cheapest first, with what its words mean."""
-    legend = [LEGEND] if isinstance(found.structures[0], Chain) else []
-    return "\n".join(_told(found, ["", *legend, DOMAIN.format(place=found.place)]))
+    legend = [LEGEND] if isinstance(advice.structures[0], Chain) else []
+    return "\n".join(_told(advice, ["", *legend, DOMAIN.format(place=advice.place)]))
 
 
-def _told(found: AnyFurther, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
+def _told(advice: AnyFurther, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
     """The menu of each structure; `brief`: only where something on it is surely enough."""
-    width = max(map(len, found.names))
-    structures: tuple[Chain | Network, ...] = found.structures
+    width = max(map(len, advice.names))
+    structures: tuple[Chain | Network, ...] = advice.structures
     drawings = [
         f"  {name:{width}}  {_drawn(structure)}".rstrip()
-        for name, structure in zip(found.names, structures, strict=True)
+        for name, structure in zip(advice.names, structures, strict=True)
     ]
-    head = f"{len(found.names)} structures that the present measurement cannot tell apart:"
-    enough = anywhere(found)
+    head = f"{len(advice.names)} structures that the present measurement cannot tell apart:"
+    enough = anywhere(advice)
     told = [f"what tells all of them apart: {enough}"] if enough else []
     lines = [head, *drawings, *words, *told]
-    for structure, name in enumerate(found.names):
+    for structure, name in enumerate(advice.names):
         lines += ["", f"if it is {name}:"]
-        for kind in found.kinds if found.least(structure) or not brief else ():
-            cost = f"{kind.name:8} cost {found.costs.cost(kind):g}"
-            for at in found.places(structure):
-                known = in_words(found, structure, Item(kind, at))
-                lines.append(f"  {cost}  {found.place} {at}: {known}")
-        lines.append(f"  {conclusion(found, structure)}")
+        for kind in advice.kinds if advice.least(structure) or not brief else ():
+            cost = f"{kind.name:8} cost {advice.costs.cost(kind):g}"
+            for at in advice.places(structure):
+                known = in_words(advice, structure, Item(kind, at))
+                lines.append(f"  {cost}  {advice.place} {at}: {known}")
+        lines.append(f"  {conclusion(advice, structure)}")
     return lines
 
 

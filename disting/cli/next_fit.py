@@ -79,16 +79,16 @@ def networks_onward(
     left = left_by(Path(source))
     groups = [
         further_networks(
-            [(network.name, network) for network in (one.network, *one.same)],
+            [(network.name, network) for network in (survivor.network, *survivor.same)],
             engine,
             costs=costs,
             executor=executor,
             progress=progress,
         )
-        for one in left
-        if one.same
+        for survivor in left
+        if survivor.same
     ]
-    return NetworksOnward(source, tuple(one.network.name for one in left), tuple(groups))
+    return NetworksOnward(source, tuple(survivor.network.name for survivor in left), tuple(groups))
 
 
 def _source(options: argparse.Namespace) -> str:
@@ -118,14 +118,14 @@ def onward(
             " the structures to tell apart"
         )
     _warn(source, named)
-    known = stood(named.left, engine, progress)
+    own_stood = stood(named.left, engine, progress)
     groups = []
-    for members in known.groups:
+    for members in own_stood.groups:
         chosen = [(named.left[k].name, named.left[k].chain) for k in members]
         groups.append(further(chosen, engine, costs=costs, executor=executor, progress=progress))
     bench = bench_of(named)
     seen = foretold(named.left, bench, engine.settings, costs) if bench else None
-    return Onward(source, named, known, tuple(groups), seen, costs)
+    return Onward(source, named, own_stood, tuple(groups), seen, costs)
 
 
 def _warn(source: str, named: Named) -> None:
@@ -142,23 +142,23 @@ def _warn(source: str, named: Named) -> None:
         )
 
 
-def table(found: Onward) -> Iterator[Sequence[str]]:
+def table(lead: Onward) -> Iterator[Sequence[str]]:
     """Every experiment at every pair of places, with what the data of the fit say of it."""
     yield (*CSV_COLUMNS, *MEASURED_COLUMNS)
-    yield from left_rows(found)
+    yield from left_rows(lead)
 
 
-def plain(found: Onward) -> dict[str, object]:
+def plain(lead: Onward) -> dict[str, object]:
     """Plain data, ready for JSON."""
-    return left_to_dict(found) | {"first": first_sentence(found), "again": again(found)}
+    return left_to_dict(lead) | {"first": first_sentence(lead), "again": again(lead)}
 
 
-def in_text(found: Onward, menus: Sequence[str]) -> str:
+def in_text(lead: Onward, menus: Sequence[str]) -> str:
     """What to measure first, the structures that are left, and the menus of those that cannot be
     told apart.
     """
-    if len(found.left) == 1:
-        return first_sentence(found)
-    first = [first_sentence(found), ""] if found.seen else []
-    last = ["", AGAIN, f"  {again(found)}"] if again(found) else []
-    return "\n".join([*first, *set_in_words(found), "", *measured_in_words(found), *menus, *last])
+    if len(lead.left) == 1:
+        return first_sentence(lead)
+    first = [first_sentence(lead), ""] if lead.seen else []
+    last = ["", AGAIN, f"  {again(lead)}"] if again(lead) else []
+    return "\n".join([*first, *set_in_words(lead), "", *measured_in_words(lead), *menus, *last])

@@ -106,11 +106,13 @@ def written_file(text: str) -> str:
 def written_folder(text: str) -> Path:
     """A folder that is there or can be made; raises ArgumentTypeError."""
     path = Path(text)
-    there = next(p for p in (path, *path.absolute().parents) if p.exists())
-    if not there.is_dir():
-        raise argparse.ArgumentTypeError(f"{there} is a file, not a folder; name another folder")
-    if not _takes_files(there):
-        raise argparse.ArgumentTypeError(f"{there} may not be written to; name another folder")
+    other_path = next(p for p in (path, *path.absolute().parents) if p.exists())
+    if not other_path.is_dir():
+        raise argparse.ArgumentTypeError(
+            f"{other_path} is a file, not a folder; name another folder"
+        )
+    if not _takes_files(other_path):
+        raise argparse.ArgumentTypeError(f"{other_path} may not be written to; name another folder")
     return path
 
 

@@ -38,11 +38,11 @@ def parser(*, whole: bool = True) -> argparse.ArgumentParser:
     )
     top.add_argument("--version", action="version", version=f"disting {__version__}")
     commands = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
-    for one in COMMANDS:
-        if isinstance(one, Command):
-            _add_command(commands, one, whole)
+    for command in COMMANDS:
+        if isinstance(command, Command):
+            _add_command(commands, command, whole)
         else:
-            _add_group(commands, one, whole)
+            _add_group(commands, command, whole)
     return top
 
 

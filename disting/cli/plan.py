@@ -70,23 +70,23 @@ def run(options: argparse.Namespace) -> int:
     effort = _effort(options, model, values, None)
     _warn(effort)
     with engine_for(options) as (engine, pool, progress):
-        found = effort.planned(
+        the_plan = effort.planned(
             model, values, rival, engine=engine, executor=pool, progress=progress
         )
         progress("spectrum", 0, 1)
-        best = designed(found)
-    _emit(options, designed_to_dict(found, best))
+        best = designed(the_plan)
+    _emit(options, designed_to_dict(the_plan, best))
     if options.json != "-":
-        print(printable("\n".join(plan_in_words(found, best, effort.source))))
+        print(printable("\n".join(plan_in_words(the_plan, best, effort.source))))
     if options.out:
-        _write(options, found, best)
+        _write(options, the_plan, best)
     return 0
 
 
-def _write(options: argparse.Namespace, found: Plan, best: Designed | None) -> None:
+def _write(options: argparse.Namespace, the_plan: Plan, best: Designed | None) -> None:
     if best is None:
         raise InputError("there is nothing to measure, so nothing is written: leave --out away")
-    command = write_plan(found, best, options.out)
+    command = write_plan(the_plan, best, options.out)
     if options.json != "-":
         print(f"\nwritten to {options.out}; the spectrum is run by\n  {command}")
 
@@ -108,24 +108,24 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
         )
     effort = _effort(options, named.model, named.values, named)
     _warn(effort)
-    found = list[tuple[Plan, Plan | None]]()
+    plans = list[tuple[Plan, Plan | None]]()
     with engine_for(options) as (engine, pool, progress):
         planned = partial(effort.planned, engine=engine, executor=pool)
         for rival, values in named.rivals.items():
-            progress("rival", len(found), len(named.rivals))
-            there = planned(named.model, named.values, rival)
-            contains = there.answer is Answer.SAME and values
-            found.append((there, planned(rival, values, named.model) if contains else None))
-    rows = [plan_to_dict(one) | _reverse(back) for one, back in found]
+            progress("rival", len(plans), len(named.rivals))
+            other_plan = planned(named.model, named.values, rival)
+            contains = other_plan.answer is Answer.SAME and values
+            plans.append((other_plan, planned(rival, values, named.model) if contains else None))
+    rows = [plan_to_dict(own_plan) | _reverse(back) for own_plan, back in plans]
     _emit(options, {"format": Format.PLANS_OF_FIT.value, "same": named.same, "rivals": rows})
     if options.json != "-":
-        print(printable("\n".join(rivals_in_words(named, found, effort.source, str(path)))))
+        print(printable("\n".join(rivals_in_words(named, plans, effort.source, str(path)))))
     return 0
 
 
-def _reverse(found: Plan | None) -> dict[str, Any]:
+def _reverse(the_plan: Plan | None) -> dict[str, Any]:
     """Beside a rival that does what the model does: the model, were the rival true."""
-    return {"reverse": plan_to_dict(found)} if found else {}
+    return {"reverse": plan_to_dict(the_plan)} if the_plan else {}
 
 
 def _emit(options: argparse.Namespace, plain: dict[str, Any]) -> None:
@@ -171,22 +171,22 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: Paramete
     """Lines and scatter of a measured response."""
     if options.lines is not None:
         raise InputError("the lines are those of the measured response: leave --lines away")
-    found = read(Path(options.noise))
+    response = read(Path(options.noise))
     is_machine = isinstance(model, Chain) or model.sort is Sort.MACHINE
-    found = found.to_quantity(sensor_of(model)) if is_machine else as_impedance(found)
-    for note in (*found.notes, *found.suspicions):
-        complain(f"{found.origin or 'data'}: {note}")
-    found = found.masked(*options.band) if options.band else found
-    responses = responses_of(model, values, found.omega)
+    response = response.to_quantity(sensor_of(model)) if is_machine else as_impedance(response)
+    for note in (*response.notes, *response.suspicions):
+        complain(f"{response.origin or 'data'}: {note}")
+    response = response.masked(*options.band) if options.band else response
+    responses = responses_of(model, values, response.omega)
     if len(responses) > 1:
         raise InputError(
             f"{options.noise} is one response, {len(responses)} are planned: say how much a line"
             " scatters, such as --noise 0.02 --band 5..300"
         )
-    seen = scatter(found, list(responses))
-    own = 1 + round((found.freedom or 0.0) / 2)
+    seen = scatter(response, list(responses))
+    own = 1 + round((response.freedom or 0.0) / 2)
     source = f"of {options.noise}, known from {seen.source}"
-    return Effort(found.omega, seen.rho, source, options.repeats or min(own, MOST_REPEATS))
+    return Effort(response.omega, seen.rho, source, options.repeats or min(own, MOST_REPEATS))
 
 
 def _warn(effort: Effort) -> None:

@@ -58,13 +58,13 @@ def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: i
     return Query(View.COMBINED if view is View.EXACT else view, conditions, markov)
 
 
-def relations_in_words(found: Iterable[Relation]) -> str:
+def relations_in_words(relations: Iterable[Relation]) -> str:
     """How many pairs are what; SOMETIMES only where there are any.
 
     >>> relations_in_words([Relation.DISTINGUISHABLE, Relation.SOMETIMES])
     '1 distinguishable, 0 indistinguishable, 1 sometimes, 0 undecided'
     """
-    counts = Counter(found)
+    counts = Counter(relations)
     return ", ".join(
         f"{counts[r]} {r}" for r in Relation if counts[r] or r is not Relation.SOMETIMES
     )

@@ -63,8 +63,8 @@ def run(options: argparse.Namespace) -> int:
     if options.paper:
         _paper(options)
     # pages of lists first: the start page and the search of the site find them
-    for name, file, found in lists:
-        _model_list(options, found, file, name)
+    for name, file, models in lists:
+        _model_list(options, models, file, name)
     if options.masses:
         _catalogues(options)
     elif lists and (options.out / "index.html").is_file():
@@ -72,19 +72,19 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _model_list(options: argparse.Namespace, found: ModelList, file: Listed, name: str) -> None:
+def _model_list(options: argparse.Namespace, models: ModelList, file: Listed, name: str) -> None:
     """Write the page of a file of models, or of a family of networks."""
     from disting.report import ladenheim
     from disting.report.listing import Listing, judged
     from disting.report.model_list import write_model_list
 
-    title = found.title or Path(file).stem
+    title = models.title or Path(file).stem
     if isinstance(file, str) and file not in SHIPPED:
         announced_family(file, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)
-        decided = judged(found, engine, executor=pool, progress=progress)
+        decided = judged(models, engine, executor=pool, progress=progress)
     shown = Listing(decided, title, name)
     site = bool(options.masses)
     paths = write_model_list(shown, options.out, site=site)
@@ -135,8 +135,8 @@ def _paper(options: argparse.Namespace) -> None:
     from disting.report.paper import write_paper
 
     with engine_for(options) as (engine, pool, progress):
-        found = Findings(engine, pool, progress)
-        paths = write_paper(found, options.out / "paper", _names(options))
+        findings = Findings(engine, pool, progress)
+        paths = write_paper(findings, options.out / "paper", _names(options))
     counts = Counter(claim.outcome for claim in CLAIMS)
     agree, differ, unchecked = (counts[outcome] for outcome in Outcome)
     print(

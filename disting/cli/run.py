@@ -50,8 +50,8 @@ def models(prefix: str, **_: object) -> list[str]:
         return []
     if match[2] is None:
         return [f"{n}:" for n in SIZES if str(n).startswith(match[1])]
-    known = Family(int(match[1])) if int(match[1] or 0) in SIZES else ()
-    names = (f"{match[1]}:{i}" for i in range(1, len(known) + 1))
+    family = Family(int(match[1])) if int(match[1] or 0) in SIZES else ()
+    names = (f"{match[1]}:{i}" for i in range(1, len(family) + 1))
     return [name for name in names if name.startswith(prefix)]
 
 

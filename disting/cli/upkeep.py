@@ -21,8 +21,8 @@ def print_schema(options: argparse.Namespace) -> int:
     if options.name:
         emitted("-", json.dumps(schema(NAMES[options.name]), indent=1, ensure_ascii=False) + "\n")
         return 0
-    for name, known in NAMES.items():
-        print(f"{name}: {known.description}")
+    for name, file_format in NAMES.items():
+        print(f"{name}: {file_format.description}")
     return 0
 
 

@@ -113,21 +113,21 @@ def refuse_chain_options(options: argparse.Namespace) -> None:
 def listed_models(source: Listed) -> ModelList:
     """The models of a file, or of a family of networks."""
     if isinstance(source, Path):
-        found = read_models(source)
+        models = read_models(source)
     else:
         family = family_of(source)
-        found = ModelList(tuple(map(of_network, family.networks)), family.title)
-    keep_apart(model.name for model in found)
-    return found
+        models = ModelList(tuple(map(of_network, family.networks)), family.title)
+    keep_apart(model.name for model in models)
+    return models
 
 
 def list_of(source: Listed) -> ModelList:
     """The same, two models at least."""
-    found = listed_models(source)
-    if len(found) < 2:
+    models = listed_models(source)
+    if len(models) < 2:
         raise InputError(f"{source} has one model: there is nothing to compare; add another one")
-    refuse_ports(found.models)
-    return found
+    refuse_ports(models.models)
+    return models
 
 
 def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[AnySide]:

@@ -42,6 +42,6 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"name the other model too, such as: disting verify {options.what[0]} 3:4")
     if is_file and options.also:
         raise InputError("the file names its experiments: leave --also away")
-    found = verify(options.what[0] if is_file else file_named(options.what, options))
-    print(f"{' and '.join(options.what)}: {found.text}")
-    return STATUS[found.standing]
+    verification = verify(options.what[0] if is_file else file_named(options.what, options))
+    print(f"{' and '.join(options.what)}: {verification.text}")
+    return STATUS[verification.standing]

@@ -36,37 +36,37 @@ COORDINATE = 256  # bits of a random coordinate
 BITS = 320  # of the evaluation in balls; inputs of 15 digits leave far more than enough
 
 
-def is_identity(given: Chain, other: Chain, formulas: Mapping[str, RationalFunction]) -> bool:
+def is_identity(chain: Chain, other: Chain, formulas: Mapping[str, RationalFunction]) -> bool:
     """Written out: exact. For small chains and short formulas."""
-    ring = symbols(["s", *given.parameters])
-    names = variables(["s", *given.parameters])
-    one = names["s"] / names["s"]
-    plain = plain_receptance(given.structure, ring, ring["s"], ring["s"] ** 0)
-    num, den = plain_receptance(other.structure, formulas, names["s"], one)
+    ring = symbols(["s", *chain.parameters])
+    names = variables(["s", *chain.parameters])
+    function = names["s"] / names["s"]
+    plain = plain_receptance(chain.structure, ring, ring["s"], ring["s"] ** 0)
+    num, den = plain_receptance(other.structure, formulas, names["s"], function)
     return bool((num / den) == RationalFunction(*plain))
 
 
 def holds_at_random(
-    given: Chain, other: Chain, formulas: Mapping[str, RationalFunction], seed: str
+    chain: Chain, other: Chain, formulas: Mapping[str, RationalFunction], seed: str
 ) -> bool:
     """At one random point, exactly; False is a proof that the formulas are wrong, True holds
     but for `safety`.
     """
     count = COORDINATE // 8
-    digits = shake_256(f"equivalence:{seed}".encode()).digest(count * len(given.parameters))
+    digits = shake_256(f"equivalence:{seed}".encode()).digest(count * len(chain.parameters))
     numbers = [
         int.from_bytes(digits[i * count : (i + 1) * count], "big") + 1
-        for i in range(len(given.parameters))
+        for i in range(len(chain.parameters))
     ]
-    point = {name: fmpq(number) for name, number in zip(given.parameters, numbers, strict=True)}
+    point = {name: fmpq(number) for name, number in zip(chain.parameters, numbers, strict=True)}
     return exactly_equal(
-        given, point, other, {name: formula.value(point) for name, formula in formulas.items()}
+        chain, point, other, {name: formula.value(point) for name, formula in formulas.items()}
     )
 
 
-def safety(given: Chain, formulas: Mapping[str, RationalFunction]) -> int:
+def safety(chain: Chain, formulas: Mapping[str, RationalFunction]) -> int:
     """The probability that wrong formulas pass at one random point is at most 2^-safety."""
-    degree = sum(formula.degree for formula in formulas.values()) + len(given.parameters)
+    degree = sum(formula.degree for formula in formulas.values()) + len(chain.parameters)
     return COORDINATE - ceil(log2(degree))
 
 
@@ -74,10 +74,10 @@ def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[s
     """Whether two models at rational points have the same transfer function: exact, common
     factors do not matter.
     """
-    one, s = fmpq_poly([1]), fmpq_poly([0, 1])
+    polynomial, s = fmpq_poly([1]), fmpq_poly([0, 1])
     (f_num, f_den), (g_num, g_den) = (
         plain_receptance(
-            chain.structure, {name: fmpq_poly([v]) for name, v in values.items()}, s, one
+            chain.structure, {name: fmpq_poly([v]) for name, v in values.items()}, s, polynomial
         )
         for chain, values in ((left, a), (right, b))
     )
@@ -104,10 +104,10 @@ def _coefficients(chain: Chain, values: Values) -> Iterator[list[acb]]:
         yield [p[i] / lead for i in range(den.degree() + 1)]
 
 
-def _relative(given: list[acb], ours: list[acb]) -> float:
-    largest = max((c.abs_upper() for c in given), key=float)
+def _relative(balls: list[acb], ours: list[acb]) -> float:
+    largest = max((c.abs_upper() for c in balls), key=float)
     worst = 0.0
-    for a, b in zip_longest(given, ours, fillvalue=acb(0)):
+    for a, b in zip_longest(balls, ours, fillvalue=acb(0)):
         scale = largest if a.contains(0) else a.abs_lower()
         worst = max(worst, float((a - b).abs_upper() / scale))
     return worst
@@ -127,9 +127,9 @@ class Bench:
     def alone(self) -> Iterator[tuple[Chain, Chain]]:
         """Yield both chains in every experiment that is one of chains of the class."""
         for at in range(len(self.given.experiments)):
-            one, there = self.given.alone(at), self.other.alone(at)
-            if one is not None and there is not None:
-                yield one, there
+            own_chain, other_chain = self.given.alone(at), self.other.alone(at)
+            if own_chain is not None and other_chain is not None:
+                yield own_chain, other_chain
 
     def agrees(self, point: Values, values: Values) -> bool:
         """Whether all transfer functions are the same: exact for rational values, and that none
@@ -155,29 +155,29 @@ class Bench:
     def _crossed(self, point: Values, values: Values) -> Iterator[tuple[Any, Any]]:
         ring = acb_poly if any(isinstance(v, acb) for v in values.values()) else fmpq_poly
         with ctx.workprec(BITS):
-            for here, there in zip(self.given.entries, self.other.entries, strict=True):
-                num, den = _response(here, point, fmpq_poly)
-                top, bottom = _response(there, values, ring)
+            for own_entry, other_entry in zip(self.given.entries, self.other.entries, strict=True):
+                num, den = _response(own_entry, point, fmpq_poly)
+                top, bottom = _response(other_entry, values, ring)
                 whole = ring(num) * bottom
                 yield top * ring(den) - whole, whole
 
 
-def benches(given: Chain, other: Chain, also: Sequence[str | Experiment]) -> Iterator[Bench]:
+def benches(chain: Chain, other: Chain, also: Sequence[str | Experiment]) -> Iterator[Bench]:
     """Yield every way to place the experiments in the other chain; in the given one they are where
     they are named. Raises InputError.
     """
     asked = [parse_experiment(e) if isinstance(e, str) else Named(e) for e in also]
-    used = {i for one in asked for i in one.experiment.masses}
-    own = tuple((i, i) for i in sorted(used)) if other == given else ()
-    lefts = [Experiment(), *(one.experiment for one in asked)]
-    for places in ways(given, other, asked, own):
+    used = {i for own_item in asked for i in own_item.experiment.masses}
+    own = tuple((i, i) for i in sorted(used)) if other == chain else ()
+    lefts = [Experiment(), *(own_item.experiment for own_item in asked)]
+    for places in ways(chain, other, asked, own):
         rights = [move(e, places) for e in lefts]
         pairs = dict.fromkeys(zip(lefts, rights, strict=True))
         sides = zip(*pairs, strict=True)
-        one, there = (
-            MeasuredChain(c, tuple(s)) for c, s in zip((given, other), sides, strict=True)
+        own_item, other_machine = (
+            MeasuredChain(c, tuple(s)) for c, s in zip((chain, other), sides, strict=True)
         )
-        yield Bench(one, there, places)
+        yield Bench(own_item, other_machine, places)
 
 
 def _response(entry: Entry, values: Values, ring: type) -> tuple[Any, Any]:

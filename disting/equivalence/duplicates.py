@@ -141,12 +141,12 @@ class Gate(Shown):
             "kept": [
                 {
                     "name": name,
-                    "parameters": {p: level.value for p, level in found.levels.items()},
-                    "sentence": found.sentence,
+                    "parameters": {p: level.value for p, level in identifiability.levels.items()},
+                    "sentence": identifiability.sentence,
                     "same": same.get(name, []),
                     "next": to_dict(self.next[name]) if name in self.next else None,
                 }
-                for name, found in self.parameters.items()
+                for name, identifiability in self.parameters.items()
             ],
             "not_separate": [
                 {
@@ -210,18 +210,18 @@ def gate(
     )
 
 
-def model_of(given: Given) -> AnyModel:
+def model_of(model: Given) -> AnyModel:
     """The model that a chain, a network or a text for them is, or the model itself; raises
     InputError.
     """
-    if isinstance(given, str):
-        given = network_of(given) if notations_of(given) else chains_named([given])[0]
-    if isinstance(given, Network):
-        return of_network(given)
-    if isinstance(given, Chain):
-        return Model.from_chain(given, name=name_of(given))
+    if isinstance(model, str):
+        model = network_of(model) if notations_of(model) else chains_named([model])[0]
+    if isinstance(model, Network):
+        return of_network(model)
+    if isinstance(model, Chain):
+        return Model.from_chain(model, name=name_of(model))
     wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
-    return of_type(given, Model | MatrixModel, wanted)
+    return of_type(model, Model | MatrixModel, wanted)
 
 
 def duplicate(decided: Decisions, made: Sequence[AnyModel], kept: int, other: int) -> Duplicate:
@@ -242,20 +242,20 @@ def _formulas(
     named = _assignments(by_name(left, right, verdict))
     if named or len(right.parameters) > MOST_SOLVED:
         return named or _by_parts(left, right)
-    found = way(left, right, domain)
-    formulas = tuple(of_way(True, found)) if found else ()
+    the_way = way(left, right, domain)
+    formulas = tuple(of_way(True, the_way)) if the_way else ()
     if not fit(Explicit(domain.value, formulas), left, right):
         raise ContradictionError(f"the formulas from {left.name} to {right.name} are wrong")
     return tuple(Assignment(*f) for f in formulas) or _by_parts(left, right)
 
 
 def _by_parts(left: AnyModel, right: AnyModel) -> tuple[Assignment, ...]:
-    one, two = on_one_variable([left, right])
+    model, two = on_one_variable([left, right])
     try:
-        first = by_parts(one, two)[0]
+        first = by_parts(model, two)[0]
     except NoFormulas:
         return ()
-    return _assignments([confirmed(first, one, two)])
+    return _assignments([confirmed(first, model, two)])
 
 
 def _assignments(forms: Iterable[ClosedForm]) -> tuple[Assignment, ...]:

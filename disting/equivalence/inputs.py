@@ -23,7 +23,7 @@ from disting.network.network import Network
 Value = Number | str
 
 
-def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
+def chains_of(to: Chain | Family | str, chain: Chain) -> tuple[Chain, ...]:
     """The chains to look at: one, or all of a family; text such as 3:11, A11 or 3 means damping
     and sensor of the given chain.
 
@@ -39,19 +39,19 @@ def chains_of(to: Chain | Family | str, given: Chain) -> tuple[Chain, ...]:
     if isinstance(to, Chain):
         return (to,)
     return tuple(
-        replace(c, lag=c.lag or given.lag, dead_time=c.dead_time or given.dead_time)
-        for c in _named(to, given)
+        replace(c, lag=c.lag or chain.lag, dead_time=c.dead_time or chain.dead_time)
+        for c in _named(to, chain)
     )
 
 
-def _named(to: Family | str, given: Chain) -> tuple[Chain, ...]:
+def _named(to: Family | str, source_chain: Chain) -> tuple[Chain, ...]:
     """The chains as their text names them."""
     if isinstance(to, Family):
         return to.models
-    family = Family(given.n_masses, given.damped, given.sensor)
+    family = Family(source_chain.n_masses, source_chain.damped, source_chain.sensor)
     match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
     if match is None:
-        return (chain_of(to, family, masses=given.n_masses),)
+        return (chain_of(to, family, masses=source_chain.n_masses),)
     plain = [extended(chain, match[3]) for chain in sized(family, int(match[1])).models]
     return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
 
@@ -88,11 +88,11 @@ def point_of(model: Chain | Network, values: Mapping[str, Value]) -> dict[str, f
         raise InputError(
             f"the value of {', '.join(missing)} is missing; the parameters of {called} are {names}"
         )
-    found = {name: _fraction(name, values[name]) for name in wanted}
-    for name, value in found.items():
+    numbers = {name: _fraction(name, values[name]) for name in wanted}
+    for name, value in numbers.items():
         if value <= 0:
             raise InputError(f"{name} = {values[name]}: {_why_positive(model, name, value == 0)}")
-    return found
+    return numbers
 
 
 def assignments(texts: list[str]) -> dict[str, str]:

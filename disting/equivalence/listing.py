@@ -155,36 +155,36 @@ class Equivalents(Shown):
 NONE = "none exists, with positive parameters or any others: proven"
 
 
-def sentence(found: Fibre, count: int, cause: str) -> str:
+def sentence(fibre: Fibre, count: int, cause: str) -> str:
     """The status in words; `count` parameter vectors are listed, `cause` as from `special`."""
-    if found.status is Status.EMPTY:
-        return f"{NONE} ({found.reason})"
-    if found.status is Status.COMPLETE:
+    if fibre.status is Status.EMPTY:
+        return f"{NONE} ({fibre.reason})"
+    if fibre.status is Status.COMPLETE:
         return (
             "all there are"
-            if not found.tests.boundary
+            if not fibre.tests.boundary
             else "all there are, but for any with an element near zero"
         )
-    if found.status is Status.INFINITE:
+    if fibre.status is Status.INFINITE:
         return "infinitely many: one member of each family is listed, others may have other signs"
     listed = "the list may be incomplete" if count else "nothing can be said"
-    if found.status is Status.NOT_COVERED:
-        return f"{listed}: {found.reason}"
-    if found.tests.boundary:
+    if fibre.status is Status.NOT_COVERED:
+        return f"{listed}: {fibre.reason}"
+    if fibre.tests.boundary:
         return (
             f"{listed}, since an element cannot be told from zero: a structure without it may serve"
         )
     return f"special values: {listed}, since {cause}; change a value slightly"
 
 
-def under_all(found: Fibre, count: int, is_complete: bool) -> str:
+def under_all(fibre: Fibre, count: int, is_complete: bool) -> str:
     """What is said of those of a list that keep the responses of all experiments."""
-    if found.status is Status.EMPTY:
-        return f"{NONE} ({found.reason})"
+    if fibre.status is Status.EMPTY:
+        return f"{NONE} ({fibre.reason})"
     if is_complete:
-        of = len(found.solutions)
+        of = len(fibre.solutions)
         return "all there are" if count else f"none: all {of} that fit one of them miss another one"
-    if found.status is Status.INFINITE:
+    if fibre.status is Status.INFINITE:
         return "infinitely many fit each experiment alone; not all of them were put into the others"
     listed = "the list may be incomplete" if count else "nothing can be said"
     return f"{listed}: no experiment alone gives a complete list"
@@ -206,22 +206,22 @@ def among(chains: Sequence[Chain]) -> str:
     return f"{count} of {sizes} mass{'es' * (sizes != '1')}, {', '.join(kind)}, looked at"
 
 
-def not_covered(given: Chain, other: Chain) -> str:
+def not_covered(chain: Chain, other: Chain) -> str:
     """Why the synthesis does not apply to this pair, or nothing."""
-    if other.n_masses > given.n_masses:
+    if other.n_masses > chain.n_masses:
         return "a structure with more masses would need poles that cancel, which is not covered"
-    if (other.damped or other.ground_dampers) and not given.damped and not given.ground_dampers:
+    if (other.damped or other.ground_dampers) and not chain.damped and not chain.ground_dampers:
         return "a structure with dampers for a model without any is not covered"
-    if other.lag and not given.lag:
+    if other.lag and not chain.lag:
         return "a structure with a lag would need a pole that cancels, which is not covered"
     return ""
 
 
-def special(given: Chain, point: Mapping[str, fmpq]) -> str:
+def special(chain: Chain, point: Mapping[str, fmpq]) -> str:
     """What is special about the values of a model whose poles or zeros coincide."""
-    if target(given.structure, point).denominator.degree() < 2 * given.n_masses + given.lag:
+    if target(chain.structure, point).denominator.degree() < 2 * chain.n_masses + chain.lag:
         return "a vibration mode is not seen by force and sensor (poles and zeros cancel)"
-    equal = _equal_ratios(given, point)
+    equal = _equal_ratios(chain, point)
     return (
         f"springs have the same ratio k/d ({equal})"
         if equal
@@ -229,10 +229,10 @@ def special(given: Chain, point: Mapping[str, fmpq]) -> str:
     )
 
 
-def _equal_ratios(given: Chain, point: Mapping[str, fmpq]) -> str:
+def _equal_ratios(chain: Chain, point: Mapping[str, fmpq]) -> str:
     """Springs of one ratio each, such as k12/d12 = k23/d23."""
     groups: dict[Any, list[str]] = {}
-    for name in given.parameters:
+    for name in chain.parameters:
         if name[0] == "k" and f"d{name[1:]}" in point:
             groups.setdefault(point[name] / point[f"d{name[1:]}"], []).append(f"{name}/d{name[1:]}")
     return ", ".join(" = ".join(names) for names in groups.values() if len(names) > 1)

@@ -96,7 +96,7 @@ class Map:
 
 
 def explicit_map(
-    given: Chain | str, other: Chain | str, *, damped: bool | None = None
+    chain: Chain | str, other: Chain | str, *, damped: bool | None = None
 ) -> Map | None:
     """The formulas, the simplest ones known; None if no rational map is known here (there may be
     one).
@@ -112,37 +112,37 @@ def explicit_map(
     k01' = k12*(m1 + m2)**2/m2**2
     d01' = d12*(m1 + m2)**2/m2**2
     """
-    given, other = chains_named([given, other], damped=damped)
-    found = next(_candidates(given, other), None)
-    if found is None:
+    chain, other = chains_named([chain, other], damped=damped)
+    image = next(_candidates(chain, other), None)
+    if image is None:
         return None
-    formulas, steps = {name: found.values[name] for name in other.parameters}, found.steps
-    if given.n_masses <= EXPANDED_UP_TO:
-        holds, grade = is_identity(given, other, formulas), (Certainty.PROVEN, 0)
+    formulas, steps = {name: image.values[name] for name in other.parameters}, image.steps
+    if chain.n_masses <= EXPANDED_UP_TO:
+        holds, grade = is_identity(chain, other, formulas), (Certainty.PROVEN, 0)
     else:
-        holds = holds_at_random(given, other, formulas, f"{given}:{other}")
-        grade = (Certainty.BOUNDED, safety(given, formulas))
+        holds = holds_at_random(chain, other, formulas, f"{chain}:{other}")
+        grade = (Certainty.BOUNDED, safety(chain, formulas))
     if not holds:
         raise ContradictionError(
-            f"the formulas from {name_of(given)} to {name_of(other)} are wrong"
+            f"the formulas from {name_of(chain)} to {name_of(other)} are wrong"
         )
-    return Map(given, other, formulas, steps, *grade)
+    return Map(chain, other, formulas, steps, *grade)
 
 
-def _candidates(given: Chain, other: Chain) -> Iterator[Image]:
+def _candidates(chain: Chain, other: Chain) -> Iterator[Image]:
     """Yield the models of `other` that are known as formulas, simplest first, without the
     identity.
     """
-    names = variables(["s", *given.parameters])
-    start = {name: names[name] for name in given.parameters}
-    for image in _images(given, start, other):
-        if image.chain == other and (given != other or image.values != start):
+    names = variables(["s", *chain.parameters])
+    start = {name: names[name] for name in chain.parameters}
+    for image in _images(chain, start, other):
+        if image.chain == other and (chain != other or image.values != start):
             yield image
 
 
-def _images(given: Chain, start: Mapping[str, RationalFunction], other: Chain) -> Iterator[Image]:
-    yield from images(given, start)
-    for expansion in expansions(given) if given.n_masses <= CAUER_UP_TO else ():
+def _images(chain: Chain, start: Mapping[str, RationalFunction], other: Chain) -> Iterator[Image]:
+    yield from images(chain, start)
+    for expansion in expansions(chain) if chain.n_masses <= CAUER_UP_TO else ():
         if any(
             image.chain == other
             for image in images(expansion.chain, dict.fromkeys(expansion.chain.parameters, 1.0))

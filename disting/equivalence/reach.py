@@ -88,7 +88,7 @@ def inequality(polynomial: str) -> str:
     return " > ".join(" + ".join(side) or "0" for side in sides)
 
 
-def reach(given: AnyModel, other: AnyModel) -> Reach | None:
+def reach(model: AnyModel, other: AnyModel) -> Reach | None:
     """Which positive values of the one model have a positive equivalent in the other one; None
     where that is not known, or not short. Both have the same degrees.
 
@@ -99,25 +99,27 @@ def reach(given: AnyModel, other: AnyModel) -> Reach | None:
     >>> reach(one, two).pieces
     (Piece(positive=('a12 - a20',), equation='', root='', parameter=''),)
     """
-    if max(len(m.parameters) for m in (given, other)) > MOST_PARAMETERS:
+    if max(len(m.parameters) for m in (model, other)) > MOST_PARAMETERS:
         return None
-    one = way(given, other, Domain.POSITIVE, SHORT)
-    if one is None:
+    this_way = way(model, other, Domain.POSITIVE, SHORT)
+    if this_way is None:
         return None
-    if one.covering or one.path():
+    if this_way.covering or this_way.path():
         return Reach((Piece(()),))
-    pieces = list(_pieces(one))
+    pieces = list(_pieces(this_way))
     if None in pieces or len(pieces) > MOST_PIECES:
         return None
     return Reach(_least([p for p in pieces if p]))
 
 
-def _asked(given: AnyModel, other: AnyModel, settings: Settings) -> Reach | None:
-    return reach(given, other)
+def _asked(model: AnyModel, other: AnyModel, settings: Settings) -> Reach | None:
+    return reach(model, other)
 
 
-def _to_dict(found: Reach | None) -> object:
-    return found and [[list(p.positive), p.equation, p.root, p.parameter] for p in found.pieces]
+def _to_dict(the_reach: Reach | None) -> object:
+    return the_reach and [
+        [list(p.positive), p.equation, p.root, p.parameter] for p in the_reach.pieces
+    ]
 
 
 def _from_dict(data: Any) -> Reach | None:
@@ -129,31 +131,31 @@ def _from_dict(data: Any) -> Reach | None:
 REACHED = Question.plain("conditions for positive equivalents", _asked, _to_dict, _from_dict)
 
 
-def _pieces(one: Way) -> Iterator[Piece | None]:
+def _pieces(this_way: Way) -> Iterator[Piece | None]:
     """Yield the conditions of each case, None of one that is not short."""
-    names = [*one.given.parameters, *(f"{i}'" for i in one.other.parameters), "t'"]
-    for section in one.parted.sections:
+    names = [*this_way.given.parameters, *(f"{i}'" for i in this_way.other.parameters), "t'"]
+    for section in this_way.parted.sections:
         yield None if _is_long(section.where) else Piece(_texts(section.where, names))
-    for case in one.parted.others:
-        yield _at_root(one, case, names)
+    for case in this_way.parted.others:
+        yield _at_root(this_way, case, names)
 
 
-def _at_root(one: Way, case: Case, names: Sequence[str]) -> Piece | None:
-    ring = one.parted.search.ring
+def _at_root(this_way: Way, case: Case, names: Sequence[str]) -> Piece | None:
+    ring = this_way.parted.search.ring
     free = ring.occurring((*case.equations, *case.positive))
     if len(case.equations) != 1 or len(free) != 1 or _is_long((*case.equations, *case.positive)):
         return None
     (at,), (equation,) = free, case.equations
     if not equation.degrees()[at]:
         return None
-    root = next(n for n in ROOTS if n not in one.given.parameters)
+    root = next(n for n in ROOTS if n not in this_way.given.parameters)
     called = [root if i == at else name for i, name in enumerate(names)]
     asked = [g for g in case.positive if g != ring.generators[at]]
     return Piece(
         _texts(asked, called),
         polynomial_text(equation, called),
         root,
-        one.other.parameters[at - ring.n_given],
+        this_way.other.parameters[at - ring.n_given],
     )
 
 
@@ -171,6 +173,6 @@ def _least(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
     return tuple(p for p in every if not any(_asks_for_less(q, p) for q in every))
 
 
-def _asks_for_less(one: Piece, other: Piece) -> bool:
-    same = one.equation in ("", other.equation)
-    return one != other and same and set(one.positive) <= set(other.positive)
+def _asks_for_less(piece: Piece, other: Piece) -> bool:
+    same = piece.equation in ("", other.equation)
+    return piece != other and same and set(piece.positive) <= set(other.positive)

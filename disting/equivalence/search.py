@@ -74,28 +74,28 @@ def equivalents(
     'all there are'
     """
     beside = [] if isinstance(to, str) else [to[1] if isinstance(to, Family) else to]
-    given = chains_named([model, *beside], damped=damped)[0]
-    point = point_of(given, values)
-    others = chains_of(to, given)
-    if others[0].sensor is not given.sensor:
+    chain = chains_named([model, *beside], damped=damped)[0]
+    point = point_of(chain, values)
+    others = chains_of(to, chain)
+    if others[0].sensor is not chain.sensor:
         raise InputError(
-            f"the sensors differ: {given.sensor.value} and {others[0].sensor.value}; choose one for"
+            f"the sensors differ: {chain.sensor.value} and {others[0].sensor.value}; choose one for"
             " both"
         )
     listings = tuple(
         listing
         for other in others
         for listing in (
-            (_under(bench, point) for bench in benches(given, other, also))
+            (_under(bench, point) for bench in benches(chain, other, also))
             if also
-            else (_listing(given, point, other),)
+            else (_listing(chain, point, other),)
         )
     )
     fractions = {name: Fraction(int(v.p), int(v.q)) for name, v in point.items()}
-    special_damping = given.n_masses > 2 and common_ratio(given, point) is not None
+    special_damping = chain.n_masses > 2 and common_ratio(chain, point) is not None
     return Equivalents(
-        name=name_of(given),
-        chain=given,
+        name=name_of(chain),
+        chain=chain,
         values=fractions,
         listings=listings,
         proportional=special_damping,
@@ -103,8 +103,8 @@ def equivalents(
     )
 
 
-def _text(given: str | Experiment) -> str:
-    return (parse_experiment(given).experiment if isinstance(given, str) else given).text
+def _text(item: str | Experiment) -> str:
+    return (parse_experiment(item).experiment if isinstance(item, str) else item).text
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,49 +123,49 @@ class _Found:
         return _is_complete(self.fibre)
 
 
-def _found(given: Chain, point: Point, other: Chain) -> _Found:
-    fibre = _fibre(given, point, other)
-    exact = [i for i in images(given, point) if i.chain == other]
+def _found(chain: Chain, point: Point, other: Chain) -> _Found:
+    fibre = _fibre(chain, point, other)
+    exact = [i for i in images(chain, point) if i.chain == other]
     others = [(s, Origin.SYNTHESIS) for s in _others(fibre, exact)]
     if fibre.status is Status.DEGENERATE:
-        lifted = _unlike(proportional_solutions(given, point, other), exact)
+        lifted = _unlike(proportional_solutions(chain, point, other), exact)
         others += [(s, Origin.PROPORTIONAL) for s in lifted]
-    return _Found(given, other, fibre, tuple(exact), tuple(others))
+    return _Found(chain, other, fibre, tuple(exact), tuple(others))
 
 
-def _listing(given: Chain, point: Point, other: Chain) -> Listing:
-    found = _found(given, point, other)
-    members = _members(found, point)
-    cause = special(given, point) if found.fibre.status is Status.DEGENERATE else ""
-    told = sentence(found.fibre, len(members), cause)
-    return Listing(name_of(other), other, found.fibre.status, members, found.is_complete, told)
+def _listing(chain: Chain, point: Point, other: Chain) -> Listing:
+    search = _found(chain, point, other)
+    members = _members(search, point)
+    cause = special(chain, point) if search.fibre.status is Status.DEGENERATE else ""
+    told = sentence(search.fibre, len(members), cause)
+    return Listing(name_of(other), other, search.fibre.status, members, search.is_complete, told)
 
 
-def _members(found: _Found, point: Point) -> tuple[Equivalent, ...]:
-    known = [_from_theorem(found.given, point, image) for image in found.exact]
-    others = [_from_solution(found.given, point, found.other, *each) for each in found.others]
-    return tuple(sorted([*known, *others], key=_order))
+def _members(search: _Found, point: Point) -> tuple[Equivalent, ...]:
+    own_equivalents = [_from_theorem(search.given, point, image) for image in search.exact]
+    others = [_from_solution(search.given, point, search.other, *each) for each in search.others]
+    return tuple(sorted([*own_equivalents, *others], key=_order))
 
 
 def _under(bench: Bench, point: Point) -> Listing:
     """What keeps the responses of all experiments, from the first list that is complete."""
     tried: list[_Found] = []
-    for one, there in bench.alone:
-        tried.append(_found(one, point, there))
+    for own_chain, other_chain in bench.alone:
+        tried.append(_found(own_chain, point, other_chain))
         if tried[-1].is_complete:
             break
-    found = next((f for f in tried if f.is_complete), tried[0])
+    search = next((f for f in tried if f.is_complete), tried[0])
     plain = {name: value for name, value in point.items() if name != "Td"}
     kept = replace(
-        found,
-        exact=tuple(i for i in found.exact if bench.agrees(plain, _plain(i.values))),
-        others=tuple((s, o) for s, o in found.others if bench.agrees(plain, _plain(s.values))),
+        search,
+        exact=tuple(i for i in search.exact if bench.agrees(plain, _plain(i.values))),
+        others=tuple((s, o) for s, o in search.others if bench.agrees(plain, _plain(s.values))),
     )
     other = bench.other.chain
     members = tuple(_everywhere(m, bench, plain) for m in _members(kept, point))
-    told = under_all(found.fibre, len(members), found.is_complete)
+    told = under_all(search.fibre, len(members), search.is_complete)
     return Listing(
-        name_of(other), other, found.fibre.status, members, found.is_complete, told, bench.places
+        name_of(other), other, search.fibre.status, members, search.is_complete, told, bench.places
     )
 
 
@@ -181,35 +181,36 @@ def _plain(values: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in values.items() if name != "Td"}
 
 
-def _is_complete(found: Fibre) -> bool:
-    return found.status in (Status.COMPLETE, Status.EMPTY) and not found.tests.boundary
+def _is_complete(the_fibre: Fibre) -> bool:
+    return the_fibre.status in (Status.COMPLETE, Status.EMPTY) and not the_fibre.tests.boundary
 
 
-def _fibre(given: Chain, point: Point, other: Chain) -> Fibre:
+def _fibre(chain: Chain, point: Point, other: Chain) -> Fibre:
     """The synthesis, where it says something; a dead time is no rational function and belongs
     to both models or to none.
     """
-    if given.dead_time != other.dead_time:
+    if chain.dead_time != other.dead_time:
         return Fibre(Status.EMPTY, reason="only one of them has a dead time")
     plain = replace(other, dead_time=False)
-    plain_values = {name: point[name] for name in given.parameters if name != "Td"}
-    found = fibre(plain, target(given.structure, plain_values), confirm=False)
-    why = not_covered(given, other)
-    if found.status is Status.DEGENERATE and why:
+    plain_values = {name: point[name] for name in chain.parameters if name != "Td"}
+    the_fibre = fibre(plain, target(chain.structure, plain_values), confirm=False)
+    why = not_covered(chain, other)
+    if the_fibre.status is Status.DEGENERATE and why:
         return Fibre(Status.NOT_COVERED, reason=why)
     late = {"Td": acb(point["Td"])} if other.dead_time else {}
     return replace(
-        found, solutions=tuple(replace(s, values={**s.values, **late}) for s in found.solutions)
+        the_fibre,
+        solutions=tuple(replace(s, values={**s.values, **late}) for s in the_fibre.solutions),
     )
 
 
-def _others(found: Fibre, exact: list[Image]) -> list[Solution]:
+def _others(the_fibre: Fibre, exact: list[Image]) -> list[Solution]:
     """The solutions that no theorem gives. Raises ContradictionError if a list said to be
     complete lacks one that is.
     """
-    rest = _unlike(found.solutions, exact)
-    lacking = len(found.solutions) - len(rest) < len(exact)
-    if lacking and _is_complete(found):
+    rest = _unlike(the_fibre.solutions, exact)
+    lacking = len(the_fibre.solutions) - len(rest) < len(exact)
+    if lacking and _is_complete(the_fibre):
         raise ContradictionError(
             "a list of equivalents that is said to be complete lacks one that a theorem gives"
         )
@@ -229,7 +230,7 @@ def _unlike(solutions: Iterable[Solution], exact: list[Image]) -> list[Solution]
     return rest
 
 
-def _from_theorem(given: Chain, point: Point, image: Image) -> Equivalent:
+def _from_theorem(chain: Chain, point: Point, image: Image) -> Equivalent:
     origin = (
         Origin.GIVEN
         if not image.steps
@@ -240,29 +241,30 @@ def _from_theorem(given: Chain, point: Point, image: Image) -> Equivalent:
     exact = {name: Fraction(int(v.p), int(v.q)) for name, v in image.values.items()}
     text = {name: f"{float(v):.15g}" for name, v in exact.items()}
     rounded = any(Fraction(text[name]) != value for name, value in exact.items())
-    residual = difference(given, point, image.chain, _read(text)) if rounded else 0.0
+    residual = difference(chain, point, image.chain, _read(text)) if rounded else 0.0
     return Equivalent(
         image.chain, _floats(text), text, exact, Signs.POSITIVE, origin, residual, 0.0
     )
 
 
 def _from_solution(
-    given: Chain, point: Point, other: Chain, found: Solution, origin: Origin
+    chain: Chain, point: Point, other: Chain, solution: Solution, origin: Origin
 ) -> Equivalent:
-    real = found.real is not Answer.NO
-    text = {name: _rounded(v, real) for name, v in found.values.items()}
-    residual = difference(given, point, other, _read(text))
-    proven = found.real is not Answer.UNKNOWN and not (real and found.positive is Answer.UNKNOWN)
-    bound = difference(given, point, other, found.values)
-    signs, values = _signs(found, real), _floats(text)
-    errors = residual, bound, found.gauges
+    real = solution.real is not Answer.NO
+    text = {name: _rounded(v, real) for name, v in solution.values.items()}
+    residual = difference(chain, point, other, _read(text))
+    unknown = Answer.UNKNOWN
+    proven = solution.real is not unknown and not (real and solution.positive is unknown)
+    bound = difference(chain, point, other, solution.values)
+    signs, values = _signs(solution, real), _floats(text)
+    errors = residual, bound, solution.gauges
     return Equivalent(other, values, text, {}, signs, origin, *errors, proven)
 
 
-def _signs(found: Solution, real: bool) -> Signs:
+def _signs(solution: Solution, real: bool) -> Signs:
     if not real:
         return Signs.COMPLEX
-    return Signs.POSITIVE if all(v.real.mid() > 0 for v in found.values.values()) else Signs.REAL
+    return Signs.POSITIVE if all(v.real.mid() > 0 for v in solution.values.values()) else Signs.REAL
 
 
 def _rounded(value: Any, real: bool) -> str:

@@ -52,25 +52,25 @@ class Expansion:
     values: Callable[[], dict[str, RationalFunction]]
 
 
-def expansions(given: Chain) -> Iterator[Expansion]:
+def expansions(chain: Chain) -> Iterator[Expansion]:
     """The chains seen from the end of the whole receptance, of the free row, of the grounded
     row, or of both rows.
     """
-    if given.damped or given.ground_dampers or given.lag or given.dead_time:
+    if chain.damped or chain.ground_dampers or chain.lag or chain.dead_time:
         return
-    n, g = given.n_masses, given.gap
-    if given.collocated:
-        plain = replace(given, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=1)
+    n, g = chain.n_masses, chain.gap
+    if chain.collocated:
+        plain = replace(chain, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=1)
         yield Expansion(
-            plain, lambda: _named(plain, *_seen(given, given.structure.ports, wall=False))
+            plain, lambda: _named(plain, *_seen(chain, chain.structure.ports, wall=False))
         )
     if not g:
         return
     for free, grounded in product(
-        (given.act_plus == given.meas_plus, False), (given.act_minus == given.meas_minus, False)
+        (chain.act_plus == chain.meas_plus, False), (chain.act_minus == chain.meas_minus, False)
     ):
         if free or grounded:
-            yield _by_rows(given, n, g, free, grounded)
+            yield _by_rows(chain, n, g, free, grounded)
 
 
 def row_from_end(
@@ -94,42 +94,50 @@ def row_from_end(
     return masses, springs
 
 
-def _by_rows(given: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
+def _by_rows(source_chain: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
     """The chain with one or both rows seen from the gap, the other one as it is."""
-    chain = replace(given, act_plus=g + 1, meas_plus=g + 1) if free else given
+    chain = replace(source_chain, act_plus=g + 1, meas_plus=g + 1) if free else source_chain
     chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
 
     def values() -> dict[str, RationalFunction]:
         """Masses and springs in terms of those of the given chain."""
-        known = {name: RationalFunction(p, p**0) for name, p in _ring(given).items() if name != "s"}
+        functions = {
+            name: RationalFunction(p, p**0)
+            for name, p in _ring(source_chain).items()
+            if name != "s"
+        }
         masses, springs = (
-            [known[f"m{i}"] for i in range(1, n + 1)],
-            [known[k] for k in known if k[0] == "k"],
+            [functions[f"m{i}"] for i in range(1, n + 1)],
+            [functions[k] for k in functions if k[0] == "k"],
         )
         if free:
             masses[g:], springs[g:] = _seen(
-                given, Ports(0, given.act_plus, 0, given.meas_plus), wall=False
+                source_chain, Ports(0, source_chain.act_plus, 0, source_chain.meas_plus), wall=False
             )
         if grounded:
-            inner = _seen(given, Ports(given.act_minus, 0, given.meas_minus, 0), wall=True)
+            inner = _seen(
+                source_chain,
+                Ports(source_chain.act_minus, 0, source_chain.meas_minus, 0),
+                wall=True,
+            )
             masses[:g], springs[:g] = inner[0][::-1], inner[1][::-1]
         return _named(chain, masses, springs)
 
     return Expansion(chain, values)
 
 
-def _seen(given: Chain, ports: Ports, *, wall: bool) -> Outwards:
+def _seen(chain: Chain, ports: Ports, *, wall: bool) -> Outwards:
     """The row with the receptance of the given chain between these ports."""
-    structure: Structure = replace(given.structure, ports=ports)
-    ring = _ring(given)
+    structure: Structure = replace(chain.structure, ports=ports)
+    ring = _ring(chain)
     one = ring["s"] ** 0
     found = plain_receptance(structure, ring, ring["s"], one)
     num, den = ([RationalFunction(c, one) for c in coefficients(p, "s")[::2]] for p in found)
     return row_from_end(num, den, wall=wall)
 
 
-def _ring(given: Chain) -> dict[str, Any]:
-    return symbols(["s", *given.parameters])
+def _ring(chain: Chain) -> dict[str, Any]:
+    return symbols(["s", *chain.parameters])
 
 
 def _named(
@@ -147,17 +155,21 @@ def common_ratio(chain: Chain, point: Mapping[str, fmpq]) -> Any | None:
 
 
 def proportional_solutions(
-    given: Chain, point: Mapping[str, fmpq], other: Chain
+    chain: Chain, point: Mapping[str, fmpq], other: Chain
 ) -> tuple[Solution, ...]:
     """The solutions of `other` with proportional damping too, where the given damping is
     proportional.
     """
-    tau = common_ratio(given, point)
+    tau = common_ratio(chain, point)
     if tau is None or not other.damped or other.ground_dampers or other.lag or other.dead_time:
         return ()
-    plain, bare = replace(given, damped=False), replace(other, damped=False)
-    found = fibre(bare, target(plain.structure, {name: point[name] for name in plain.parameters}))
-    return tuple(replace(s, values=_with_dampers(other, s.values, tau)) for s in found.solutions)
+    plain, bare = replace(chain, damped=False), replace(other, damped=False)
+    the_fibre = fibre(
+        bare, target(plain.structure, {name: point[name] for name in plain.parameters})
+    )
+    return tuple(
+        replace(s, values=_with_dampers(other, s.values, tau)) for s in the_fibre.solutions
+    )
 
 
 def _with_dampers(chain: Chain, values: dict[str, Any], tau: Any) -> dict[str, Any]:
@@ -185,11 +197,14 @@ def images(chain: Chain, values: Mapping[str, Any]) -> tuple[Image, ...]:
     >>> [str(i.chain) for i in images(two, {"m1": 1.0, "m2": 2.0, "k12": 3.0})][1]
     '2 masses, gap 0, force 2-0, sensor 2-0'
     """
-    found: list[Image] = []
+    the_images: list[Image] = []
     for image in (*_moved(Image(chain, values, ())), *_duals(Image(chain, values, ()))):
-        if not any(image.chain == known.chain and image.values == known.values for known in found):
-            found.append(image)
-    return tuple(sorted(found, key=lambda image: len(image.steps)))
+        if not any(
+            image.chain == own_image.chain and image.values == own_image.values
+            for own_image in the_images
+        ):
+            the_images.append(image)
+    return tuple(sorted(the_images, key=lambda image: len(image.steps)))
 
 
 def dual_chain(chain: Chain) -> Chain | None:

@@ -91,20 +91,20 @@ def fit_networks(
     chosen = [i for i, k in enumerate(first) if i == k]
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
-        plant = network_plant(asked[i], [one.omega for one in data])
+        plant = network_plant(asked[i], [response.omega for response in data])
         starts = random_starts(plant, data[0], STARTS, np.random.default_rng((SEED, i)))
         found.append((plant, searched(plant, cost, starts).p))
-    known = together(scatters(cost, [plant.response(p) for plant, p in found]))
+    scatter = together(scatters(cost, [plant.response(p) for plant, p in found]))
     fits = [
         replace(
-            _judged(plant, p, cost, known, subjects[i].rank),
+            _judged(plant, p, cost, scatter, subjects[i].rank),
             same=tuple(asked[j].name for j, k in enumerate(first) if k == i != j),
         )
         for i, (plant, p) in zip(chosen, found, strict=True)
     ]
-    fits = [replace(f, excluded_by=_excluding(f, fits, known)) for f in fits]
+    fits = [replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits]
     ordered = tuple(sorted(fits, key=lambda f: f.chi2))
-    whole = NetworkSelection(ordered, tuple(asked), tuple(data), known, decided)
+    whole = NetworkSelection(ordered, tuple(asked), tuple(data), scatter, decided)
     order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left, f.chi2))
     return replace(whole, fits=tuple(order))
 
@@ -126,13 +126,13 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
                 f"{network.name} has {outputs} x {inputs} outputs and inputs: give as many measured"
                 f" responses, not {len(data)}"
             )
-    if len({one.sensor for one in data}) > 1:
+    if len({response.sensor for response in data}) > 1:
         raise InputError("sensors of a network show one quantity: give the responses in one")
     return asked
 
 
 def _cost(data: Sequence[FrequencyResponse]) -> AnyCost:
-    costs = tuple(Cost(one, Case.LOGARITHM) for one in data)
+    costs = tuple(Cost(response, Case.LOGARITHM) for response in data)
     if len(costs) == 1:
         return costs[0]
     return JointCost(costs, tuple(Setup(sensor=str(k)) for k in range(1, len(costs) + 1)))
@@ -173,15 +173,15 @@ def searched(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
 
 
 def _judged(
-    plant: AnyNetworkPlant, start: Real, cost: AnyCost, known: Scatter, rank: int
+    plant: AnyNetworkPlant, start: Real, cost: AnyCost, scatter: Scatter, rank: int
 ) -> FittedNetwork:
     """Brought to the last digit in units of the scatter, and seen beside it."""
-    whitened = Whitened(cost, known)
+    whitened = Whitened(cost, scatter)
     p, _ = fine(plant, whitened, Box(np.zeros(len(plant.parameters)), plant.highest), start)
     residual, columns = whitened.of(plant, p)
     ones = np.ones(len(residual))
     missed = expected(columns, ones)
-    seen = explained(cost, residual, missed, known)
+    seen = explained(cost, residual, missed, scatter)
     level = seen.chi2
     return FittedNetwork(
         network=plant.network,
@@ -208,13 +208,13 @@ def _deviations(columns: Real, level: float) -> list[float]:
     return [float(x) for x in np.where(lost, np.inf, np.sqrt(variance))]
 
 
-def _excluding(one: FittedNetwork, fits: Sequence[FittedNetwork], known: Scatter) -> str:
+def _excluding(candidate: FittedNetwork, fits: Sequence[FittedNetwork], scatter: Scatter) -> str:
     """The network that excludes this one, the clearest first; "" if none does."""
     clear = list[tuple[float, str]]()
     for other in fits:
-        if other.cost < one.cost:
-            surplus = max(1, other.rank - one.rank)
-            size, most = statistic(one, other), limit(surplus, known.freedom)
-            if size > max(most, limit(1, known.freedom)):
+        if other.cost < candidate.cost:
+            surplus = max(1, other.rank - candidate.rank)
+            size, most = statistic(candidate, other), limit(surplus, scatter.freedom)
+            if size > max(most, limit(1, scatter.freedom)):
                 clear.append((size / most, other.network.name))
     return max(clear)[1] if clear else ""

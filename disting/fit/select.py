@@ -169,10 +169,10 @@ def _fits(
     if not likely:
         return Fits(search, searched, search, searched, test, witnessed(searched, search, test))
     shown, test = replace(search, cost=search.cost.windowed()), test and test.windowed()
-    known = witnessed(searched, shown, test)
-    task = replace(shown, cost=shown.cost.likely(known[0]))
-    found = polished(searched, task, store, executor, progress)
-    return Fits(search, searched, task, found, test and test.likely(known[1]), known)
+    scatters = witnessed(searched, shown, test)
+    task = replace(shown, cost=shown.cost.likely(scatters[0]))
+    the_estimates = polished(searched, task, store, executor, progress)
+    return Fits(search, searched, task, the_estimates, test and test.likely(scatters[1]), scatters)
 
 
 def _selection(
@@ -214,10 +214,10 @@ def _selection(
 
 def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
     """Which candidate is taken, which others are left, and whether any explains the data."""
-    task, test, known = fits.task, fits.test, fits.known
-    fitted = judged(fits.found, task, test, known, settings)
+    task, test, scatters = fits.task, fits.test, fits.known
+    fitted = judged(fits.found, task, test, scatters, settings)
     fitted = [replace(c, reasons=reasons(c, task, terms.thresholds, terms.rule)) for c in fitted]
-    return choice(akaike_weighted(fitted, task), task, test, known, terms.rule, settings)
+    return choice(akaike_weighted(fitted, task), task, test, scatters, terms.rule, settings)
 
 
 def _members(
@@ -264,8 +264,8 @@ def _alternatives(
     if selected is None:
         return ()
     within = limits_of(task.bounds, task.fixed)
-    found = alternatives(selected.chain, candidates, engine, within)
-    return alternatives_under_all(selected.chain, found, task.cost, engine, within)
+    the_alternatives = alternatives(selected.chain, candidates, engine, within)
+    return alternatives_under_all(selected.chain, the_alternatives, task.cost, engine, within)
 
 
 def _readings(fits: Fits, said: Explanation, work: Work) -> tuple[Reading, ...]:

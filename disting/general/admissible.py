@@ -58,11 +58,11 @@ def admissible_finding(
         by_signs = _by_inequalities(left, right) if size > MANY else None
         if by_signs is not None:
             return by_signs
-        found = _by_lists(left, right, seed, FIRST)
-        if found is None and size > SMALL:
-            found = _by_numbers(left, right, seed, FIRST, effort.degree)
-        if found:
-            return _sometimes(found)
+        witnesses = _by_lists(left, right, seed, FIRST)
+        if witnesses is None and size > SMALL:
+            witnesses = _by_numbers(left, right, seed, FIRST, effort.degree)
+        if witnesses:
+            return _sometimes(witnesses)
     first = way(left, right, domain, effort)
     second = None if first and first.never else way(right, left, domain, effort)
     return of_ways(left, right, (first, second), domain, seed, effort)
@@ -79,11 +79,11 @@ def of_ways(
     """The finding from what is known each way; raises ContradictionError where that cannot all
     be true.
     """
-    never = next((i for i, one in enumerate(ways) if one and one.never), None)
+    never = next((i for i, side in enumerate(ways) if side and side.never), None)
     if never is not None:
         _refuse_equivalents(ways, domain, seed)
         return _never(ways, never, domain)
-    if all(one and one.covering for one in ways):
+    if all(side and side.covering for side in ways):
         return _always(explicit(ways, left, right, domain, effort), left, right)
     if domain is Domain.POSITIVE and are_one_ports(left, right):
         return Finding(
@@ -92,20 +92,20 @@ def of_ways(
     having, lacking, shares = _seen(ways, domain, seed, effort.points)
     if lacking and not having and domain is Domain.POSITIVE:
         having = _common(left, right)
-    if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
+    if lacking and (side := ways[0 if lacking[0] else 1]) and side.path():
         raise ContradictionError(
-            f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none"
+            f"a root gives equivalents of all {side.given.name}, and {dict(lacking[1])} has none"
         )
     if having and lacking:
         return _sometimes(_witnesses(left, right, having, lacking, domain))
     if not lacking and (formulas := explicit(ways, left, right, domain, effort)):
         return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
-        found = _by_lists(left, right, seed, effort.listed) or _by_numbers(
+        witnesses = _by_lists(left, right, seed, effort.listed) or _by_numbers(
             left, right, seed, effort.listed, effort.degree, having
         )
-        if found:
-            return _sometimes(found)
+        if witnesses:
+            return _sometimes(witnesses)
         by_signs = _by_inequalities(left, right)
         if by_signs is not None:
             return by_signs
@@ -148,8 +148,8 @@ def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fra
 
 def _never(ways: Ways, at: int, domain: Domain) -> Finding:
     """No generic parameters have an equivalent, as the way at this place shows."""
-    one = ways[at]
-    closed = tuple(dict.fromkeys(one.parted.search.closed)) if one else ()
+    this_way = ways[at]
+    closed = tuple(dict.fromkeys(this_way.parted.search.closed)) if this_way else ()
     evidence = NoEquivalent(domain.value, at == 0, closed)
     return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
 
@@ -158,14 +158,14 @@ def _refuse_equivalents(ways: Ways, domain: Domain, seed: str) -> None:
     """Raise ContradictionError if one model has equivalents although the other has none: they
     would be equivalents of it.
     """
-    for one in ways:
-        if one and (
-            one.covering
-            or one.path()
-            or any(map(one.having, islice(points(one.given, domain, seed), GUARDS)))
+    for side in ways:
+        if side and (
+            side.covering
+            or side.path()
+            or any(map(side.having, islice(points(side.given, domain, seed), GUARDS)))
         ):
             raise ContradictionError(
-                f"{one.given.name} has equivalents in {one.other.name}, which has none in it"
+                f"{side.given.name} has equivalents in {side.other.name}, which has none in it"
             )
 
 
@@ -184,25 +184,25 @@ def _seen(
     one.
     """
     having, lacking, shares = list[Found](), list[Found](), list[str]()
-    for left_given, one in zip((True, False), ways, strict=True):
-        if one is None:
+    for left_given, this_way in zip((True, False), ways, strict=True):
+        if this_way is None:
             shares.append(
                 f"at no points of the {'left' if left_given else 'right'} model ({TOO_LARGE})"
             )
             continue
-        count, always = 0, bool(one.covering)
-        for values in islice(points(one.given, domain, seed), count_of):
-            found = one.having(values)
+        count, always = 0, bool(this_way.covering)
+        for values in islice(points(this_way.given, domain, seed), count_of):
+            found = this_way.having(values)
             count += bool(found)
             if found:
-                having.append((left_given, _written(values), _rounded(one.other, found)))
-            elif not always and one.lacking(values):
+                having.append((left_given, _written(values), _rounded(this_way.other, found)))
+            elif not always and this_way.lacking(values):
                 lacking.append((left_given, _written(values), ()))
             if having and lacking:
                 return having[0], lacking[0], ""
-        share = f"{count} of {count_of} random" if one.looked_at else "no"
-        lost = one.not_looked_at
-        shares.append(f"at {share} points of {one.given.name}{lost and f' ({lost})'}")
+        share = f"{count} of {count_of} random" if this_way.looked_at else "no"
+        lost = this_way.not_looked_at
+        shares.append(f"at {share} points of {this_way.given.name}{lost and f' ({lost})'}")
     return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
 
 
@@ -212,15 +212,15 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
     """
     having, lacking = list[Found](), list[Found]()
     drawn = [
-        zip(repeat(side), islice(points(one, Domain.POSITIVE, seed), count))
-        for side, one in ((True, left), (False, right))
+        zip(repeat(side), islice(points(this_model, Domain.POSITIVE, seed), count))
+        for side, this_model in ((True, left), (False, right))
     ]
     for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
-        given, other = (left, right) if left_given else (right, left)
-        found = fibre_lists.having(given, values, other)
+        model, other = (left, right) if left_given else (right, left)
+        found = fibre_lists.having(model, values, other)
         if found:
             having.append((left_given, _written(values), _rounded(other, found)))
-        elif fibre_lists.lacking(given, values, other):
+        elif fibre_lists.lacking(model, values, other):
             lacking.append((left_given, _written(values), ()))
         if having and lacking:
             return _witnesses(left, right, having[0], lacking[0], Domain.POSITIVE)
@@ -266,14 +266,14 @@ def _by_numbers(
     if having is None:
         return None
     drawn = [
-        zip(repeat(side), islice(points(one, Domain.POSITIVE, seed), count))
-        for side, one in ((True, left), (False, right))
+        zip(repeat(side), islice(points(this_model, Domain.POSITIVE, seed), count))
+        for side, this_model in ((True, left), (False, right))
     ]
     for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
-        given, other = (left, right) if left_given else (right, left)
-        if not is_tried(other) or newton.having(given, values, other):
+        model, other = (left, right) if left_given else (right, left)
+        if not is_tried(other) or newton.having(model, values, other):
             continue
-        if excludes(given, values, other, degree):
+        if excludes(model, values, other, degree):
             lacking = left_given, _written(values), ()
             return _witnesses(left, right, having, lacking, Domain.POSITIVE)
     return None
@@ -284,8 +284,8 @@ def _common(left: AnyModel, right: AnyModel) -> Found | None:
     if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
         return None
     for left_given, values, near in common_points(left, right):
-        given, other = (left, right) if left_given else (right, left)
-        found = newton.having(given, values, other, near)
+        model, other = (left, right) if left_given else (right, left)
+        found = newton.having(model, values, other, near)
         if found:
             return left_given, _written(values), _rounded(other, found)
     return None
@@ -302,18 +302,18 @@ def _witnesses(
     return Witnesses(domain.value, *having, *lacking[:2], _count(*sides, lacking[1]))
 
 
-def _count(given: AnyModel, other: AnyModel, point: PointText) -> int:
+def _count(model: AnyModel, other: AnyModel, point: PointText) -> int:
     """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
     at once.
     """
-    if not (isinstance(given, Model) and isinstance(other, Model)):
+    if not (isinstance(model, Model) and isinstance(other, Model)):
         return -2
-    goal = target(given, rational_values(given, dict(point)))
+    goal = target(model, rational_values(model, dict(point)))
     try:
-        found = solved(fibre_equations(goal, other), other.parameters, "count", Bounds())
+        fibre = solved(fibre_equations(goal, other), other.parameters, "count", Bounds())
     except TooLarge:
         return -2
-    return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(found.extent, len(found.equivalents))
+    return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(fibre.extent, len(fibre.equivalents))
 
 
 def _written(values: dict[str, Fraction]) -> PointText:

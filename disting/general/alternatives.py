@@ -138,30 +138,34 @@ def alternatives(
     >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
     ['a = 1/2, b = 1', 'a = 1, b = 1/2']
     """
-    for one in (model, other):
-        of_type(one, Model | MatrixModel, "alternatives are those of a Model in a Model")
+    for own_model in (model, other):
+        of_type(own_model, Model | MatrixModel, "alternatives are those of a Model in a Model")
     of_type(values, Mapping, "values are a mapping of names to numbers")
     exact = rational_values(model, values)
     if model.shape != other.shape:
         raise InputError(f"{model.name} and {other.name} have other numbers of inputs and outputs")
-    here, there = on_one_variable([model, other])
-    found, goals = Fibre(Extent.UNKNOWN, reason=OTHER_ZEROS), _targets(here, exact)
-    if [e is None for e in here.cells] == [e is None for e in there.cells]:
-        equations = joint_equations(goals, there.entries)
-        found = _solved(equations, other.parameters, seed, seconds)
+    here, other_model = on_one_variable([model, other])
+    fibre, goals = Fibre(Extent.UNKNOWN, reason=OTHER_ZEROS), _targets(here, exact)
+    if [e is None for e in here.cells] == [e is None for e in other_model.cells]:
+        equations = joint_equations(goals, other_model.entries)
+        fibre = _solved(equations, other.parameters, seed, seconds)
         points = [rational_values(other, values) for values in plain]
-        first = [rational(dict(point)) for point in points if _targets(there, point) == goals]
-        others = (x for x in found.equivalents if x.values not in [one.values for one in first])
-        found = replace(found, equivalents=(*first, *others))
+        first = [rational(dict(point)) for point in points if _targets(other_model, point) == goals]
+        others = (
+            x
+            for x in fibre.equivalents
+            if x.values not in [own_model.values for own_model in first]
+        )
+        fibre = replace(fibre, equivalents=(*first, *others))
     return Alternatives(
         model=model.name,
         other=other.name,
         values=exact,
-        extent=found.extent,
-        equivalents=found.equivalents,
-        free=found.free,
-        excluded=found.excluded,
-        reason=found.reason,
+        extent=fibre.extent,
+        equivalents=fibre.equivalents,
+        free=fibre.free,
+        excluded=fibre.excluded,
+        reason=fibre.reason,
     )
 
 

@@ -89,11 +89,11 @@ def in_powers(model: AnyModel, powers: Powers, places: Sequence[int] = ()) -> An
             tuple(None if e is None else _lifted(e, powers, places) for e in row)
             for row in model.rows
         )
-        found: AnyModel = replace(model, rows=tuple(rows))
+        the_model: AnyModel = replace(model, rows=tuple(rows))
     else:
-        found = _lifted(model, powers, places)
-    object.__setattr__(found, "network", model.network)
-    return found
+        the_model = _lifted(model, powers, places)
+    object.__setattr__(the_model, "network", model.network)
+    return the_model
 
 
 def _lifted(model: Model, powers: Powers, places: Sequence[int]) -> Model:
@@ -102,9 +102,11 @@ def _lifted(model: Model, powers: Powers, places: Sequence[int]) -> Model:
     top, bottom = ({_at(parts, places, size): c for parts, c in side.items()} for side in cell)
     names = dict(zip(places, own.exponents, strict=True))
     weights = tuple((names.get(i, n), w) for i, (n, w) in enumerate(powers.weights[:size]))
-    there = replace(powers, weights=weights, lost=0, unseen=own.unseen)
-    numerator, denominator, there = in_v((top, bottom), there)
-    return replace(model, numerator_terms=numerator, denominator_terms=denominator, powers=there)
+    other_powers = replace(powers, weights=weights, lost=0, unseen=own.unseen)
+    numerator, denominator, other_powers = in_v((top, bottom), other_powers)
+    return replace(
+        model, numerator_terms=numerator, denominator_terms=denominator, powers=other_powers
+    )
 
 
 def _at(parts: tuple[int, ...], places: Sequence[int], size: int) -> tuple[int, ...]:
@@ -138,10 +140,10 @@ def unnamed(model: AnyModel, name: str = "model") -> AnyModel:
 
 def as_network(model: AnyModel, name: str) -> AnyModel:
     """The same as the network that it is, whatever that is called."""
-    found = unnamed(model, name)
+    the_model = unnamed(model, name)
     if model.network is not None:
-        object.__setattr__(found, "network", replace(model.network, name="network"))
-    return found
+        object.__setattr__(the_model, "network", replace(model.network, name="network"))
+    return the_model
 
 
 def with_names(note: str, left: str, right: str) -> str:
@@ -160,11 +162,11 @@ def maps_of(left: AnyModel, right: AnyModel) -> tuple[PolynomialMap, PolynomialM
     """The polynomial maps of two models of equal degrees, in a form in which equal transfer
     functions are equal coordinates; their parameters are p1, p2, ..
     """
-    (here, *more), (there, *others) = left.entries, right.entries
+    (own_model, *more), (other_model, *others) = left.entries, right.entries
     if not more and not others:
-        return match_maps(coefficient_map(here), coefficient_map(there))
-    one, other = _stacked(left, right)
-    return one, other
+        return match_maps(coefficient_map(own_model), coefficient_map(other_model))
+    own_stacked_map, other = _stacked(left, right)
+    return own_stacked_map, other
 
 
 def map_of(model: AnyModel) -> StackedMap:

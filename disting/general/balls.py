@@ -47,8 +47,8 @@ class Balls(Arithmetic):
         """The value of a polynomial in the parameters."""
         terms = tuple((tuple(map(int, e)), int(c)) for e, c in polynomial.to_dict().items())
         point = [self.values[n] for n in polynomial.context().names()]
-        found = value_at(terms, point)
-        return fmpq(found.numerator, found.denominator)
+        number = value_at(terms, point)
+        return fmpq(number.numerator, number.denominator)
 
     def factors(self, polynomial: Poly) -> list[Poly]:
         """All linear: positive networks have real poles."""
@@ -92,7 +92,7 @@ class Synthesis:
         return POSITIVE if self.complete else Extent.UNKNOWN.value
 
 
-def positive_sets(given: AnyModel, values: dict[str, Fraction], other: AnyModel) -> Synthesis:
+def positive_sets(model: AnyModel, values: dict[str, Fraction], other: AnyModel) -> Synthesis:
     """The positive values of one network that give the transfer functions of another one at
     positive values; both in powers of one variable. Raises NoFormulas.
 
@@ -108,16 +108,16 @@ def positive_sets(given: AnyModel, values: dict[str, Fraction], other: AnyModel)
     numbers = Balls(values)
     try:
         with ctx.workprec(BITS):
-            found = [
+            the_numbers = [
                 {n: _number(x) for n, x in sorted(lot.items())}
-                for lot in values_over(numbers, given, other)
+                for lot in values_over(numbers, model, other)
             ]
     except ZeroDivisionError as special:
         raise NoFormulas("at these values the function is of a smaller set") from special
-    known, network = set_of(given), other.network
+    known, network = set_of(model), other.network
     whole = known == set_of(other) if known else network is not None and network.is_directed
     complete = whole and not numbers.choices
-    return Synthesis(tuple(found), complete, tuple(numbers.choices))
+    return Synthesis(tuple(the_numbers), complete, tuple(numbers.choices))
 
 
 def _number(value: Any) -> Fraction | float:

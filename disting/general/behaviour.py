@@ -103,13 +103,15 @@ class GeneralModel:
         for i, entry in enumerate(self.model.cells):
             if entry is None:
                 continue
-            known = _constants(entry, markov)
+            numbers = _constants(entry, markov)
             shared = shared_poles(self.degrees, i) if markov is None else None
             first = None if shared is None else self.model.cells[shared]
             if first is not None:
-                known = {n: v for n, v in known.items() if n[0] == "b"} | _differences(entry, first)
-            named = (label(n, i, shared) if self.is_numbered else n for n in known)
-            found |= dict(zip(named, map(str, known.values()), strict=True))
+                numbers = {n: v for n, v in numbers.items() if n[0] == "b"} | _differences(
+                    entry, first
+                )
+            named = (label(n, i, shared) if self.is_numbered else n for n in numbers)
+            found |= dict(zip(named, map(str, numbers.values()), strict=True))
         return found
 
 
@@ -240,14 +242,14 @@ def _ratio(terms: Terms, lead: Terms) -> Known:
 def _series(top: Sequence[Known], bottom: Sequence[Known], count: int) -> list[Known]:
     m = len(bottom) - 1
     start = max(m, len(top) - 1)
-    found: list[Known] = []
+    numbers: list[Known] = []
     for k in range(start - m + count + 1):
-        terms = [_product(bottom[m - j], found[k - j]) for j in range(1, min(k, m) + 1)]
+        terms = [_product(bottom[m - j], numbers[k - j]) for j in range(1, min(k, m) + 1)]
         first = top[start - k] if 0 <= start - k < len(top) else Fraction(0)
-        known = [term for term in terms if term is not None]
-        sure = first is not None and len(known) == len(terms)
-        found.append(first - sum(known) if first is not None and sure else None)
-    return found
+        own_numbers = [term for term in terms if term is not None]
+        sure = first is not None and len(own_numbers) == len(terms)
+        numbers.append(first - sum(own_numbers) if first is not None and sure else None)
+    return numbers
 
 
 def _product(a: Known, b: Known) -> Known:
@@ -258,13 +260,13 @@ def _product(a: Known, b: Known) -> Known:
 
 def _differences(entry: Model, first: Model) -> dict[str, Fraction]:
     """Of the monic denominators, where they are proven constant."""
-    found: dict[str, Fraction] = {}
-    one, other = entry.denominator, first.denominator
+    numbers: dict[str, Fraction] = {}
+    polynomials, other = entry.denominator, first.denominator
     mine, theirs = (_constants(m, None) for m in (entry, first))
     for k in range(entry.degrees[1]):
         name = f"a{k}"
-        if one[k] * other[-1] == other[k] * one[-1]:
-            found[name] = Fraction(0)
+        if polynomials[k] * other[-1] == other[k] * polynomials[-1]:
+            numbers[name] = Fraction(0)
         elif name in mine and name in theirs:
-            found[name] = mine[name] - theirs[name]
-    return found
+            numbers[name] = mine[name] - theirs[name]
+    return numbers

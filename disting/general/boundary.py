@@ -41,7 +41,7 @@ class Boundary:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def at_boundary(given: AnyModel, other: AnyModel, effort: Effort = THOROUGH) -> Boundary | None:
+def at_boundary(model: AnyModel, other: AnyModel, effort: Effort = THOROUGH) -> Boundary | None:
     """Parameters of the other model, and formulas for the others, that show a positive equivalent
     of all generic values; None where none is found.
 
@@ -50,26 +50,26 @@ def at_boundary(given: AnyModel, other: AnyModel, effort: Effort = THOROUGH) -> 
     >>> at_boundary(a, b).zero
     ('z',)
     """
-    if not (isinstance(given, Model) and isinstance(other, Model)):
+    if not (isinstance(model, Model) and isinstance(other, Model)):
         return None
-    for zero in islice(_candidates(given, other), TRIED):
-        found = equivalents_without(given, other, zero, effort)
-        if found:
-            return Boundary(zero, found)
+    for zero in islice(_candidates(model, other), TRIED):
+        the_way = equivalents_without(model, other, zero, effort)
+        if the_way:
+            return Boundary(zero, the_way)
     return None
 
 
 def equivalents_without(
-    given: Model, other: Model, zero: tuple[str, ...], effort: Effort = THOROUGH
+    model: Model, other: Model, zero: tuple[str, ...], effort: Effort = THOROUGH
 ) -> Way | None:
     """The way to the other model without these parameters, if it gives all generic values an
     equivalent and the theorem applies.
     """
     less = without(other, zero)
-    if less is None or not keeps_functions(given, other, less):
+    if less is None or not keeps_functions(model, other, less):
         return None
-    found = way(given, less, Domain.POSITIVE, effort)
-    return found if found and (found.covering or found.path()) else None
+    the_way = way(model, less, Domain.POSITIVE, effort)
+    return the_way if the_way and (the_way.covering or the_way.path()) else None
 
 
 def without(model: Model, zero: tuple[str, ...]) -> Model | None:
@@ -89,19 +89,19 @@ def without(model: Model, zero: tuple[str, ...]) -> Model | None:
     return less if kept and there[0] == there[1] else None
 
 
-def keeps_functions(given: Model, other: Model, less: Model) -> bool:
+def keeps_functions(model: Model, other: Model, less: Model) -> bool:
     """Whether the given model and the other one without parameters have the rank that the theorem
     asks for.
     """
     enough = dimension_at_most(other)
-    return dimension_at_least(less) >= enough and dimension_at_least(given) >= enough
+    return dimension_at_least(less) >= enough and dimension_at_least(model) >= enough
 
 
-def _candidates(given: Model, other: Model) -> Iterator[tuple[str, ...]]:
+def _candidates(model: Model, other: Model) -> Iterator[tuple[str, ...]]:
     """Yield sets of parameters, those first that leave as many as the rank."""
     spare = len(other.parameters) - dimension_at_most(other)
     sets = (z for count in range(spare, 0, -1) for z in combinations(other.parameters, count))
     for zero in islice(sets, LOOKED_AT):
         less = without(other, zero)
-        if less is not None and keeps_functions(given, other, less):
+        if less is not None and keeps_functions(model, other, less):
             yield zero

@@ -93,17 +93,17 @@ def orders(unknowns: Sequence[int]) -> Iterator[tuple[int, ...]]:
         yield tuple(x for _, x in sorted(zip(keys, unknowns, strict=True)))
 
 
-def searched(ring: Orthant, given: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Search:
-    """All cases of the equivalents of `given` in `other`, unknowns solved for in this order of
+def searched(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Search:
+    """All cases of the equivalents of `model` in `other`, unknowns solved for in this order of
     preference; raises TooMuch.
 
     Both models have the same degrees.
     """
     start = Case(
-        tuple(ring.equations(given, other)), nonzero=unknown_factors(ring, [ring.lead(other)])
+        tuple(ring.equations(model, other)), nonzero=unknown_factors(ring, [ring.lead(other)])
     )
     search = cases_of(ring, start, order)
-    leads = dict.fromkeys(entry.denominator_terms[-1] for entry in given.entries)
+    leads = dict.fromkeys(entry.denominator_terms[-1] for entry in model.entries)
     search.generic += [ring.lifted(lead, 0) for lead in leads]
     return search
 
@@ -119,16 +119,16 @@ def _open(search: Search, case: Case) -> None:
     search.opened += 1
     if search.opened > CASES:
         raise TooMuch(f"more than {CASES} cases")
-    found = _factored(search, case.equations)
-    if found is None:
+    polynomials = _factored(search, case.equations)
+    if polynomials is None:
         return
-    several = next((f for f in found if len(f) > 1), None)
+    several = next((f for f in polynomials if len(f) > 1), None)
     if several:
-        others = tuple(search.ring.product(f) for f in found if f is not several)
+        others = tuple(search.ring.product(f) for f in polynomials if f is not several)
         for factor in several:
             _open(search, replace(case, equations=(factor, *others)))
         return
-    plain = tuple(f[0] for f in found)
+    plain = tuple(f[0] for f in polynomials)
     void = next((c for c in case.nonzero if c in plain or -c in plain), None)
     if void is not None:
         search.closed.append(f"{void} != 0")
@@ -148,7 +148,7 @@ def _factored(
     """Factors of each equation that may vanish, those of few factors first; None if one
     equation has none.
     """
-    found: list[tuple[fmpz_mpoly, ...]] = []
+    polynomials: list[tuple[fmpz_mpoly, ...]] = []
     for equation in equations:
         if equation.is_zero():
             continue
@@ -158,10 +158,10 @@ def _factored(
         if not kept:
             search.closed.append(str(equation))
             return None
-        found.append(kept)
-    found.sort(key=lambda factors: (len(factors), sum(map(len, factors))))
+        polynomials.append(kept)
+    polynomials.sort(key=lambda factors: (len(factors), sum(map(len, factors))))
     least: list[tuple[fmpz_mpoly, ...]] = []
-    for factors in found:
+    for factors in polynomials:
         if not any(all(f in factors for f in fewer) for fewer in least):
             least.append(factors)
     return least
@@ -223,23 +223,23 @@ def _place(search: Search, case: Case, at: int, rest: fmpz_mpoly, factor: fmpz_m
     ring, positive = search.ring, search.ring.domain is Domain.POSITIVE
     nonzero = unknown_factors(ring, (factor, rest) if positive else (factor,))
     asked = (*case.positive, ring.generators[at]) if positive else case.positive
-    known = replace(case, positive=asked, nonzero=(*case.nonzero, *nonzero))
-    found = placed(ring, known, at, RationalFunction(-rest, factor))
-    if isinstance(found, Case):
-        _open(search, found)
+    own_case = replace(case, positive=asked, nonzero=(*case.nonzero, *nonzero))
+    the_case = placed(ring, own_case, at, RationalFunction(-rest, factor))
+    if isinstance(the_case, Case):
+        _open(search, the_case)
     else:
-        search.closed.append(found)
+        search.closed.append(the_case)
 
 
 def _eliminate(search: Search, case: Case) -> bool:
     """Whether two equations in two unknowns were replaced by others (see `elimination`)."""
     ring = search.ring
-    found = branches(ring, *case.equations) if len(case.equations) == PAIR else None
-    if found is None:
+    the_branches = branches(ring, *case.equations) if len(case.equations) == PAIR else None
+    if the_branches is None:
         return False
-    search.generic += found.generic
-    search.closed += [f"{factor} = 0" for factor in found.closed]
-    for branch in found.open:
+    search.generic += the_branches.generic
+    search.closed += [f"{factor} = 0" for factor in the_branches.closed]
+    for branch in the_branches.open:
         if branch.line is None:
             _open(search, replace(case, equations=(branch.factor, *case.equations)))
         else:

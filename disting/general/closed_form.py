@@ -135,19 +135,21 @@ def _latex_root(b: str, discriminant: str, twice: str) -> str:
     return rf"\frac{{{b} + \sqrt{{{discriminant}}}}}{{{twice}}}"
 
 
-def confirmed(form: ClosedForm, given: AnyModel, other: AnyModel) -> ClosedForm:
+def confirmed(form: ClosedForm, model: AnyModel, other: AnyModel) -> ClosedForm:
     """The same with its error bound; raises ContradictionError where it is wrong."""
-    here, there = on_one_variable([given, other])
-    once = _size(form, here, there)
+    own_model, other_model = on_one_variable([model, other])
+    once = _size(form, own_model, other_model)
     size = Size(once.degree * DRAWS, once.bits)
-    label = about("closed form", here.content, there.content)
+    label = about("closed form", own_model.content, other_model.content)
     points = enough(size, POINTS)
-    if not all(_agrees(form, here, there, f"{label}:{number}") for number in range(points)):
-        raise ContradictionError(f"the formulas from {given.name} to {other.name} are wrong")
+    if not all(
+        _agrees(form, own_model, other_model, f"{label}:{number}") for number in range(points)
+    ):
+        raise ContradictionError(f"the formulas from {model.name} to {other.name} are wrong")
     return replace(form, safety=safety(size, points))
 
 
-def _agrees(form: ClosedForm, given: AnyModel, other: AnyModel, label: str) -> bool:
+def _agrees(form: ClosedForm, model: AnyModel, other: AnyModel, label: str) -> bool:
     """Whether both transfer functions agree at one point, whatever the signs of the roots."""
     modulus = prime(label)
     field = fmpz_mod_ctx(modulus)
@@ -158,9 +160,9 @@ def _agrees(form: ClosedForm, given: AnyModel, other: AnyModel, label: str) -> b
             found = list(_evaluated(form, point, _square_root))
         except (ZeroDivisionError, _NoSquareError):
             continue
-        asked = [point[n] for n in given.parameters]
+        asked = [point[n] for n in model.parameters]
         return all(
-            _same(given, other, asked, [values[n] for n in other.parameters]) for values in found
+            _same(model, other, asked, [values[n] for n in other.parameters]) for values in found
         )
     raise ContradictionError("a discriminant is a square at no point that was drawn")
 
@@ -210,12 +212,12 @@ def _polynomial(polynomial: fmpz_mpoly, at: Mapping[str, Residue]) -> Residue:
     return total
 
 
-def _same(given: AnyModel, other: AnyModel, p: Sequence[Residue], q: Sequence[Residue]) -> bool:
+def _same(model: AnyModel, other: AnyModel, p: Sequence[Residue], q: Sequence[Residue]) -> bool:
     """Whether all coefficients over the leading one are the same, no leading one being zero."""
-    for one, two in zip(given.entries, other.entries, strict=True):
+    for own_model, two in zip(model.entries, other.entries, strict=True):
         here, there = (
             [_value_of(t, at) for t in (*m.numerator_terms, *m.denominator_terms)]
-            for m, at in ((one, p), (two, q))
+            for m, at in ((own_model, p), (two, q))
         )
         if len(here) != len(there) or not there[-1]:
             return False
@@ -235,7 +237,7 @@ def _value_of(terms: Terms, point: Sequence[Residue]) -> Residue:
     return total
 
 
-def _size(form: ClosedForm, given: AnyModel, other: AnyModel) -> Size:
+def _size(form: ClosedForm, source_model: AnyModel, other: AnyModel) -> Size:
     """Bounds of the polynomials c_S, of what is compared and of all denominators."""
     known = dict.fromkeys(form.given, (1.0, 0.0))
     for step in form.steps:
@@ -245,7 +247,7 @@ def _size(form: ClosedForm, given: AnyModel, other: AnyModel) -> Size:
         known[step.name] = sum(d for d, _ in parts), sum(b for _, b in parts)
     values = {name: _bounds(value, known) for name, value in form.values}
     parts = [*known.values(), *values.values()]
-    for model, at in ((given, known), (other, values)):
+    for model, at in ((source_model, known), (other, values)):
         for entry in model.entries:
             every = [t for c in (*entry.numerator_terms, *entry.denominator_terms) for t in c]
             powers = [max(e[i] for e, _ in every) for i in range(len(entry.parameters))]

@@ -37,7 +37,7 @@ Exponents = tuple[int, ...]
 Polynomial = dict[Exponents, Fraction]
 
 
-def excludes(given: Model, values: dict[str, Fraction], other: Model, degree: int = DEGREE) -> bool:
+def excludes(model: Model, values: dict[str, Fraction], other: Model, degree: int = DEGREE) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as a
     combination with products of up to so many monomials shows it.
 
@@ -49,7 +49,7 @@ def excludes(given: Model, values: dict[str, Fraction], other: Model, degree: in
     >>> excludes(loop, values, star)
     True
     """
-    rows = _scaled(given, values, other)
+    rows = _scaled(model, values, other)
     if rows is None:
         return False
     monomials = _monomials(other)
@@ -88,17 +88,17 @@ def _is_positive(products: list[Polynomial]) -> bool:
 
 
 def _scaled(
-    given: Model, values: dict[str, Fraction], other: Model
+    model: Model, values: dict[str, Fraction], other: Model
 ) -> tuple[Polynomial, ...] | None:
     """All c_i/g_i; None where the models have other coefficients, or at p fewer or common roots."""
-    mine, theirs = _coefficients(given), _coefficients(other)
+    mine, theirs = _coefficients(model), _coefficients(other)
     if [bool(t) for t in mine] != [bool(t) for t in theirs]:
         return None
-    if not is_in_one_variable(given.powers, other.powers):
+    if not is_in_one_variable(model.powers, other.powers):
         return None
-    if not is_regular(given, values):
+    if not is_regular(model, values):
         return None
-    point = [values[name] for name in given.parameters]
+    point = [values[name] for name in model.parameters]
     numbers = [value_at(terms, point) for terms in mine if terms]
     if not all(numbers):
         return None
@@ -116,9 +116,9 @@ def _products(rows: Sequence[Polynomial], monomials: Sequence[Exponents]) -> Ite
     """Yield all m f_ij, over their largest coefficient; those that cancel are kept as 0, as
     they do not near by.
     """
-    for one, other in combinations(rows, 2):
+    for numbers, other in combinations(rows, 2):
         terms: Polynomial = defaultdict(Fraction)
-        for row, sign in ((one, 1), (other, -1)):
+        for row, sign in ((numbers, 1), (other, -1)):
             for e, c in row.items():
                 terms[e] += sign * c
         largest = max(map(abs, terms.values()))

@@ -89,17 +89,17 @@ def remainder(
     return polynomial
 
 
-def _are_apart(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly, at: int) -> bool:
+def _are_apart(ring: Orthant, polynomial: fmpz_mpoly, other: fmpz_mpoly, at: int) -> bool:
     """Whether no positive p and x are zeros of both; False where that is not seen."""
-    degrees = int(one.degrees()[at]) * int(other.degrees()[at])
+    degrees = int(polynomial.degrees()[at]) * int(other.degrees()[at])
     if not degrees:
         return bool(ring.sign(other))
-    if len(one) * len(other) * degrees**2 < SIZE:
-        resultant = one.resultant(other, at)
+    if len(polynomial) * len(other) * degrees**2 < SIZE:
+        resultant = polynomial.resultant(other, at)
         if resultant and all(map(ring.sign, (f for f, _ in factorise(resultant)[1]))):
             return True
     everything = Orthant(0, ring.n_given + 1, Domain.POSITIVE)
-    pair = tuple(_moved(ring, everything, e, at) for e in (one, other))
+    pair = tuple(_moved(ring, everything, e, at) for e in (polynomial, other))
     try:
         return not cases_of(everything, Case(pair), tuple(everything.unknowns)).cases
     except TooMuch:

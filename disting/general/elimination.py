@@ -49,21 +49,21 @@ class Branches:
     generic: tuple[fmpz_mpoly, ...]
 
 
-def branches(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly) -> Branches | None:
+def branches(ring: Orthant, polynomial: fmpz_mpoly, other: fmpz_mpoly) -> Branches | None:
     """The common zeros of two equations in two unknowns; None where they are not of this form.
     Raises TooMuch.
     """
-    unknowns = ring.occurring((one, other))
-    shared = [i for i in unknowns if one.degrees()[i] and other.degrees()[i]]
+    unknowns = ring.occurring((polynomial, other))
+    shared = [i for i in unknowns if polynomial.degrees()[i] and other.degrees()[i]]
     if len(unknowns) != 2 or not shared:
         return None
-    at = min(shared, key=lambda i: int(one.degrees()[i]) * int(other.degrees()[i]))
+    at = min(shared, key=lambda i: int(polynomial.degrees()[i]) * int(other.degrees()[i]))
     kept = next(i for i in unknowns if i != at)
-    if _size(one, other, at) > SIZE:
-        raise TooMuch(f"a resultant of polynomials of {len(one)} and {len(other)} terms")
-    line, contents = _line(ring, one, other, at)
+    if _size(polynomial, other, at) > SIZE:
+        raise TooMuch(f"a resultant of polynomials of {len(polynomial)} and {len(other)} terms")
+    line, contents = _line(ring, polynomial, other, at)
     open_, closed, generic = list[Branch](), list[fmpz_mpoly](), list[fmpz_mpoly]()
-    for factor, _ in factorise(one.resultant(other, at))[1]:
+    for factor, _ in factorise(polynomial.resultant(other, at))[1]:
         if not factor.degrees()[kept]:
             generic.append(factor)
         elif ring.sign(factor):
@@ -72,7 +72,7 @@ def branches(ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly) -> Branches | No
             open_.append(Branch(factor))
         else:
             asked = [line[1], *contents]
-            missed = [e for e in (one, other) if not divides(factor, _on(ring, e, at, line))]
+            missed = [e for e in (polynomial, other) if not divides(factor, _on(ring, e, at, line))]
             asked += [_on(ring, e, at, line) for e in missed[:1]]
             generic += [_apart(ring, factor, c, kept) for c in asked]
             if missed:
@@ -98,8 +98,12 @@ def _apart(ring: Orthant, factor: fmpz_mpoly, polynomial: fmpz_mpoly, at: int) -
     )
 
 
-def _size(one: fmpz_mpoly, other: fmpz_mpoly, at: int) -> int:
-    return len(one) * len(other) * (int(one.degrees()[at]) * int(other.degrees()[at])) ** 2
+def _size(polynomial: fmpz_mpoly, other: fmpz_mpoly, at: int) -> int:
+    return (
+        len(polynomial)
+        * len(other)
+        * (int(polynomial.degrees()[at]) * int(other.degrees()[at])) ** 2
+    )
 
 
 def _on(ring: Orthant, polynomial: fmpz_mpoly, at: int, line: Line) -> fmpz_mpoly:
@@ -108,10 +112,10 @@ def _on(ring: Orthant, polynomial: fmpz_mpoly, at: int, line: Line) -> fmpz_mpol
 
 
 def _line(
-    ring: Orthant, one: fmpz_mpoly, other: fmpz_mpoly, at: int
+    ring: Orthant, polynomial: fmpz_mpoly, other: fmpz_mpoly, at: int
 ) -> tuple[Line | None, list[fmpz_mpoly]]:
     """(t, s) of s y + t, and the contents that were left out; None where no remainder is linear."""
-    first, second = sorted((one, other), key=lambda e: -int(e.degrees()[at]))
+    first, second = sorted((polynomial, other), key=lambda e: -int(e.degrees()[at]))
     contents = list[fmpz_mpoly]()
     while int(second.degrees()[at]) > 1:
         rest = _remainder(ring, first, second, at)
@@ -139,10 +143,10 @@ def _remainder(ring: Orthant, first: fmpz_mpoly, second: fmpz_mpoly, at: int) ->
 
 
 def _content(ring: Orthant, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
-    found = ring.number(0)
+    the_polynomial = ring.number(0)
     for c in ring.coefficients(polynomial, at):
-        found = found.gcd(c)
-    return found
+        the_polynomial = the_polynomial.gcd(c)
+    return the_polynomial
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +168,9 @@ def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | s
     would have to hold and fails.
     """
     put = [ring.put(c, at, by.num, by.den)[0] for c in case.nonzero]
-    void = next((c for c, found in zip(case.nonzero, put, strict=True) if found.is_zero()), None)
+    void = next(
+        (c for c, polynomial in zip(case.nonzero, put, strict=True) if polynomial.is_zero()), None
+    )
     if void is not None:
         return f"{void} != 0"
     positive, failing = inequalities(ring, (put_positive(ring, g, at, by) for g in case.positive))
@@ -211,8 +217,8 @@ def put_positive(
     ring: Orthant, polynomial: fmpz_mpoly, at: int, by: RationalFunction
 ) -> fmpz_mpoly:
     """A polynomial with the sign of the value where one variable is replaced by a fraction."""
-    found, degree = ring.put(polynomial, at, by.num, by.den)
-    return found * by.den if degree % 2 and ring.sign(by.den) <= 0 else found
+    the_polynomial, degree = ring.put(polynomial, at, by.num, by.den)
+    return the_polynomial * by.den if degree % 2 and ring.sign(by.den) <= 0 else the_polynomial
 
 
 def inequalities(

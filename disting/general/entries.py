@@ -144,8 +144,8 @@ def _column(entries: object) -> Matrix:
 
 
 def _row(entries: object) -> Matrix:
-    found = [tree(entry) for entry in _entries(entries)]
-    return [found] if found else []
+    numbers = [tree(entry) for entry in _entries(entries)]
+    return [numbers] if numbers else []
 
 
 def _width(rows: Matrix) -> int:

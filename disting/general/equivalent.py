@@ -72,12 +72,12 @@ def rational(values: Mapping[str, Fraction]) -> Equivalent:
     return Equivalent(tuple(values), (0, 1), (point, point), exact, Domain.POSITIVE, numbers)
 
 
-def equivalents(found: Shape, parameters: tuple[str, ...]) -> Iterator[Equivalent]:
+def equivalents(shape: Shape, parameters: tuple[str, ...]) -> Iterator[Equivalent]:
     """Yield the zeros, one irreducible factor after the other; `coordinates[0]` of the shape is
     t, no parameter.
     """
-    for factor, _ in found.polynomial.numer().factor()[1]:
-        reduced = [g % fmpq_poly(factor) for g in found.coordinates[1:]]
+    for factor, _ in shape.polynomial.numer().factor()[1]:
+        reduced = [g % fmpq_poly(factor) for g in shape.coordinates[1:]]
         yield from _certified(factor, reduced, parameters)
 
 
@@ -92,8 +92,8 @@ def _certified(
         with ctx.workprec(bits):
             isolated: list[Any] = factor.complex_roots()
             roots = [root for root, _ in isolated]
-            found = [_equivalent(factor, root, reduced, parameters) for root in roots]
-        sure = [x for x in found if x]
+            the_equivalents = [_equivalent(factor, root, reduced, parameters) for root in roots]
+        sure = [x for x in the_equivalents if x]
         if len(sure) == len(roots):
             return sure
         bits *= 2

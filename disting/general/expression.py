@@ -210,11 +210,11 @@ class _Reader:
         """Yield the tokens, then END for ever."""
         at = 0
         while at < len(self.text):
-            found = TOKEN.match(self.text, at)
-            if not found:
+            match = TOKEN.match(self.text, at)
+            if not match:
                 raise self.error()
-            yield found[1]
-            at = found.end()
+            yield match[1]
+            at = match.end()
         while True:
             yield END
 

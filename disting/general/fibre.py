@@ -79,11 +79,13 @@ def _listed(
     equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
 ) -> tuple[Equivalent, ...] | None:
     """Finitely many solutions, ordered by their values."""
-    found = shape(equations, len(parameters) + 1, bounds, seed)
-    if found is None:
+    the_shape = shape(equations, len(parameters) + 1, bounds, seed)
+    if the_shape is None:
         return None
     return tuple(
-        sorted(equivalents(found, parameters), key=lambda x: [(z.real, z.imag) for z in x.numbers])
+        sorted(
+            equivalents(the_shape, parameters), key=lambda x: [(z.real, z.imag) for z in x.numbers]
+        )
     )
 
 
@@ -97,13 +99,14 @@ def without_zeros(
     choices = (c for count in (0, *unknowns) for c in combinations(unknowns, count))
     for chosen in choices:
         try:
-            found = shape(_inverted(equations, chosen), len(parameters) + 1, bounds, seed)
+            the_shape = shape(_inverted(equations, chosen), len(parameters) + 1, bounds, seed)
         except TooLarge:
             continue
-        if found:
-            whole = found.polynomial
+        if the_shape:
+            whole = the_shape.polynomial
             back = [
-                _inverse(g, whole) if i in chosen else g for i, g in enumerate(found.coordinates)
+                _inverse(g, whole) if i in chosen else g
+                for i, g in enumerate(the_shape.coordinates)
             ]
             return tuple(equivalents(Shape(whole, tuple(back)), parameters))
     return None
@@ -139,10 +142,10 @@ def _family(
     members, names, successes = list[Equivalent](), dict[str, None](), 0
     for draw in range(DRAWS):
         cut, fixed = _cut(equations, ideal, f"{seed}:{draw}", bounds)
-        found = _listed(cut, parameters, seed, bounds) if fixed else None
-        if found:
+        the_equivalents = _listed(cut, parameters, seed, bounds) if fixed else None
+        if the_equivalents:
             successes += 1
-            members += [one for one in found if one not in members]
+            members += [equivalent for equivalent in the_equivalents if equivalent not in members]
             names |= {parameters[i - 1]: None for i in fixed}
         if successes >= MEMBERS and any(x.domain is Domain.POSITIVE for x in members):
             break

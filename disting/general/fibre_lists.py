@@ -47,33 +47,33 @@ Values = dict[str, Fraction]
 PLACES = [place_name(i) for i in range(MOST_EXPONENTS)]
 
 
-def having(given: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...] | None:
+def having(model: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...] | None:
     """A positive equivalent (rounded) in the other model of a point around which all have some;
     None where that is not shown.
     """
-    if not (isinstance(given, Model) and isinstance(other, Model)):
+    if not (isinstance(model, Model) and isinstance(other, Model)):
         return None
     there = _there(other)
-    if _there(given) != there or len(other.parameters) != sum(map(sum, there)) - 1:
+    if _there(model) != there or len(other.parameters) != sum(map(sum, there)) - 1:
         return None
-    goal = goal_of(given, values)
-    found = (goal and positive(goal, other)) or ()
-    regular = (e for e in found if orientation(other, e))
+    goal = goal_of(model, values)
+    equivalents = (goal and positive(goal, other)) or ()
+    regular = (e for e in equivalents if orientation(other, e))
     return next((tuple(x.real for x in e.numbers) for e in regular), None)
 
 
-def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
+def lacking(model: AnyModel, values: Values, other: AnyModel) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as is
     shown.
     """
-    if not (isinstance(given, Model) and isinstance(other, Model)):
+    if not (isinstance(model, Model) and isinstance(other, Model)):
         return False
     network = other.network
-    if not is_in_one_variable(given.powers, other.powers):
+    if not is_in_one_variable(model.powers, other.powers):
         return False
     if network is None or not network.sign_of_one_port or len(network.seen) > MOST_ELEMENTS:
         return False
-    goal = goal_of(given, values)
+    goal = goal_of(model, values)
     if goal is None or positive(goal, other) != ():
         return False
     degree = max(len(goal.numerator), len(goal.denominator)) - 1
@@ -82,10 +82,10 @@ def lacking(given: AnyModel, values: Values, other: AnyModel) -> bool:
     return minors is not None and all(positive(goal, m) == () for m in minors)
 
 
-def is_in_one_variable(one: Powers, other: Powers) -> bool:
+def is_in_one_variable(powers: Powers, other: Powers) -> bool:
     """Whether both count powers of the same v."""
-    weights = zip(one.weights, other.weights, strict=False)
-    return one.halves == other.halves and all(a == b for (_, a), (_, b) in weights)
+    weights = zip(powers.weights, other.weights, strict=False)
+    return powers.halves == other.halves and all(a == b for (_, a), (_, b) in weights)
 
 
 def _there(model: Model) -> tuple[list[bool], list[bool]]:
@@ -93,10 +93,10 @@ def _there(model: Model) -> tuple[list[bool], list[bool]]:
     return list(map(bool, model.numerator_terms)), list(map(bool, model.denominator_terms))
 
 
-def goal_of(given: Model, values: Values) -> Target | None:
+def goal_of(model: Model, values: Values) -> Target | None:
     """None where a pole runs to infinity."""
     try:
-        return target(given, rational_values(given, values))
+        return target(model, rational_values(model, values))
     except InputError:
         return None
 
@@ -116,15 +116,15 @@ def positive(goal: Target, other: Model, thorough: bool = False) -> tuple[Equiva
     """
     equations = fibre_equations(goal, other)
     try:
-        found = solved(equations, other.parameters, "list", Bounds())
+        fibre = solved(equations, other.parameters, "list", Bounds())
     except TooLarge:
         every = (
             without_zeros(equations[:-1], other.parameters, "list", Bounds()) if thorough else None
         )
         return every and tuple(e for e in every if e.domain is Domain.POSITIVE)
-    if found.extent in (Extent.NONE, Extent.FINITE):
-        return tuple(e for e in found.equivalents if e.domain is Domain.POSITIVE)
-    return () if Domain.POSITIVE in found.excluded or Domain.REAL in found.excluded else None
+    if fibre.extent in (Extent.NONE, Extent.FINITE):
+        return tuple(e for e in fibre.equivalents if e.domain is Domain.POSITIVE)
+    return () if Domain.POSITIVE in fibre.excluded or Domain.REAL in fibre.excluded else None
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -136,11 +136,11 @@ def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ..
         for at in range(len(whole.elements)):
             for contracted in (False, True):
                 try:
-                    found = one_less(whole, at, contracted)
-                    if found is None or found in met:
+                    the_network = one_less(whole, at, contracted)
+                    if the_network is None or the_network in met:
                         continue
-                    met.add(found)
-                    made = Model.from_network(found)
+                    met.add(the_network)
+                    made = Model.from_network(the_network)
                 except InputError:
                     return None
                 known = PLACES[: len(powers.weights)]
@@ -149,7 +149,7 @@ def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ..
                 model = in_powers(made, powers, [known.index(n) for n in made.powers.exponents])
                 if max(model.degrees) >= degree:
                     kept.setdefault(model.content, model)
-                    todo.append(found)
+                    todo.append(the_network)
     return tuple(kept.values())
 
 
@@ -199,5 +199,5 @@ def _jacobian(model: Model) -> fmpz_mpoly:
     context = fmpz_mpoly_ctx.get(model.parameters, Ordering.lex)
     row = [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]
     derivatives = [[c.derivative(i) for c in row] for i in range(len(model.parameters))]
-    found = subdeterminants([row, *derivatives], {0: context.constant(1)})
-    return found.get((1 << len(row)) - 1, context.constant(0))
+    polynomials = subdeterminants([row, *derivatives], {0: context.constant(1)})
+    return polynomials.get((1 << len(row)) - 1, context.constant(0))

@@ -54,8 +54,8 @@ class Step:
     def discriminant(self) -> RationalFunction:
         """b^2 - 4 a c."""
         c, b, a = self.root
-        found: RationalFunction = b * b - four(a * c)
-        return found
+        function: RationalFunction = b * b - four(a * c)
+        return function
 
 
 def four(value: RationalFunction) -> RationalFunction:
@@ -160,8 +160,8 @@ class Field(Arithmetic):
         """The value, or a name for it."""
         if letters(value.num) + letters(value.den) <= self.letters:
             return value
-        known = next((s for s in self.steps if not s.root and s.value == value), None)
-        return self[known.name] if known else self._named(0, value)
+        step = next((s for s in self.steps if not s.root and s.value == value), None)
+        return self[step.name] if step else self._named(0, value)
 
     def number(self, value: int) -> RationalFunction:
         """A constant."""
@@ -175,12 +175,12 @@ class Field(Arithmetic):
 
     def split(self, quadratic: Poly) -> tuple[RationalFunction, RationalFunction]:
         """Both roots of a polynomial of degree 2, by names."""
-        known = [s for s in self.steps if s.root == quadratic]
-        if known:
-            one, other = (self[s.name] for s in known)
+        steps = [s for s in self.steps if s.root == quadratic]
+        if steps:
+            function, other = (self[s.name] for s in steps)
         else:
-            one, other = (self._named(1, self.one, quadratic, sign) for sign in (1, -1))
-        return one, other
+            function, other = (self._named(1, self.one, quadratic, sign) for sign in (1, -1))
+        return function, other
 
     def _named(
         self, letter: int, value: RationalFunction, root: Poly = (), sign: int = 1
@@ -276,5 +276,5 @@ def names_in(value: RationalFunction) -> set[str]:
     }
 
 
-def _multiple(one: fmpz_mpoly, other: fmpz_mpoly) -> fmpz_mpoly:
-    return one // one.gcd(other) * other
+def _multiple(polynomial: fmpz_mpoly, other: fmpz_mpoly) -> fmpz_mpoly:
+    return polynomial // polynomial.gcd(other) * other

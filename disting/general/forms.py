@@ -49,9 +49,9 @@ class Forms:
     models: tuple[AnyModel, AnyModel]
     larger: tuple[bool, bool]
 
-    def are_drawn(self, *given: AnyModel) -> bool:
+    def are_drawn(self, *models: AnyModel) -> bool:
         """Whether both are the given ones in other numbers: nothing is replaced."""
-        pairs = [(m.network, form.network) for m, form in zip(given, self.models, strict=True)]
+        pairs = [(m.network, form.network) for m, form in zip(models, self.models, strict=True)]
         return all(a and b and same_drawing(a, b) for a, b in pairs)
 
     def evidence(self, inner: OfNetworks) -> Replaced:
@@ -66,18 +66,22 @@ def by_forms(
     """What the simplest networks tell over positive parameters, ABANDONED if they leave it open;
     None where nothing is replaced.
     """
-    told = None
+    finding = None
     for larger in (False, True):
         forms = forms_of(left, right, larger)
         if forms is None or forms.are_drawn(left, right):
             continue
-        found = _answered(*forms.models, seed, effort)
-        if larger and found.outcome is not Outcome.FAILS:
+        the_finding = _answered(*forms.models, seed, effort)
+        if larger and the_finding.outcome is not Outcome.FAILS:
             continue
-        if isinstance(found.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem):
-            return replace(found, evidence=forms.evidence(found.evidence))
-        told = replace(found, note=f"of the simplest networks that give the same, {found.note}")
-    return told
+        if isinstance(
+            the_finding.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem
+        ):
+            return replace(the_finding, evidence=forms.evidence(the_finding.evidence))
+        finding = replace(
+            the_finding, note=f"of the simplest networks that give the same, {the_finding.note}"
+        )
+    return finding
 
 
 def by_inverse(
@@ -87,29 +91,29 @@ def by_inverse(
     models = inverse_of(left, right)
     if models is None:
         return None
-    found = by_forms(*models, seed, effort)
-    if found is None:
-        found = _answered(*models, seed, effort)
+    finding = by_forms(*models, seed, effort)
+    if finding is None:
+        finding = _answered(*models, seed, effort)
     if isinstance(
-        found.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replaced
+        finding.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replaced
     ):
-        evidence = AtInverse(models[0].name, models[1].name, found.evidence)
-        return replace(found, evidence=evidence)
+        evidence = AtInverse(models[0].name, models[1].name, finding.evidence)
+        return replace(finding, evidence=evidence)
     return None
 
 
 def inverse_of(left: AnyModel, right: AnyModel) -> tuple[AnyModel, AnyModel] | None:
     """Both with 1/s for s; None where an element has no counterpart."""
     networks = [m.network and at_inverse(m.network) for m in (left, right)]
-    known = [n for n in networks if n is not None]
-    if len(known) < len(networks) or len({(n.sort, n.order) for n in known}) > 1:
+    own_networks = [n for n in networks if n is not None]
+    if len(own_networks) < len(networks) or len({(n.sort, n.order) for n in own_networks}) > 1:
         return None
     try:
-        models = [_with_network(of_network(n), n) for n in known]
+        models = [_with_network(of_network(n), n) for n in own_networks]
     except InputError:
         return None
-    one, other = on_one_variable(models)
-    return one, other
+    model, other = on_one_variable(models)
+    return model, other
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -121,20 +125,22 @@ def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
     """None where none is known, or none that is larger; exponents are not matched here."""
     if any(m.powers.weights for m in (left, right)):
         return None
-    found = [(m.network, simplest_network(m), simplest_network(m, larger)) for m in (left, right)]
-    more = [whole != same for _, same, whole in found]
-    known = [whole for own, _, whole in found if own is not None and whole is not None]
-    if len(known) < len(found) or any(more) != larger:
+    networks = [
+        (m.network, simplest_network(m), simplest_network(m, larger)) for m in (left, right)
+    ]
+    more = [whole != same for _, same, whole in networks]
+    own_networks = [whole for own, _, whole in networks if own is not None and whole is not None]
+    if len(own_networks) < len(networks) or any(more) != larger:
         return None
-    spread = zip((left, right), known, more, strict=True)
+    spread = zip((left, right), own_networks, more, strict=True)
     if any(larger_ and _rank(m) < len(whole.parameters) for m, whole, larger_ in spread):
         return None
     try:
-        models = [_with_network(of_network(whole), whole) for whole in known]
+        models = [_with_network(of_network(whole), whole) for whole in own_networks]
     except InputError:
         return None
-    one, other = on_one_variable(models)
-    return Forms((one, other), (more[0], more[1]))
+    model, other = on_one_variable(models)
+    return Forms((model, other), (more[0], more[1]))
 
 
 def _rank(model: AnyModel) -> int:
@@ -155,21 +161,21 @@ def confirms_forms(
     """Whether these networks stand for both, and what is said of them is true."""
     inner = evidence.inner
     if isinstance(evidence, Replaced):
-        found = _stand_for(evidence, left, right)
+        models = _stand_for(evidence, left, right)
     elif isinstance(evidence, OfPart):
         part = without(left if evidence.left_is_part else right, evidence.missing)
         pair = (part or left, right) if evidence.left_is_part else (left, part or right)
-        found = pair if part else None
+        models = pair if part else None
     else:
         assert isinstance(evidence, AtInverse)
-        found = inverse_of(left, right)
-        if found and (evidence.left, evidence.right) != tuple(m.name for m in found):
+        models = inverse_of(left, right)
+        if models and (evidence.left, evidence.right) != tuple(m.name for m in models):
             return False
-    if found is None:
+    if models is None:
         return False
     if isinstance(inner, OfSubstitutes):
-        return confirms_forms(inner, *found, representation)
-    return confirms_models(inner, *found, representation)
+        return confirms_forms(inner, *models, representation)
+    return confirms_models(inner, *models, representation)
 
 
 def _stand_for(
@@ -186,10 +192,10 @@ def _stand_for(
         return None
     try:
         named = [network_of(text) for text in (evidence.left, evidence.right)]
-        one, other = on_one_variable([_with_network(of_network(n), n) for n in named])
+        model, other = on_one_variable([_with_network(of_network(n), n) for n in named])
     except InputError:
         return None
-    return (one, other) if replaceable(one, left) and replaceable(other, right) else None
+    return (model, other) if replaceable(model, left) and replaceable(other, right) else None
 
 
 def of_equals(finding: Finding, left: str, right: str) -> Finding:
@@ -210,19 +216,19 @@ def by_parts(
     for left_is_part in BOTH:
         for missing, part in islice(parts_of(left if left_is_part else right), effort.parts):
             pair = (part, right) if left_is_part else (left, part)
-            found = of_part(over_positive(*pair, settings, BRIEF), left_is_part, missing)
-            if found is not None:
-                return found
+            finding = of_part(over_positive(*pair, settings, BRIEF), left_is_part, missing)
+            if finding is not None:
+                return finding
     return None
 
 
-def of_part(found: Finding, left_is_part: bool, missing: Labels) -> Finding | None:
+def of_part(finding: Finding, left_is_part: bool, missing: Labels) -> Finding | None:
     """What is found of a network without these elements and another one, of the whole network."""
-    if not isinstance(found.evidence, OfNetworks):
+    if not isinstance(finding.evidence, OfNetworks):
         return None
-    evidence = OfPart(left_is_part, missing, found.evidence)
+    evidence = OfPart(left_is_part, missing, finding.evidence)
     tells = evidence.shows(Domain.POSITIVE) is not Relation.UNDECIDED
-    return replace(found, evidence=evidence) if tells else None
+    return replace(finding, evidence=evidence) if tells else None
 
 
 def _over_real(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
@@ -233,22 +239,22 @@ def over_positive(
     left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
 ) -> Finding:
     """The finding over positive values, as far as this effort goes."""
-    found = by_forms(left, right, settings.seed, effort)
-    if found is None:
-        found = admissible_finding(left, right, Domain.POSITIVE, settings.seed, effort)
-    if found.outcome is not Outcome.ABANDONED:
-        return found
+    finding = by_forms(left, right, settings.seed, effort)
+    if finding is None:
+        finding = admissible_finding(left, right, Domain.POSITIVE, settings.seed, effort)
+    if finding.outcome is not Outcome.ABANDONED:
+        return finding
     turned = by_inverse(left, right, settings.seed, effort)
     if turned is None:
         turned = by_parts(left, right, settings, effort)
-    return found if turned is None else turned
+    return finding if turned is None else turned
 
 
 def _in_brief(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
-    found = over_positive(left, right, settings, BRIEF)
-    if found.outcome is not Outcome.ABANDONED:
-        return found
-    return replace(found, note=f"{found.note}; {WAS_BRIEF}")
+    finding = over_positive(left, right, settings, BRIEF)
+    if finding.outcome is not Outcome.ABANDONED:
+        return finding
+    return replace(finding, note=f"{finding.note}; {WAS_BRIEF}")
 
 
 _admissible_from_json = partial(Finding.from_json, rule=ADMISSIBLE)

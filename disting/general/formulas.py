@@ -29,13 +29,13 @@ def explicit(
     first; None where one is not known to be such.
     """
     found = list[tuple[Formula, ...]]()
-    for side, given, other, one in zip(
+    for side, model, other, way in zip(
         (True, False), (left, right), (right, left), ways, strict=True
     ):
-        formulas = tuple(of_way(side, one)) if one else ()
+        formulas = tuple(of_way(side, way)) if way else ()
         near = None
         if not formulas and domain is Domain.POSITIVE:
-            near = at_boundary(given, other, effort)
+            near = at_boundary(model, other, effort)
         if near:
             formulas = tuple(of_boundary(side, other, near))
         if not formulas:
@@ -44,19 +44,19 @@ def explicit(
     return Explicit(domain.value, tuple(f for formulas in found for f in formulas))
 
 
-def of_way(left_given: bool, one: Way) -> Iterator[Formula]:
+def of_way(left_given: bool, way: Way) -> Iterator[Formula]:
     """Yield the formulas that give every generic parameter an equivalent, none where none are
     known.
     """
-    if one.covering:
-        yield from (_of_section(left_given, one, section) for section in one.covering)
-    elif found := one.path():
-        yield _of_path(left_given, one, found)
+    if way.covering:
+        yield from (_of_section(left_given, way, section) for section in way.covering)
+    elif path := way.path():
+        yield _of_path(left_given, way, path)
 
 
-def of_boundary(left_given: bool, other: AnyModel, found: Boundary) -> Iterator[Formula]:
+def of_boundary(left_given: bool, other: AnyModel, boundary: Boundary) -> Iterator[Formula]:
     """Yield the formulas of equivalents near the boundary, those that are to be small being 0."""
-    for side, where, values, root in of_way(left_given, found.way):
+    for side, where, values, root in of_way(left_given, boundary.way):
         known = dict(values)
         yield side, where, tuple((q, known.get(q, ZERO)) for q in other.parameters), root
 
@@ -73,7 +73,7 @@ def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
 
 
 def _covers(
-    small: set[tuple[str, ...]], evidence: Explicit, given: AnyModel, other: AnyModel
+    small: set[tuple[str, ...]], evidence: Explicit, model: AnyModel, other: AnyModel
 ) -> bool:
     """Whether the way found anew gives all generic parameters an equivalent, near the boundary
     where the same unknowns are small in all formulas.
@@ -82,11 +82,11 @@ def _covers(
         return False
     (zero,) = small
     if not zero:
-        found = ways_again(given, other, Domain(evidence.domain))
-        return any(one.covering or one.path() for one in found)
-    if not (isinstance(given, Model) and isinstance(other, Model)):
+        ways = ways_again(model, other, Domain(evidence.domain))
+        return any(way.covering or way.path() for way in ways)
+    if not (isinstance(model, Model) and isinstance(other, Model)):
         return False
-    return bool(equivalents_without(given, other, zero))
+    return bool(equivalents_without(model, other, zero))
 
 
 def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
@@ -97,27 +97,27 @@ def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
 
 def is_without(evidence: NoEquivalent, left: AnyModel, right: AnyModel) -> bool:
     """Whether the cases found anew are all closed."""
-    given, other = (left, right) if evidence.left_given else (right, left)
-    return any(one.never for one in ways_again(given, other, Domain(evidence.domain)))
+    model, other = (left, right) if evidence.left_given else (right, left)
+    return any(way.never for way in ways_again(model, other, Domain(evidence.domain)))
 
 
-def _of_section(left_given: bool, one: Way, section: Section) -> Formula:
-    names = _names(one)
+def _of_section(left_given: bool, way: Way, section: Section) -> Formula:
+    names = _names(way)
     values = tuple(
-        (q, text_of(v, names)) for q, v in zip(one.other.parameters, section.values, strict=True)
+        (q, text_of(v, names)) for q, v in zip(way.other.parameters, section.values, strict=True)
     )
     return left_given, tuple(polynomial_text(g, names) for g in section.where), values, ()
 
 
-def _of_path(left_given: bool, one: Way, found: Path) -> Formula:
-    names = _names(one)
-    root = names[found.at] = next(n for n in ("x", "root", "x_") if n not in one.given.parameters)
+def _of_path(left_given: bool, way: Way, path: Path) -> Formula:
+    names = _names(way)
+    root = names[path.at] = next(n for n in ("x", "root", "x_") if n not in way.given.parameters)
     values = tuple(
-        (q, text_of(v, names)) for q, v in zip(one.other.parameters, found.values, strict=True)
+        (q, text_of(v, names)) for q, v in zip(way.other.parameters, path.values, strict=True)
     )
-    ends = [_end_text(end, names) for end in (found.low, found.high)]
-    where = tuple(polynomial_text(g, names) for g in found.where)
-    return left_given, where, values, (root, polynomial_text(found.equation, names), *ends)
+    ends = [_end_text(end, names) for end in (path.low, path.high)]
+    where = tuple(polynomial_text(g, names) for g in path.where)
+    return left_given, where, values, (root, polynomial_text(path.equation, names), *ends)
 
 
 def _end_text(end: End, names: list[str]) -> str:
@@ -126,14 +126,14 @@ def _end_text(end: End, names: list[str]) -> str:
     return text_of(RationalFunction(*end), names)
 
 
-def _names(one: Way) -> list[str]:
+def _names(way: Way) -> list[str]:
     """Of p, q and t: parameters of the given model as they are called, unknowns with names that
     do not occur.
     """
-    return [*one.given.parameters, *(f"q{i}'" for i in range(len(one.other.parameters))), "t'"]
+    return [*way.given.parameters, *(f"q{i}'" for i in range(len(way.other.parameters))), "t'"]
 
 
-def _fits(formula: Formula, given: AnyModel, other: AnyModel, domain: Domain) -> bool:
+def _fits(formula: Formula, model: AnyModel, other: AnyModel, domain: Domain) -> bool:
     """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one, and
     what must not be zero is not.
 
@@ -141,10 +141,10 @@ def _fits(formula: Formula, given: AnyModel, other: AnyModel, domain: Domain) ->
     root in common with the equation for all p.
     """
     _, _, values, root = formula
-    names = [*root[:1], *given.parameters]
+    names = [*root[:1], *model.parameters]
     ring = dict(zip(names, _ring(names), strict=True))
     expansion = Expansion(ring, next(iter(ring.values())) ** 0)
-    one = expansion.one
+    own_polynomial = expansion.one
     trees = [tree(text) for _, text in values]
     if (
         tuple(name for name, _ in values) != other.parameters
@@ -153,21 +153,21 @@ def _fits(formula: Formula, given: AnyModel, other: AnyModel, domain: Domain) ->
         return False
     point = [expansion.value(t) for t in trees]
     inside = [v for v, (_, text) in zip(point, values, strict=True) if text != ZERO]
-    generic = [RationalFunction(ring[n], one) for n in given.parameters]
+    generic = [RationalFunction(ring[n], own_polynomial) for n in model.parameters]
     pairs = [
         (
-            [value_of(c, generic, one) for c in _every(a)],
-            [value_of(c, point, one) for c in _every(b)],
+            [value_of(c, generic, own_polynomial) for c in _every(a)],
+            [value_of(c, point, own_polynomial) for c in _every(b)],
         )
-        for a, b in zip(given.entries, other.entries, strict=True)
+        for a, b in zip(model.entries, other.entries, strict=True)
     ]
-    equation = expansion.value(tree(root[1])).num if root else one - one
+    equation = expansion.value(tree(root[1])).num if root else own_polynomial - own_polynomial
     rests = [
-        b * here[-1] - a * there[-1]
-        for here, there in pairs
-        for a, b in zip(here, there, strict=True)
+        b * own_functions[-1] - a * other_functions[-1]
+        for own_functions, other_functions in pairs
+        for a, b in zip(own_functions, other_functions, strict=True)
     ]
-    leads = [there[-1] for _, there in pairs]
+    leads = [other_functions[-1] for _, other_functions in pairs]
     sides = [
         side
         for v in (*inside, *leads)
@@ -178,11 +178,13 @@ def _fits(formula: Formula, given: AnyModel, other: AnyModel, domain: Domain) ->
     )
 
 
-def value_of(terms: Terms, point: list[RationalFunction], one: fmpz_mpoly) -> RationalFunction:
+def value_of(
+    terms: Terms, point: list[RationalFunction], polynomial: fmpz_mpoly
+) -> RationalFunction:
     """A polynomial at fractions."""
-    total = RationalFunction(one - one, one)
+    total = RationalFunction(polynomial - polynomial, polynomial)
     for exponents, number in terms:
-        term = RationalFunction(one * number, one)
+        term = RationalFunction(polynomial * number, polynomial)
         for x, e in zip(point, exponents, strict=True):
             term = term * x**e if e else term
         total = total + term

@@ -111,8 +111,8 @@ def global_identifiability(
     )
 
 
-def _encoded(found: GlobalIdentifiability) -> str:
-    return json.dumps(asdict(found), separators=(",", ":"))
+def _encoded(the_global_identifiability: GlobalIdentifiability) -> str:
+    return json.dumps(asdict(the_global_identifiability), separators=(",", ":"))
 
 
 def _decoded(text: str) -> GlobalIdentifiability:
@@ -155,16 +155,16 @@ class _Vector:
 
 def _best(ring: Orthant, model: AnyModel, tries: int) -> Search | None:
     """The search with the fewest equations left."""
-    found: list[Search] = []
+    searches: list[Search] = []
     for order in islice(orders(ring.unknowns), tries):
         try:
-            found.append(searched(ring, model, model, order))
+            searches.append(searched(ring, model, model, order))
         except TooMuch:
             continue
-        if not any(case.equations for case in found[-1].cases):
+        if not any(case.equations for case in searches[-1].cases):
             break
     return min(
-        found, key=lambda s: sum(len(ring.occurring(c.equations)) for c in s.cases), default=None
+        searches, key=lambda s: sum(len(ring.occurring(c.equations)) for c in s.cases), default=None
     )
 
 
@@ -242,9 +242,9 @@ def _combinations(
     """Independent ones, by their gradients modulo a prime: what is independent there is so
     everywhere else.
     """
-    one = ring.number(1)
+    polynomial = ring.number(1)
     singles = [
-        RationalFunction(ring.generators[i], one)
+        RationalFunction(ring.generators[i], polynomial)
         for i, name in enumerate(model.parameters)
         if name in unique
     ]

@@ -66,9 +66,12 @@ def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> Loc
     ((), 2)
     """
     of_type(model, AnyModel, "of transfer functions it is asked of a Model or a MatrixModel")
-    found = local(behaviour_of(model), settings)
+    the_local = local(behaviour_of(model), settings)
     return LocalIdentifiability(
-        model.parameters, found.rank, found.names, *grade_of(not found.safety, found.safety)
+        model.parameters,
+        the_local.rank,
+        the_local.names,
+        *grade_of(not the_local.safety, the_local.safety),
     )
 
 
@@ -81,16 +84,23 @@ def parameter_identifiability(model: AnyModel, settings: Settings) -> ParameterI
     '3 parameters, all globally identifiable.'
     """
     own = tuple(f"p{i + 1}" for i in range(len(model.parameters)))
-    known = local(behaviour_of(model), settings)
-    names = tuple(own[model.parameters.index(name)] for name in known.names)
-    found = by_parameter(own, replace(known, names=names), map_of(model), settings)
-    found = replace(found, levels=dict(zip(model.parameters, found.levels.values(), strict=True)))
+    own_local = local(behaviour_of(model), settings)
+    names = tuple(own[model.parameters.index(name)] for name in own_local.names)
+    identifiability = by_parameter(own, replace(own_local, names=names), map_of(model), settings)
+    identifiability = replace(
+        identifiability,
+        levels=dict(zip(model.parameters, identifiability.levels.values(), strict=True)),
+    )
     powers = model.powers
-    return _with_exponents(found, model, settings) if powers.weights or powers.unseen else found
+    return (
+        _with_exponents(identifiability, model, settings)
+        if powers.weights or powers.unseen
+        else identifiability
+    )
 
 
 def _with_exponents(
-    found: ParameterIdentifiability, model: AnyModel, settings: Settings
+    identifiability: ParameterIdentifiability, model: AnyModel, settings: Settings
 ) -> ParameterIdentifiability:
     """The same with exponents as parameters: those that enter are determined, but for exchanges
     that another order of the parameters does too.
@@ -101,7 +111,9 @@ def _with_exponents(
     powers = model.powers
     names, size = powers.exponents, len(powers.weights)
     rank, single = determined(cells_of(model), size)
-    levels = dict(found.levels) | dict.fromkeys(sorted((*names, *powers.unseen)), Level.NOT)
+    levels = dict(identifiability.levels) | dict.fromkeys(
+        sorted((*names, *powers.unseen)), Level.NOT
+    )
     levels |= {names[j]: Level.GLOBAL for j in single}
     orders = ComparedModel("", model, settings).other_orders
     for order, renaming in orders:
@@ -115,12 +127,12 @@ def _with_exponents(
         levels |= {name: Level.UNKNOWN for name in levels if levels[name] is Level.GLOBAL}
         reason = OTHER_EXPONENTS
     return replace(
-        found,
+        identifiability,
         levels=levels,
-        rank=found.rank + rank,
-        least=found.least * many,
-        most=None if found.most is None or reason else found.most * many,
-        reason=found.reason or reason,
+        rank=identifiability.rank + rank,
+        least=identifiability.least * many,
+        most=None if identifiability.most is None or reason else identifiability.most * many,
+        reason=identifiability.reason or reason,
     )
 
 

@@ -68,48 +68,48 @@ def inequalities(model: Model) -> tuple[Form, ...]:
     return tuple(forms)
 
 
-def excludes_around(given: Model, values: Values, other: Model) -> bool:
+def excludes_around(model: Model, values: Values, other: Model) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as an
     inequality shows it.
     """
-    if not (are_alike(given, other) and is_regular(given, values)):
+    if not (are_alike(model, other) and is_regular(model, values)):
         return False
-    point = [values[name] for name in given.parameters]
-    at = [value_at(terms, point) for terms in coefficients(given) if terms]
+    point = [values[name] for name in model.parameters]
+    at = [value_at(terms, point) for terms in coefficients(model) if terms]
     return any(_value(form, at) < 0 for form in inequalities(other))
 
 
-def points_against(given: Model, other: Model) -> Iterator[Values]:
+def points_against(model: Model, other: Model) -> Iterator[Values]:
     """Yield points of the given model around which none has a positive equivalent."""
-    if not are_alike(given, other):
+    if not are_alike(model, other):
         return
     forms = inequalities(other)
-    for values, at in _points(given):
-        if any(_value(form, at) < 0 for form in forms) and is_regular(given, values):
+    for values, at in _points(model):
+        if any(_value(form, at) < 0 for form in forms) and is_regular(model, values):
             yield values
 
 
-def contradiction(given: Model, other: Model) -> Labelled | None:
+def contradiction(model: Model, other: Model) -> Labelled | None:
     """An inequality of the other model that no positive values of the given one satisfy."""
-    if not are_alike(given, other):
+    if not are_alike(model, other):
         return None
-    names, points = _labels(other), [at for _, at in _points(given)]
+    names, points = _labels(other), [at for _, at in _points(model)]
     for form in inequalities(other):
         if all(_value(form, at) < 0 for at in points):
             labelled = tuple((number, names[i], names[j]) for (i, j), number in form)
-            if is_contradiction(labelled, given, other):
+            if is_contradiction(labelled, model, other):
                 return labelled
     return None
 
 
-def is_contradiction(form: Labelled, given: Model, other: Model) -> bool:
+def is_contradiction(form: Labelled, model: Model, other: Model) -> bool:
     """Whether it tells two models apart: seen from the signs of all coefficients."""
     names = _labels(other)
     known = all(name in names for _, *pair in form for name in pair)
-    if not known or not are_alike(given, other):
+    if not known or not are_alike(model, other):
         return False
     at = [((names.index(i), names.index(j)), number) for number, i, j in form]
-    here, there = (_value(at, _polynomials(m)).coeffs() for m in (given, other))
+    here, there = (_value(at, _polynomials(m)).coeffs() for m in (model, other))
     return bool(here) and all(c < 0 for c in here) and all(c > 0 for c in there)
 
 

@@ -132,12 +132,12 @@ def _choices(network: Network, ring: Ring) -> Iterator[tuple[fmpz_mpoly, ...]]:
         left = [i for i in network.nodes if i != held]
         joints = [e for e in map(_ends, elements) if not {0, held} & {*e}]
         of = parts(left, joints)
-        found = [
+        polynomials = [
             _polynomial([i for i in left if of[i] == part], elements, ring)
             for part in sorted(set(of.values()))
         ]
-        for count in range(len(found) + 1):
-            yield from combinations(found, count)
+        for count in range(len(polynomials) + 1):
+            yield from combinations(polynomials, count)
 
 
 def _polynomial(nodes: Sequence[int], elements: Sequence[Element], ring: Ring) -> fmpz_mpoly:

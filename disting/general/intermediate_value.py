@@ -73,9 +73,9 @@ def path(ring: Orthant, case: Case) -> Path | None:
     for at in free:
         for num, den in islice(_candidates(ring), CHOICES):
             chosen = _chosen(ring, case, at, RationalFunction(num, den))
-            found = _root(ring, chosen, next(i for i in free if i != at)) if chosen else None
-            if found:
-                return found
+            the_path = _root(ring, chosen, next(i for i in free if i != at)) if chosen else None
+            if the_path:
+                return the_path
     return None
 
 
@@ -86,8 +86,8 @@ def odd_path(ring: Orthant, case: Case) -> Path | None:
     free = ring.occurring((*case.equations, *case.positive))
     if len(case.equations) != 1 or len(free) != 1 or case.equations[0].degrees()[free[0]] % 2 == 0:
         return None
-    one, zero = ring.number(1), ring.number(0)
-    return _known(ring, case, free[0], (-one, zero), (one, zero))
+    polynomial, zero = ring.number(1), ring.number(0)
+    return _known(ring, case, free[0], (-polynomial, zero), (polynomial, zero))
 
 
 def by_count(ring: Orthant, case: Case) -> Path | None:
@@ -99,14 +99,14 @@ def by_count(ring: Orthant, case: Case) -> Path | None:
     ):
         return None
     (at,) = ring.occurring(case.equations)
-    one, zero = ring.number(1), ring.number(0)
-    found = _known(ring, case, at, (zero, one), (one, zero))
-    return found and replace(found, where=case.positive)
+    polynomial, zero = ring.number(1), ring.number(0)
+    the_path = _known(ring, case, at, (zero, polynomial), (polynomial, zero))
+    return the_path and replace(the_path, where=case.positive)
 
 
 def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case | None:
-    found = placed(ring, case, at, value)
-    return found if isinstance(found, Case) and ring.occurring(found.equations) else None
+    the_case = placed(ring, case, at, value)
+    return the_case if isinstance(the_case, Case) and ring.occurring(the_case.equations) else None
 
 
 def _root(ring: Orthant, case: Case, at: int) -> Path | None:
@@ -181,13 +181,13 @@ def _seen(ring: Orthant, polynomial: fmpz_mpoly) -> int:
 
 def _marked(ring: Orthant, case: Case, at: int) -> list[Mark]:
     """Ends at which the equation seems to have one sign: where to look."""
-    found = []
+    marks = []
     for end in _ends(ring, case, at):
         rows = _numbers(ring, [ring.put(g, at, *end)[0] for g in (*case.equations, *case.positive)])
         if abs(sum(rows[0])) == TRIALS:
             inside = all(min(r, default=0) >= 0 for r in rows[1:])
-            found.append(Mark(end, rows[0][0], inside))
-    return found
+            marks.append(Mark(end, rows[0][0], inside))
+    return marks
 
 
 def _numbers(ring: Orthant, polynomials: list[fmpz_mpoly]) -> list[list[int]]:
@@ -213,8 +213,8 @@ def _holds_between(ring: Orthant, polynomial: fmpz_mpoly, at: int, low: End, hig
 
 
 def _ends(ring: Orthant, case: Case, at: int) -> Iterator[End]:
-    zero, one = ring.number(0), ring.number(1)
-    yield from ((zero, one), (one, zero))
+    zero, polynomial = ring.number(0), ring.number(1)
+    yield from ((zero, polynomial), (polynomial, zero))
     for g in case.positive:
         if g.degrees()[at] == 1:
             rest, factor = ring.coefficients(g, at)
@@ -226,12 +226,14 @@ def _ends(ring: Orthant, case: Case, at: int) -> Iterator[End]:
 
 def _candidates(ring: Orthant) -> Iterator[End]:
     """Positive fractions of the p, simple ones first."""
-    p, one = ring.generators[: ring.n_given], ring.number(1)
-    yield from ((x, one) for x in p)
-    yield one, one
-    yield from ((x + y, one) for x, y in combinations(p, 2))
+    p, polynomial = ring.generators[: ring.n_given], ring.number(1)
+    yield from ((x, polynomial) for x in p)
+    yield polynomial, polynomial
+    yield from ((x + y, polynomial) for x, y in combinations(p, 2))
     yield from (
-        (sum(c, ring.number(0)), one) for k in range(3, len(p) + 1) for c in combinations(p, k)
+        (sum(c, ring.number(0)), polynomial)
+        for k in range(3, len(p) + 1)
+        for c in combinations(p, k)
     )
     yield from ((x, y) for x in p for y in p if x != y)
     if len(p) <= QUOTIENTS:
@@ -252,7 +254,7 @@ def without_equations(ring: Orthant, case: Case) -> Case | None:
     for num, den in _candidates(ring):
         value = RationalFunction(num, den)
         chosen = placed(ring, case, free[0], value)
-        found = without_equations(ring, chosen) if isinstance(chosen, Case) else None
-        if found:
-            return found
+        the_case = without_equations(ring, chosen) if isinstance(chosen, Case) else None
+        if the_case:
+            return the_case
     return None

@@ -105,8 +105,8 @@ class MatrixModel(Shown):
         """
         variable = frequency(s)
         given = rows_of(rows)
-        one = polynomial(1, variable)
-        sides = [[(polynomial(entry, variable), one) for entry in row] for row in given]
+        number = polynomial(1, variable)
+        sides = [[(polynomial(entry, variable), number) for entry in row] for row in given]
         refuse_namesakes(*(entry for row in given for entry in row), s)
         parameters = parameters_of((top for row in sides for top, _ in row), variable)
         ring = symbols([variable, *parameters])
@@ -121,13 +121,13 @@ class MatrixModel(Shown):
         rows = tuple(tuple(_counted(cell) for cell in row) for row in network.cells)
         if all(known for row in rows for known, _ in row):
             entries = tuple(tuple(entry for _, entry in row) for row in rows)
-            found = MatrixModel(network.parameters, entries, network.name)
+            model = MatrixModel(network.parameters, entries, network.name)
         else:
             ratios = network_ratios(network)
             powers = network_powers([x for row in ratios for x in row], network)
-            found = of_ratios(ratios, network.parameters, network.name, powers)
-        object.__setattr__(found, "network", network)
-        return found
+            model = of_ratios(ratios, network.parameters, network.name, powers)
+        object.__setattr__(model, "network", network)
+        return model
 
     @property
     def powers(self) -> Powers:

@@ -124,40 +124,40 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
 
 
 def _has(
-    given: AnyModel,
+    model: AnyModel,
     other: AnyModel,
     values: dict[str, Fraction],
     near: tuple[float, ...],
     domain: Domain,
 ) -> bool:
-    if domain is Domain.POSITIVE and newton.having(given, values, other, near):
+    if domain is Domain.POSITIVE and newton.having(model, values, other, near):
         return True
-    if domain is Domain.POSITIVE and fibre_lists.having(given, values, other):
+    if domain is Domain.POSITIVE and fibre_lists.having(model, values, other):
         return True
-    return any(one.having(values) for one in ways_again(given, other, domain))
+    return any(way.having(values) for way in ways_again(model, other, domain))
 
 
 def _has_none(
-    given: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
+    model: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
 ) -> bool:
     if domain is Domain.POSITIVE:
-        pair = [m for m in (given, other) if isinstance(m, Model)]
+        pair = [m for m in (model, other) if isinstance(m, Model)]
         if any(
             len(pair) == 2 and shown(pair[0], values, pair[1])
             for shown in (excludes_around, excludes)
         ):
             return True
-        if fibre_lists.lacking(given, values, other):
+        if fibre_lists.lacking(model, values, other):
             return True
-    return any(one.lacking(values) for one in ways_again(given, other, domain))
+    return any(way.lacking(values) for way in ways_again(model, other, domain))
 
 
 def is_inequality(evidence: Inequality, left: AnyModel, right: AnyModel) -> bool:
     """Whether the form has these signs."""
-    given, other = (left, right) if evidence.left_given else (right, left)
-    if not (isinstance(given, Model) and isinstance(other, Model)):
+    model, other = (left, right) if evidence.left_given else (right, left)
+    if not (isinstance(model, Model) and isinstance(other, Model)):
         return False
-    return evidence.domain == Domain.POSITIVE and is_contradiction(evidence.form, given, other)
+    return evidence.domain == Domain.POSITIVE and is_contradiction(evidence.form, model, other)
 
 
 def constants_finding(left: AnyModel, right: AnyModel) -> Finding:

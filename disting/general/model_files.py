@@ -107,7 +107,7 @@ def read_models(path: Path | str) -> ModelList:
         raise InputError(f"{printable(str(path))}: {reason}") from None
 
 
-def write_models(path: Path | str, found: ModelList) -> Path:
+def write_models(path: Path | str, models: ModelList) -> Path:
     """Write chains by their names and other models as transfer functions in lowest terms, which
     `read_models` reads back as they were; returns the path. Raises InputError for a parameter named
     s, OSError where the file cannot be written.
@@ -119,10 +119,10 @@ def write_models(path: Path | str, found: ModelList) -> Path:
     ...     read_models(write_models(Path(folder, "mine.json"), ModelList((lag,)))).models[0] == lag
     True
     """
-    return write_whole(as_path(path), [models_text(found)])
+    return write_whole(as_path(path), [models_text(models)])
 
 
-def models_text(found: ModelList) -> str:
+def models_text(models: ModelList) -> str:
     """The text of a file, a line a model.
 
     >>> from disting.general.model import Model
@@ -132,8 +132,8 @@ def models_text(found: ModelList) -> str:
       {"name": "lag", "num": ["k"], "den": ["T", "1"]}
     ]}
     """
-    lines = [f"  {json.dumps(as_entry(model), ensure_ascii=False)}" for model in found.models]
-    title = json.dumps(found.title, ensure_ascii=False)
+    lines = [f"  {json.dumps(as_entry(model), ensure_ascii=False)}" for model in models.models]
+    title = json.dumps(models.title, ensure_ascii=False)
     head = f'{{"format": "{Format.MODELS}", "title": {title}, "models": [\n'
     return head + ",\n".join(lines) + "\n]}\n"
 
@@ -175,11 +175,11 @@ def _model(entry: object, place: int, variable: str) -> AnyModel:
         raise InputError(f'model {place} has no name; give it one, such as "name": "two leaks"')
     try:
         _refuse_name(name, "its name", LONGEST_NAME)
-        found = of_kind(entry, name, variable)
-        refuse_s(found)
+        model = of_kind(entry, name, variable)
+        refuse_s(model)
     except InputError as reason:
         raise InputError(f"model {shown(name)}: {reason}") from None
-    return found
+    return model
 
 
 def _refuse_name(name: str, what: str, most: int) -> None:

@@ -55,8 +55,8 @@ def confirms_inclusion(
     if not _by_degrees(left, right):
         return False
     fresh = [profile(behaviour_of(m), Representation.TF, 0, FRESH) for m in (left, right)]
-    found = _by_profiles((fresh[0], fresh[1]), left_is_smaller)
-    return found is not None and found.evidence == evidence
+    finding = _by_profiles((fresh[0], fresh[1]), left_is_smaller)
+    return finding is not None and finding.evidence == evidence
 
 
 def numberings(part: AnyModel, whole: AnyModel) -> Iterator[dict[int, int]]:

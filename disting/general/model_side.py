@@ -158,33 +158,33 @@ class ComparedModel(Side[AnyModel]):
 
     def exact(self, other: "ComparedModel") -> Finding:
         """The exact decision, for equal ranks and degrees."""
-        one, there = self.transfer_profile, other.transfer_profile
-        if one.rank != there.rank or one.degrees != there.degrees:
+        own_profile, other_profile = self.transfer_profile, other.transfer_profile
+        if own_profile.rank != other_profile.rank or own_profile.degrees != other_profile.degrees:
             return Finding(
                 EXACT,
                 Outcome.INAPPLICABLE,
                 note="the ranks or degrees differ (conditions 2 and 4)",
             )
-        if one.rank == 0:
+        if own_profile.rank == 0:
             return constants_finding(self.subject, other.subject)
         if _applies(GEARS, self, other):
             return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(GEARS))
         if not (self.is_writable and other.is_writable):
             return Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        found = self.answerer(EXACTLY, _models(self, other), self.settings)
-        return self._in_every_order(other, resting_on_ranks(found, one, there))
+        finding = self.answerer(EXACTLY, _models(self, other), self.settings)
+        return self._in_every_order(other, resting_on_ranks(finding, own_profile, other_profile))
 
-    def _in_every_order(self, other: "ComparedModel", found: Finding) -> Finding:
+    def _in_every_order(self, other: "ComparedModel", finding: Finding) -> Finding:
         """What is found with the exponents in one order, of all of them: a difference is none where
         another order is no symmetry, and as sure as the profiles by which others are left out.
         """
-        if found.outcome not in (Outcome.FAILS, Outcome.SOMETIMES) or not readings(self.subject):
-            return found
+        if finding.outcome not in (Outcome.FAILS, Outcome.SOMETIMES) or not readings(self.subject):
+            return finding
         if self.has_other_readings:
-            return Finding(found.rule, Outcome.ABANDONED, note=OTHER_ORDER)
+            return Finding(finding.rule, Outcome.ABANDONED, note=OTHER_ORDER)
         safeties = [s.transfer_profile.safety for s in (self, other)]
-        safety = joint_safety([*safeties, *[found.safety] * bool(found.safety)])
-        return replace(found, certainty=Certainty.BOUNDED, safety=safety)
+        safety = joint_safety([*safeties, *[finding.safety] * bool(finding.safety)])
+        return replace(finding, certainty=Certainty.BOUNDED, safety=safety)
 
     def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both, as those who decide by it see them:
@@ -210,11 +210,11 @@ class ComparedModel(Side[AnyModel]):
             return self.exact(other) if _applies(GEARS, self, other) else None
         if not comparable(self, other):
             return None
-        found = model_evidence.exact_again(evidence, *_models(self, other), self.settings)
-        if found is None:
+        finding = model_evidence.exact_again(evidence, *_models(self, other), self.settings)
+        if finding is None:
             return None
         profiles = self.transfer_profile, other.transfer_profile
-        return self._in_every_order(other, resting_on_ranks(found, *profiles))
+        return self._in_every_order(other, resting_on_ranks(finding, *profiles))
 
     def admissible(
         self, other: "ComparedModel", domain: Domain, why: Evidence | None = None
@@ -228,9 +228,9 @@ class ComparedModel(Side[AnyModel]):
             return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
         if not (self.is_writable and other.is_writable):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        found = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
-        found = self._in_every_order(other, found)
-        return replace(found, note=with_names(found.note, self.name, other.name))
+        finding = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
+        finding = self._in_every_order(other, finding)
+        return replace(finding, note=with_names(finding.note, self.name, other.name))
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
         """Both statements on two models of unequal rank."""
@@ -276,8 +276,8 @@ def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyMo
 
 def comparable(left: ComparedModel, right: ComparedModel) -> bool:
     """Whether the exact decision is computed: it is not known from ranks, degrees or theorems."""
-    one, other = left.transfer_profile, right.transfer_profile
-    alike = one.rank == other.rank > 0 and one.degrees == other.degrees
+    profile, other = left.transfer_profile, right.transfer_profile
+    alike = profile.rank == other.rank > 0 and profile.degrees == other.degrees
     written = alike and left.is_writable and right.is_writable
     return written and not _applies(GEARS, left, right)
 

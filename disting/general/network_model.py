@@ -69,7 +69,7 @@ class NetworkModel:
     @property
     def degrees(self) -> tuple[Degrees, ...]:
         """Those of all transfer functions."""
-        return tuple(ZERO if known is None else known.degrees for known in self._counts)
+        return tuple(ZERO if counts is None else counts.degrees for counts in self._counts)
 
     def quotients(self, point: Sequence[int], modulus: int) -> tuple[Quotient | None, ...]:
         """The transfer functions, at a point without zeros."""
@@ -82,13 +82,13 @@ class NetworkModel:
         where too few numbers s show them.
         """
         rows = list[tuple[int, list[int]]]()
-        for of, known in zip(self._assemblies, self._counts, strict=True):
-            if of is None or known is None:
+        for of, counts in zip(self._assemblies, self._counts, strict=True):
+            if of is None or counts is None:
                 continue
-            found = sides_at(of, point, modulus)
-            if found is None:
+            sides = sides_at(of, point, modulus)
+            if sides is None:
                 return (), [()] * len(point)
-            rows += _products(found, known, modulus)
+            rows += _products(sides, counts, modulus)
         return tuple(value for value, _ in rows), list(zip(*(g for _, g in rows), strict=True))
 
     def minor_size(self, markov: int | None) -> Size:
@@ -96,20 +96,22 @@ class NetworkModel:
         1, sum to the number of its terms.
         """
         largest = [
-            (known.degree, known.size.bit_length()) for known in self._counts if known is not None
+            (counts.degree, counts.size.bit_length())
+            for counts in self._counts
+            if counts is not None
         ]
         return summary_size(self.degrees, largest, len(self.parameters), markov)
 
     def constants(self, markov: int | None) -> Mapping[str, str]:
         """Those that are proven constant: 0, or the number of their terms."""
         found: dict[str, str] = {}
-        for i, known in enumerate(self._counts):
-            if known is None:
+        for i, counts in enumerate(self._counts):
+            if counts is None:
                 continue
-            named = known_invariants(*_ratios(known), markov)
+            named = known_invariants(*_ratios(counts), markov)
             shared = shared_poles(self.degrees, i) if markov is None else None
             if shared is not None:
-                zeros = {f"a{k}": Fraction(0) for k in range(known.degrees[1])}
+                zeros = {f"a{k}": Fraction(0) for k in range(counts.degrees[1])}
                 named = {n: v for n, v in named.items() if n[0] == "b"} | zeros
             labels = (label(n, i, shared) if self.is_numbered else n for n in named)
             found |= dict(zip(labels, map(str, named.values()), strict=True))
@@ -134,9 +136,9 @@ def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:
         plain = replace(network, name="network")
         cells = tuple(c if c.seen else None for row in plain.cells for c in row)
         known = all(c is None or counts_of(c, halves) for c in cells)
-        found = NetworkModel(plain.parameters, cells, halves)
-        if known and _shares_poles(found):
-            return found
+        network_model = NetworkModel(plain.parameters, cells, halves)
+        if known and _shares_poles(network_model):
+            return network_model
     return GeneralModel(unnamed(model))
 
 
@@ -154,24 +156,24 @@ def _elements(cell: Network | None) -> frozenset[str]:
     return frozenset() if cell is None else frozenset(map(str, cell.seen))
 
 
-def _products(found: Sides, known: Counts, modulus: int) -> list[tuple[int, list[int]]]:
+def _products(sides: Sides, counts: Counts, modulus: int) -> list[tuple[int, list[int]]]:
     """Values and gradients of the functions c_i a_m."""
     rows = [
         row
         for side, slopes, size in (
-            (found.num, found.num_derivatives, len(known.num)),
-            (found.den, found.den_derivatives, len(known.den)),
+            (sides.num, sides.num_derivatives, len(counts.num)),
+            (sides.den, sides.den_derivatives, len(counts.den)),
         )
-        for row in list(zip(*coefficient_rows(side, slopes, size), strict=True))[known.lost :]
+        for row in list(zip(*coefficient_rows(side, slopes, size), strict=True))[counts.lost :]
     ]
-    return times_lead(rows, known.mean, modulus)
+    return times_lead(rows, counts.mean, modulus)
 
 
-def _ratios(known: Counts) -> tuple[list[Known], list[Known]]:
+def _ratios(counts: Counts) -> tuple[list[Known], list[Known]]:
     """What is known of the coefficients over the leading one."""
-    lost = known.lost
+    lost = counts.lost
     top, bottom = (
         [Fraction(c) if i == free or not c else None for i, c in enumerate(side)][lost:]
-        for side, free in zip((known.num, known.den), known.free, strict=True)
+        for side, free in zip((counts.num, counts.den), counts.free, strict=True)
     )
     return top, [*bottom[:-1], Fraction(1)]

@@ -63,7 +63,7 @@ class System:
 
 
 def having(
-    given: AnyModel, values: Values, other: AnyModel, near: Sequence[float] = ()
+    model: AnyModel, values: Values, other: AnyModel, near: Sequence[float] = ()
 ) -> tuple[float, ...] | None:
     """A positive equivalent (rounded) in the other model of a point around which all have some:
     one `near` these values, or one that a search finds; None where nothing is shown.
@@ -75,9 +75,9 @@ def having(
     >>> having(star, {name: Fraction(1) for name in star.parameters}, loop) is not None
     True
     """
-    if not (isinstance(given, Model) and isinstance(other, Model) and are_alike(given, other)):
+    if not (isinstance(model, Model) and isinstance(other, Model) and are_alike(model, other)):
         return None
-    system = _system(given, values, other)
+    system = _system(model, values, other)
     if system is None:
         return None
     wanted = [float(g / system.wanted[0]) for g in system.wanted[1:]]
@@ -89,28 +89,28 @@ def having(
     return None
 
 
-def are_alike(given: Model, other: Model) -> bool:
+def are_alike(model: Model, other: Model) -> bool:
     """Whether both have the same coefficients, not always zero, of powers of the same s, and few
     enough terms for a search.
     """
-    if any(sum(map(len, coefficients(m))) > MOST_TERMS for m in (given, other)):
+    if any(sum(map(len, coefficients(m))) > MOST_TERMS for m in (model, other)):
         return False
-    if not is_in_one_variable(given.powers, other.powers) or given.degrees != other.degrees:
+    if not is_in_one_variable(model.powers, other.powers) or model.degrees != other.degrees:
         return False
-    one, two = ([bool(c) for c in coefficients(m)] for m in (given, other))
+    one, two = ([bool(c) for c in coefficients(m)] for m in (model, other))
     return one == two
 
 
-def _system(given: Model, values: Values, other: Model) -> System | None:
+def _system(model: Model, values: Values, other: Model) -> System | None:
     """None where a coefficient is zero at the point."""
     try:
-        point = [x for _, x in rational_values(given, values)]
+        point = [x for _, x in rational_values(model, values)]
     except InputError:
         return None
-    wanted = tuple(value_at(terms, point) for terms in coefficients(given) if terms)
+    wanted = tuple(value_at(terms, point) for terms in coefficients(model) if terms)
     if not all(wanted):
         return None
-    known = relations(given, other)
+    known = relations(model, other)
     others, known = _independent(known, wanted)
     solved = tuple(i for i in range(1, len(wanted)) if i not in others)
     rows = tuple(terms for terms in coefficients(other) if terms)
@@ -167,9 +167,9 @@ def _chosen(system: System, start: Sequence[float]) -> list[int]:
     from scipy.linalg import qr
 
     every = list(range(system.unknowns))
-    found = _derivatives(system, [arb(x) for x in start], every)
+    the_arb_mat = _derivatives(system, [arb(x) for x in start], every)
     count = len(system.solved)
-    table = [[float(found[i, j].mid()) * start[j] for j in every] for i in range(count)]
+    table = [[float(the_arb_mat[i, j].mid()) * start[j] for j in every] for i in range(count)]
     table = [[x / (max(map(abs, row)) or 1) for x in row] for row in table]
     return sorted(map(int, qr(np.array(table), mode="r", pivoting=True)[1][:count]))
 
@@ -199,12 +199,12 @@ def _follow(system: System, box: Sequence[arb]) -> bool:
     """Whether the other coefficients agree where those that are solved for do."""
     if not system.others:
         return True
-    found = [sum((_term(t, box) for t in row), arb(0)) for row in system.rows]
-    if found[0].contains(0):
+    balls = [sum((_term(t, box) for t in row), arb(0)) for row in system.rows]
+    if balls[0].contains(0):
         return False
     hull = [_ball(g) for g in system.wanted]
     for i in system.others:
-        hull[i] = hull[i].union(found[i] / found[0] * hull[0])
+        hull[i] = hull[i].union(balls[i] / balls[0] * hull[0])
     table = [[slope(r, hull, i, arb(0)) for i in system.others] for r in system.relations]
     return _solved(arb_mat(table), arb_mat([[0]] * len(table))) is not None
 

@@ -52,8 +52,8 @@ def same_one_ports(left: Model, right: Model) -> bool:
     K.
     """
     for change in (_plain, _over_s, _squared):
-        one, other = change(left), change(right)
-        if one and other and _kind(one) == _kind(other) and fills(one) and fills(other):
+        model, other = change(left), change(right)
+        if model and other and _kind(model) == _kind(other) and fills(model) and fills(other):
             return True
     return False
 
@@ -102,7 +102,7 @@ def _reaches(ring: Orthant, coordinates: list[RationalFunction] | None) -> bool:
 
 def _foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFunction] | None:
     """k_oo, k_0, and all k_i and a_i, where the denominator has linear factors."""
-    found = [RationalFunction(num[-1], den[-1])] if len(num) == len(den) else []
+    functions = [RationalFunction(num[-1], den[-1])] if len(num) == len(den) else []
     s = ring.generators[ring.path]
     top, bottom = (
         sum((c * s**i for i, c in enumerate(side)), ring.number(0)) for side in (num, den)
@@ -116,9 +116,9 @@ def _foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFun
             return None
         e, d = ring.coefficients(factor, ring.path)
         above, below = (_at(ring, side, -e, d) for side in (top, bottom // factor))
-        found += [above / below / RationalFunction(d, ring.number(1))]
-        found += [] if e.is_zero() else [RationalFunction(e, d)]
-    return found
+        functions += [above / below / RationalFunction(d, ring.number(1))]
+        functions += [] if e.is_zero() else [RationalFunction(e, d)]
+    return functions
 
 
 def _dual_foster(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFunction] | None:
@@ -134,25 +134,25 @@ def _cauer(ring: Orthant, num: Polynomial, den: Polynomial) -> list[RationalFunc
     """r_0, c_1, r_1, .. of the continued fraction; None where the degrees do not fall one by
     one.
     """
-    one = ring.number(1)
-    top, bottom = ([RationalFunction(c, one) for c in side] for side in (num, den))
-    found, zero = list[RationalFunction](), RationalFunction(ring.number(0), one)
+    polynomial = ring.number(1)
+    top, bottom = ([RationalFunction(c, polynomial) for c in side] for side in (num, den))
+    functions, zero = list[RationalFunction](), RationalFunction(ring.number(0), polynomial)
     if len(top) == len(bottom):
-        found.append(top[-1] / bottom[-1])
-        top = _less(top, found[-1], bottom)[:-1]
+        functions.append(top[-1] / bottom[-1])
+        top = _less(top, functions[-1], bottom)[:-1]
     while top:
         large = any(len(side) > TERMS for c in (*top, *bottom) for side in (c.num, c.den))
         if large or top[-1].num.is_zero() or len(top) != len(bottom) - 1:
             return None
-        found.append(bottom[-1] / top[-1])
-        bottom = _less(bottom, found[-1], [zero, *top])[:-1]
+        functions.append(bottom[-1] / top[-1])
+        bottom = _less(bottom, functions[-1], [zero, *top])[:-1]
         if len(bottom) == 1 and bottom[0].num.is_zero():
             break
         if bottom[-1].num.is_zero():
             return None
-        found.append(top[-1] / bottom[-1])
-        top = _less(top, found[-1], bottom)[:-1]
-    return found
+        functions.append(top[-1] / bottom[-1])
+        top = _less(top, functions[-1], bottom)[:-1]
+    return functions
 
 
 def _less(

@@ -110,25 +110,31 @@ class Orthant:
             {(*[0] * first, *e, *[0] * (size - first - len(e))): c for e, c in terms}
         )
 
-    def equations(self, given: AnyModel, other: AnyModel) -> list[fmpz_mpoly]:
+    def equations(self, model: AnyModel, other: AnyModel) -> list[fmpz_mpoly]:
         """u_2(q) v_1(p) = u_1(p) v_2(q) for all invariants u/v: the same transfer function, for
         generic p (see `cases`).
         """
-        found: list[fmpz_mpoly] = []
-        for one, searched in zip(given.entries, other.entries, strict=True):
-            here, there = self._invariants(one, 0), self._invariants(searched, self.n_given)
-            every = (b.num * a.den - a.num * b.den for a, b in zip(here, there, strict=True))
-            found += [e for e in every if e not in found]
-        return found
+        polynomials: list[fmpz_mpoly] = []
+        for own_model, searched in zip(model.entries, other.entries, strict=True):
+            own_functions, other_functions = (
+                self._invariants(own_model, 0),
+                self._invariants(searched, self.n_given),
+            )
+            every = (
+                b.num * a.den - a.num * b.den
+                for a, b in zip(own_functions, other_functions, strict=True)
+            )
+            polynomials += [e for e in every if e not in polynomials]
+        return polynomials
 
     def monic(self, model: AnyModel) -> list[RationalFunction]:
         """All coefficients over the leading one, in the p."""
-        found: list[RationalFunction] = []
+        functions: list[RationalFunction] = []
         for entry in model.entries:
             sides = [self.lifted(c, 0) for c in (*entry.numerator_terms, *entry.denominator_terms)]
             every = (RationalFunction(c, sides[-1]) for c in sides[:-1])
-            found += [ratio for ratio in every if ratio not in found]
-        return found
+            functions += [ratio for ratio in every if ratio not in functions]
+        return functions
 
     def _invariants(self, model: Model, first: int) -> list[RationalFunction]:
         """Coefficients of G over the leading one, the numerator without the multiple of the

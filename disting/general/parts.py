@@ -29,11 +29,11 @@ from disting.model.question import Settings
 
 def parts_of(whole: AnyModel) -> Iterator[tuple[Labels, AnyModel]]:
     """Yield names of elements with the part that has all but these, the smallest parts first."""
-    found = _profile(whole)
-    if whole.network is None or not _is_open(found):
+    the_profile = _profile(whole)
+    if whole.network is None or not _is_open(the_profile):
         return
     values = [e.value for e in whole.network.elements if e.value]
-    for count in range(len(whole.parameters) - found.rank, 0, -1):
+    for count in range(len(whole.parameters) - the_profile.rank, 0, -1):
         for missing in combinations(values, count):
             part = without(whole, missing)
             if part:
@@ -71,6 +71,6 @@ def _profile(model: AnyModel) -> Profile:
     return profile(behaviour_of(model), Representation.TF, 0, Settings())
 
 
-def _is_open(found: Profile) -> bool:
+def _is_open(the_profile: Profile) -> bool:
     """Whether all coefficients that vary are independent, which a rank at a point proves."""
-    return found.rank_proven and found.rank == len(found.form)
+    return the_profile.rank_proven and the_profile.rank == len(the_profile.form)

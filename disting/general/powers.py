@@ -175,9 +175,9 @@ def weighted(cells: Sequence[Cell], halves: bool, names: Sequence[str]) -> Power
         for name, top in zip(names, tops, strict=False):
             size *= top + more
             weights.append((name, size))
-        found = Powers(halves, tuple(weights))
-        if all(_is_coprime(cell, found) for cell in cells):
-            return found
+        powers = Powers(halves, tuple(weights))
+        if all(_is_coprime(cell, powers) for cell in cells):
+            return powers
     raise InputError("the functions have a common factor for all weights of their exponents")
 
 

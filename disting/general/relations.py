@@ -161,11 +161,11 @@ def _fraction(residue: int, modulus: int) -> Fraction | None:
 def _holds(relation: Relation, model: Model) -> bool:
     """Whether it is true of all values."""
     sides = [*reversed(model.denominator), *model.numerator]
-    there = [c for c in sides if not c.is_zero()]
-    total: fmpz_mpoly = there[0] * 0
+    polynomials = [c for c in sides if not c.is_zero()]
+    total: fmpz_mpoly = polynomials[0] * 0
     common = 1
     for _, number in relation:
         common *= number.denominator
     for (i, j), number in relation:
-        total += there[i] * there[j] * int(number * common)
+        total += polynomials[i] * polynomials[j] * int(number * common)
     return bool(total.is_zero())

@@ -125,8 +125,8 @@ def _degree(model: Model, values: dict[str, Fraction]) -> int | None:
     all known, None where not all are regular.
     """
     goal = goal_of(model, values)
-    found = (goal and positive(goal, model, thorough=True)) or ()
-    signs = [orientation(model, e) for e in found]
+    equivalents = (goal and positive(goal, model, thorough=True)) or ()
+    signs = [orientation(model, e) for e in equivalents]
     return sum(signs) if all(signs) else None
 
 
@@ -138,14 +138,14 @@ def replaceable(left: AnyModel, right: AnyModel) -> bool:
     >>> replaceable(bridge, Model.from_network(network_of("p(R1,C1)-p(R2,C2)")))
     True
     """
-    one = simplest_network(left)
-    return one is not None and one == simplest_network(right)
+    network = simplest_network(left)
+    return network is not None and network == simplest_network(right)
 
 
 def same_in_units(left: AnyModel, right: AnyModel) -> bool:
     """Whether both are one machine in other units, those behind gears."""
-    one, other = (m.network and placed_network(m.network, m.powers) for m in (left, right))
-    return one is not None and other is not None and same_but_for_gears(one, other)
+    network, other = (m.network and placed_network(m.network, m.powers) for m in (left, right))
+    return network is not None and other is not None and same_but_for_gears(network, other)
 
 
 def simplest_network(model: AnyModel, larger: bool = False) -> Network | None:
@@ -228,8 +228,8 @@ def _minor(elements: Sequence[Element], left_out: dict[int, bool], port: Port) -
             low, high = sorted((a, b))
             places = {i: low if j == high else j for i, j in places.items()}
     kept = [moved(e, places) for i, e in enumerate(elements) if i not in left_out]
-    there = Port(places[port.plus], places[port.minus])
+    other_port = Port(places[port.plus], places[port.minus])
     try:
-        return Network(tuple(e for e in kept if e is not None), (there,), (there,))
+        return Network(tuple(e for e in kept if e is not None), (other_port,), (other_port,))
     except InputError:
         return None

@@ -52,9 +52,9 @@ def _of_input(
     rows = [[-entry for entry in row[:-1]] + [row[-1]] for row, _ in dynamics]
     for i, (_, common) in enumerate(dynamics):
         rows[i][i] += expansion.times(common, s)
-    one, n = expansion.one, len(rows)
-    zero = one - one
-    above = minors(rows, {0: one}, expansion.times)
+    polynomial, n = expansion.one, len(rows)
+    zero = polynomial - polynomial
+    above = minors(rows, {0: polynomial}, expansion.times)
     for sensor, through in zip(space.c, space.d, strict=True):
         output, scale = _cleared([*sensor, through[at]], expansion)
         last = [[*(-entry for entry in output[:-1]), output[-1]]]

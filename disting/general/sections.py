@@ -61,33 +61,33 @@ def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
     """Sections of a case without equations, and what could not be written as sections; raises
     TooMuch.
     """
-    found, left, todo = list[Section](), list[Case](), [case]
+    the_sections, left, todo = list[Section](), list[Case](), [case]
     while todo:
-        one = todo.pop()
-        at = _eliminable(search.ring, one)
-        if not search.ring.occurring(one.positive):
-            found.append(_section(search.ring, one))
+        this_case = todo.pop()
+        at = _eliminable(search.ring, this_case)
+        if not search.ring.occurring(this_case.positive):
+            the_sections.append(_section(search.ring, this_case))
         elif at is None:
-            left.append(one)
+            left.append(this_case)
         else:
-            todo += _eliminated(search, one, at)
-        if len(found) + len(left) + len(todo) > SECTIONS:
+            todo += _eliminated(search, this_case, at)
+        if len(the_sections) + len(left) + len(todo) > SECTIONS:
             raise TooMuch(f"more than {SECTIONS} sections")
-    if not found and not left:
+    if not the_sections and not left:
         search.closed.append(" and ".join(f"{g} > 0" for g in case.positive))
-    return found, left
+    return the_sections, left
 
 
-def cover(ring: Orthant, found: list[Section]) -> bool:
+def cover(ring: Orthant, the_sections: list[Section]) -> bool:
     """Whether every generic p lies in a section, whatever the signs of the irreducible factors
     of their polynomials are.
     """
-    signed = [[ring.parts(g, odd=True) for g in s.where] for s in found]
+    signed = [[ring.parts(g, odd=True) for g in s.where] for s in the_sections]
     factors: list[fmpz_mpoly] = []
     for _, parts in (x for s in signed for x in s):
         factors += [f for f in parts if f not in factors]
-    if not found or len(factors) > SMOOTH:
-        return any(not s.where for s in found)
+    if not the_sections or len(factors) > SMOOTH:
+        return any(not s.where for s in the_sections)
     wanted = [[(sign, [factors.index(f) for f in parts]) for sign, parts in s] for s in signed]
     return all(
         any(all(_sign(x, signs) > 0 for x in s) for s in wanted)
@@ -128,11 +128,11 @@ def _eliminated(search: Search, case: Case, at: int) -> Iterator[Case]:
         for signs in product((1, -1), repeat=len(unseen)):
             guessed = iter(signs)
             bounds = [(a, b, sign or next(guessed)) for a, b, sign in split]
-            known = [s * a for s, a in zip(signs, unseen, strict=True)]
+            polynomials = [s * a for s, a in zip(signs, unseen, strict=True)]
             lower = [(ring.number(1), ring.number(0)), *((a, b) for a, b, s in bounds if s > 0)]
             upper = [(-a, -b) for a, b, s in bounds if s < 0]
             nonzero = (*case.nonzero, *unknown_factors(ring, (a for a, _, _ in bounds)))
-            asked = Case((), (*rest, *others, *known), case.solved, nonzero)
+            asked = Case((), (*rest, *others, *polynomials), case.solved, nonzero)
             yield from _between(ring, asked, at, lower, upper)
 
 

@@ -68,15 +68,15 @@ def lower_degree(model: Model) -> tuple[Special, ...] | None:
         sides.append(side)
     if not all(side.degrees()[0] for side in sides):
         return ()
-    found, double = [], [_double_roots(side) for side in sides]
+    specials, double = [], [_double_roots(side) for side in sides]
     for factor, _ in sides[0].resultant(sides[1], "s").factor()[1]:
         if len({coefficient > 0 for coefficient in factor.coeffs()}) == 1:
             continue
         if not any(_is_solved(factor, i) for i in range(1, len(values) + 1)):
             return None
         zeros, poles = ((d % factor).is_zero() for d in double)
-        found.append(Special(str(factor).replace("^", "**"), poles, zeros))
-    return tuple(sorted(found))
+        specials.append(Special(str(factor).replace("^", "**"), poles, zeros))
+    return tuple(sorted(specials))
 
 
 def _double_roots(side: fmpz_mpoly) -> fmpz_mpoly:
@@ -84,10 +84,12 @@ def _double_roots(side: fmpz_mpoly) -> fmpz_mpoly:
     return side.discriminant("s") if side.degrees()[0] > 1 else side**0
 
 
-def _product(values: Iterable[fmpz_mpoly], exponents: Iterable[int], one: fmpz_mpoly) -> fmpz_mpoly:
+def _product(
+    values: Iterable[fmpz_mpoly], exponents: Iterable[int], polynomial: fmpz_mpoly
+) -> fmpz_mpoly:
     for x, e in zip(values, exponents, strict=True):
-        one = one * x**e
-    return one
+        polynomial = polynomial * x**e
+    return polynomial
 
 
 def _is_solved(factor: fmpz_mpoly, at: int) -> bool:
@@ -155,10 +157,10 @@ def special_values(left: AnyModel, right: AnyModel) -> SpecialValues:
     >>> found.sentence("A", "B").partition(". ")[2]
     'A has fewer poles where C1*R1 - C2*R2 = 0.'
     """
-    one, other = left.network, right.network
-    if one is None or other is None:
+    network, other = left.network, right.network
+    if network is None or other is None:
         return SpecialValues(None, None)
-    inside = within(one, other), within(other, one)
+    inside = within(network, other), within(other, network)
     if set(inside) != {True, False}:
         return SpecialValues(*inside)
     outer = right if inside[0] else left

@@ -78,7 +78,7 @@ def parallel(trees: Iterable[Tree]) -> Tree:
 
 
 def _joined(form: str, trees: Iterable[Tree]) -> Tree:
-    flat = tuple(t for given in trees for t in (given.inside if given.form == form else (given,)))
+    flat = tuple(t for tree in trees for t in (tree.inside if tree.form == form else (tree,)))
     if len(flat) == 1:
         return flat[0]
     join = in_series if form == "S" else in_parallel

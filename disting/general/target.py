@@ -122,10 +122,10 @@ def _number(name: str, entry: object) -> Fraction:
     written = tree(entry)
     if any(names(written)):
         raise InputError(f"the value of {name} is a number, not {shown(entry)}")
-    found = Expansion({}, fmpz_mpoly_ctx.get(("one",), Ordering.lex).constant(1)).value(written)
+    function = Expansion({}, fmpz_mpoly_ctx.get(("one",), Ordering.lex).constant(1)).value(written)
     return Fraction(
-        int(found.num.leading_coefficient()) if not found.num.is_zero() else 0,
-        int(found.den.leading_coefficient()),
+        int(function.num.leading_coefficient()) if not function.num.is_zero() else 0,
+        int(function.den.leading_coefficient()),
     )
 
 

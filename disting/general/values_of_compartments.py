@@ -49,7 +49,7 @@ class Sums:
     both: dict[frozenset[int], Any]
 
 
-def values_of_tree(field: Arithmetic, given: Model, network: Network) -> Iterator[Values]:
+def values_of_tree(field: Arithmetic, model: Model, network: Network) -> Iterator[Values]:
     """Yield the values of all flows, for each way to share terms; raises NoFormulas."""
     flows, leaks = _flows(network)
     (enter,), (show,) = network.inputs, network.outputs
@@ -58,7 +58,7 @@ def values_of_tree(field: Arithmetic, given: Model, network: Network) -> Iterato
     tree = _hanging(enter.plus, 0, {i: [j for a, j in flows if a == i] for i, _ in flows})
     top, bottom = (
         tuple(field.short(field.lifted(c)) for c in side)
-        for side in (given.numerator, given.denominator)
+        for side in (model.numerator, model.denominator)
     )
     if len(bottom) - 1 != tree.count or len(top) != tree.count:
         raise NoFormulas("both do not give functions of one set")
@@ -95,14 +95,14 @@ def _sums(field: Arithmetic, tree: Hanging, top: Poly, bottom: Poly) -> Iterator
     rest = field.plus(rest, tuple(below), -field.one)[: len(above) - 1]
     branches = [(at, h, h.count) for at, h in enumerate(tree.inside)]
     for terms in shared(field, branches, rest, tuple(above)):
-        found = [list(_sums(field, h, *terms[at])) for at, h, _ in branches]
-        for chosen in product(*found):
+        the_sums = [list(_sums(field, h, *terms[at])) for at, h, _ in branches]
+        for chosen in product(*the_sums):
             sums = Sums({tree.node: out}, {})
-            for (at, h, _), one in zip(branches, chosen, strict=True):
+            for (at, h, _), this_sums in zip(branches, chosen, strict=True):
                 high, low = (side[-1] for side in terms[at])
                 sums.both[frozenset((tree.node, h.node))] = field.short(high / low)
-                sums.out |= one.out
-                sums.both |= one.both
+                sums.out |= this_sums.out
+                sums.both |= this_sums.both
             yield sums
 
 

@@ -44,7 +44,7 @@ TWO = 2  # kinds of elements
 Edges = dict[frozenset[int], Tree]
 
 
-def by_parts(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
+def by_parts(model: AnyModel, other: AnyModel) -> list[ClosedForm]:
     """The values of another network, one form for each way to share terms among its branches, as
     short as names of values make it. Raises NoFormulas. Both models are in powers of one variable.
 
@@ -56,43 +56,43 @@ def by_parts(given: AnyModel, other: AnyModel) -> list[ClosedForm]:
     R1' = R0 + R1
     R2' = R0*(R0 + R1)/R1
     """
-    found = list[list[ClosedForm]]()
+    closed_forms = list[list[ClosedForm]]()
     for letters in LETTERS:
         try:
-            found.append(list(_forms(given, other, Field(given.parameters, letters))))
+            closed_forms.append(list(_forms(model, other, Field(model.parameters, letters))))
         except (TooMuch, ZeroDivisionError):  # too long, or the function is of a smaller set
             continue
-    if not found:
+    if not closed_forms:
         raise NoFormulas("they grow too long")
-    return min(found, key=lambda forms: sum(f.length for f in forms))
+    return min(closed_forms, key=lambda forms: sum(f.length for f in forms))
 
 
-def _forms(given: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedForm]:
-    for values in values_over(field, given, other):
+def _forms(model: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedForm]:
+    for values in values_over(field, model, other):
         kept = tuple((name, values[name]) for name in other.parameters)
         steps, written = field.written(kept)
-        yield ClosedForm(given.parameters, steps, written, choices=tuple(field.choices))
+        yield ClosedForm(model.parameters, steps, written, choices=tuple(field.choices))
 
 
-def values_over(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values]:
+def values_over(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[Values]:
     """Yield the values of the other network, for each way to share terms among its branches."""
-    if other.network is not None and other.network.is_directed and isinstance(given, Model):
-        yield from values_of_tree(field, given, other.network.grounded)
+    if other.network is not None and other.network.is_directed and isinstance(model, Model):
+        yield from values_of_tree(field, model, other.network.grounded)
         return
-    ways = _of_one_port(field, given, other)
-    yield from _of_graphs(field, given, other) if ways is None else ways
+    ways = _of_one_port(field, model, other)
+    yield from _of_graphs(field, model, other) if ways is None else ways
 
 
-def _of_graphs(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values]:
+def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[Values]:
     """Of networks without their gears, in the units that these make; ratios of the other network
     that are not known are chosen: 1.
     """
-    (here, ratios), (there, chosen) = _placed(given), _placed(other)
-    known = {e.value: field[e.value] for e in here.elements}
-    for name, unit in _units(field, given.network, [field[n] for n in ratios]).items():
+    (own_network, ratios), (other_network, chosen) = _placed(model), _placed(other)
+    known = {e.value: field[e.value] for e in own_network.elements}
+    for name, unit in _units(field, model.network, [field[n] for n in ratios]).items():
         known[name] = field[name] * unit
     back = _units(field, other.network, [field.one] * len(chosen))
-    (plain, made), (wanted, undone) = unbridged(here), unbridged(there)
+    (plain, made), (wanted, undone) = unbridged(own_network), unbridged(other_network)
     for exchange in made:
         known = exchange.forth(field, known)
     for values in _of_edges(field, known, plain, wanted):
@@ -120,10 +120,10 @@ def _placed(model: AnyModel) -> tuple[Network, list[str]]:
     return placed_network(plain, powers).grounded, unknown_ratios(model.network)
 
 
-def _of_one_port(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterator[Values] | None:
+def _of_one_port(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[Values] | None:
     """Of two one-ports of two kinds, None of others."""
-    known = set_of(given)
-    if known is None or known != set_of(other) or not isinstance(given, Model):
+    known = set_of(model)
+    if known is None or known != set_of(other) or not isinstance(model, Model):
         return None
     plain, exchanges = unbridged(_placed(other)[0])
     edges = _edges(plain)
@@ -131,7 +131,7 @@ def _of_one_port(field: Arithmetic, given: AnyModel, other: AnyModel) -> Iterato
         return None
     (tree,) = edges.values()
     low, high = sorted(known[1].kinds)
-    every = synthesized(field, tree, *function_of(field, given, low, high), (low, high))
+    every = synthesized(field, tree, *function_of(field, model, low, high), (low, high))
     return (_before(field, exchanges, values) for values in every)
 
 
@@ -167,15 +167,17 @@ def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tup
     return (top if network.sign_of_one_port > 0 else tuple(-c for c in top)), bottom
 
 
-def _of_edges(field: Arithmetic, known: Values, given: Network, other: Network) -> Iterator[Values]:
+def _of_edges(
+    field: Arithmetic, known: Values, network: Network, other: Network
+) -> Iterator[Values]:
     """Of networks that are one graph with parts at the edges, matched in the first way that gives
     formulas; `known`: the given values.
     """
-    one, two = _edges(given), _edges(other)
+    trees, two = _edges(network), _edges(other)
     none = NoFormulas("they are not made of parts that replace each other")
-    for places in islice(_matches(given, one, other, two), MOST_MATCHES):
+    for places in islice(_matches(network, trees, other, two), MOST_MATCHES):
         try:
-            parts = [_of_part(field, known, one[ends], two[places[ends]]) for ends in one]
+            parts = [_of_part(field, known, trees[ends], two[places[ends]]) for ends in trees]
         except NoFormulas as why:
             none = why
             continue
@@ -186,14 +188,14 @@ def _of_edges(field: Arithmetic, known: Values, given: Network, other: Network) 
 
 
 def _matches(
-    given: Network, one: Edges, other: Network, two: Edges
+    network: Network, trees: Edges, other: Network, two: Edges
 ) -> Iterator[dict[frozenset[int], frozenset[int]]]:
     """Yield the edges of the other graph by those of the given one, same sets at both and the same
     ports, all of them perhaps turned; force and sensor may be exchanged.
     """
     import networkx  # imported late: it takes longer than most of what is asked
 
-    wanted = _drawn(one, (*given.inputs, *given.outputs))
+    wanted = _drawn(trees, (*network.inputs, *network.outputs))
     readings = [(*other.inputs, *other.outputs)]
     if len(other.inputs) == len(other.outputs) == 1:
         readings.append((*other.outputs, *other.inputs))
@@ -203,7 +205,7 @@ def _matches(
             wanted, _drawn(two, ports), dict.__eq__, dict.__eq__
         )
         for nodes in matcher.isomorphisms_iter():
-            yield {ends: frozenset(nodes[i] for i in ends) for ends in one}
+            yield {ends: frozenset(nodes[i] for i in ends) for ends in trees}
 
 
 def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
@@ -219,27 +221,27 @@ def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
     return graph
 
 
-def _of_part(field: Arithmetic, known: Values, given: Tree, other: Tree) -> list[Values]:
+def _of_part(field: Arithmetic, known: Values, tree: Tree, other: Tree) -> list[Values]:
     """The values of one part in those of another one of the same set."""
-    if len(given.part.kinds) <= TWO:
-        low, *more = sorted(given.part.kinds)
+    if len(tree.part.kinds) <= TWO:
+        low, *more = sorted(tree.part.kinds)
         kinds = low, more[0] if more else None
-        return list(synthesized(field, other, *_composed(field, known, given, low), kinds))
-    pairs = _paired(given, other)
+        return list(synthesized(field, other, *_composed(field, known, tree, low), kinds))
+    pairs = _paired(tree, other)
     found = [_of_part(field, known, a, b) for a, b in pairs]
     return [{n: x for values in chosen for n, x in values.items()} for chosen in product(*found)]
 
 
-def _paired(given: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
+def _paired(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
     """Branches with the same sets."""
     left, pairs = list(other.inside), list[tuple[Tree, Tree]]()
-    for branch in given.inside if given.form == other.form else ():
-        found = next((b for b in left if b.part.generic == branch.part.generic), None)
-        if found is None:
+    for branch in tree.inside if tree.form == other.form else ():
+        the_tree = next((b for b in left if b.part.generic == branch.part.generic), None)
+        if the_tree is None:
             break
-        left.remove(found)
-        pairs.append((branch, found))
-    if left or len(pairs) != len(given.inside):
+        left.remove(the_tree)
+        pairs.append((branch, the_tree))
+    if left or len(pairs) != len(tree.inside):
         raise NoFormulas("parts of three kinds of elements differ by more than their branches")
     return pairs
 

@@ -94,41 +94,41 @@ def _first(
         return None
 
 
-def way(given: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THOROUGH) -> Way | None:
+def way(model: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THOROUGH) -> Way | None:
     """What is known one way, or None if the search grew too large. Both models have the same
     degrees.
 
     Unknowns are solved for in several orders, until all cases are sections; else the order with
     the fewest other cases is kept. After a few orders one equation in one unknown is good enough.
     """
-    sizes = len(given.parameters), len(other.parameters)
+    sizes = len(model.parameters), len(other.parameters)
     if effort.unknowns is not None and max(sizes) > effort.unknowns:
         return None
     ring, best = Orthant(*sizes, domain, effort=effort), list[Parted]()
     for count, order in enumerate(islice(orders(ring.unknowns), effort.orders)):
         ring.begin()
         try:
-            found = _parted(ring, given, other, order)
+            parted = _parted(ring, model, other, order)
         except TooMuch:
             continue
-        best = sorted([*best, found], key=_left)[:1]
+        best = sorted([*best, parted], key=_left)[:1]
         if not best[0].others or (count >= FEW and _has_single_roots(best[0])):
             break
     if not best:
         return None
     ring.begin()
     left = _with_roots(best[0])
-    return Way(given, other, left, _covering(left))
+    return Way(model, other, left, _covering(left))
 
 
-def ways_again(given: AnyModel, other: AnyModel, domain: Domain) -> Iterator[Way]:
+def ways_again(model: AnyModel, other: AnyModel, domain: Domain) -> Iterator[Way]:
     """Yield what is known one way by each effort: what one of them found the other one may not, as
     it solves in another order.
     """
     for effort in (BRIEF, THOROUGH):
-        found = way(given, other, domain, effort)
-        if found:
-            yield found
+        the_way = way(model, other, domain, effort)
+        if the_way:
+            yield the_way
 
 
 def _with_roots(parted: Parted) -> Parted:
@@ -162,17 +162,17 @@ def _left(parted: Parted) -> tuple[int, int]:
     )
 
 
-def _parted(ring: Orthant, given: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Parted:
-    search = searched(ring, given, other, order)
-    found, others = list[Section](), list[Case]()
+def _parted(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Parted:
+    search = searched(ring, model, other, order)
+    the_sections, others = list[Section](), list[Case]()
     for case in search.cases:
         if case.equations:
             others.append(case)
         else:
             parts, left = sections(search, case)
-            found += parts
+            the_sections += parts
             others += left
-    return Parted(search, tuple(found), tuple(others), ring.lead(other))
+    return Parted(search, tuple(the_sections), tuple(others), ring.lead(other))
 
 
 def _covering(parted: Parted) -> tuple[Section, ...]:
@@ -199,6 +199,6 @@ def _by_choice(parted: Parted) -> Iterator[Section]:
     """Sections for all p from cases that could not be written as sections wholly."""
     ring = parted.search.ring
     for case in parted.others:
-        found = without_equations(ring, case) if not case.equations else None
-        if found:
-            yield from sections(parted.search, found)[0]
+        the_case = without_equations(ring, case) if not case.equations else None
+        if the_case:
+            yield from sections(parted.search, the_case)[0]

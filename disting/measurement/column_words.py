@@ -156,8 +156,8 @@ def _opening(text: str) -> int:
 def _is_unit(text: str) -> bool:
     """Whether a text is a unit that needs no brackets to be known as one."""
     known = omega_per(text) is not None or known_unit(text, (*PHASES, *LEVELS[1:])) is not None
-    found = gain(text) if "/" in text or "-1" in text or "⁻" in text else None
-    return (known or found is not None) and text != "*"
+    the_gain = gain(text) if "/" in text or "-1" in text or "⁻" in text else None
+    return (known or the_gain is not None) and text != "*"
 
 
 def _words(name: str) -> list[str]:
@@ -167,10 +167,10 @@ def _words(name: str) -> list[str]:
 def _role(name: str) -> Role | None:
     words = set(_words(name))
     whole = {word.removesuffix(unit) for word in words for unit in ("", "db", "deg", "rad", "hz")}
-    found = next((role for role, known in WORDS.items() if whole & set(known)), None)
-    if found in (None, Role.FREQUENCY) and MODULUS.search(name):
+    the_role = next((role for role, known in WORDS.items() if whole & set(known)), None)
+    if the_role in (None, Role.FREQUENCY) and MODULUS.search(name):
         return Role.GAIN
-    return found
+    return the_role
 
 
 def _role_of_unit(text: str) -> Role:

@@ -86,14 +86,14 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
     """Responses in the order of their columns: the n-th real part with the n-th imaginary part,
     a gain with the phase behind it.
     """
-    found = sorted(
+    the_groups = sorted(
         (
             Group({columns[i].role: i for i in pair})
             for pair in (*_parts(table, columns), *_gains(columns))
         ),
         key=lambda group: group.first,
     )
-    if not found:
+    if not the_groups:
         raise misread(
             table,
             columns,
@@ -101,7 +101,7 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
         )
     for i, column in enumerate(columns):
         if column.role in BESIDE:
-            owner = next((g for g in reversed(found) if g.first < i), found[0])
+            owner = next((g for g in reversed(the_groups) if g.first < i), the_groups[0])
             if column.role in owner.columns:
                 raise misread(
                     table,
@@ -109,25 +109,25 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
                     f"{table.origin}: {column.role} occurs twice for one response",
                 )
             owner.columns[column.role] = i
-    return found
+    return the_groups
 
 
 def chosen(
-    table: Table, columns: list[Column], found: Sequence[Group], asked: str | int | None
+    table: Table, columns: list[Column], the_groups: Sequence[Group], asked: str | int | None
 ) -> Group:
     """The first response, or that of the column asked for; one that belongs to none is taken as
     a gain, with the phase behind it.
     """
     if asked is None:
-        return found[0]
+        return the_groups[0]
     at = table.at(asked)
-    own = next((group for group in found if at in group.columns.values()), None)
+    own = next((group for group in the_groups if at in group.columns.values()), None)
     phases = [i for i, column in enumerate(columns) if column.role is Role.PHASE]
     if own is None and phases and columns[at].role not in (Role.FREQUENCY, Role.PHASE, *BESIDE):
         columns[at] = Column(Role.GAIN, columns[at].unit, columns[at].unknown)
         return Group({Role.GAIN: at, Role.PHASE: next((i for i in phases if i > at), phases[-1])})
     if own is None:
-        firsts = listed(table.named(group.first) for group in found)
+        firsts = listed(table.named(group.first) for group in the_groups)
         raise misread(
             table,
             columns,
@@ -199,7 +199,7 @@ def _word(column: Column) -> str:
         if column.role is Role.PHASE:
             return known_unit(column.unit, PHASES) or "phase"
         return level_of(column) if level_of(column) != "1" else "magnitude"
-    return next((word for word, known in WORDS.items() if known.role is column.role), "-")
+    return next((word for word, own_column in WORDS.items() if own_column.role is column.role), "-")
 
 
 def _given(table: Table, asked: Sequence[str]) -> list[Column]:
@@ -259,8 +259,8 @@ def _gains(columns: Sequence[Column]) -> list[tuple[int, int]]:
 
 def level_of(column: Column) -> str:
     """The level of a gain's unit, "1" where it says none."""
-    found = gain(column.unit)
-    return found.level if found else "1"
+    the_gain = gain(column.unit)
+    return the_gain.level if the_gain else "1"
 
 
 def _of(columns: Sequence[Column], role: Role) -> list[int]:
@@ -272,11 +272,11 @@ def quantity_of(table: Table, sensor: Sensor | str | None, unit: str, notes: lis
     if sensor is not None:
         return as_sensor(sensor)
     text = " ".join((*table.headers, *table.comments)).lower()
-    found = [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
-    if len(found) == 1:
-        return found[0]
+    sensors = [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
+    if len(sensors) == 1:
+        return sensors[0]
     own = motion(unit)
-    if not found and own is not None:
+    if not sensors and own is not None:
         return own.sensor
     notes.append(ASSUMED_ACCELERATION)
     return Sensor.ACCELERATION

@@ -85,21 +85,21 @@ def distortion(
     rest = (outputs[:, between] - response * inputs[:, between]) / np.interp(between, excited, size)
     noise = np.std(rest, axis=0, ddof=1) / np.sqrt(len(rest)) if len(rest) > 1 else None
     omega = np.multiply(between, spacing, dtype=np.float64)
-    found = Distortion(
+    the_distortion = Distortion(
         omega=omega,
         level=np.abs(rest.mean(axis=0)),
         noise=noise,
         even=between % 2 == 0,
         told_apart=bool(np.all(excited % 2)),
     )
-    return found, _said(found, np.abs(response))
+    return the_distortion, _said(the_distortion, np.abs(response))
 
 
-def _said(found: Distortion, size: Real) -> str:
+def _said(the_distortion: Distortion, size: Real) -> str:
     """Medians in percent of the response; "" where there is nothing but rounding."""
     medians = {
         name: float(np.median(values[lines] / size[lines]))
-        for name, values, lines in found.kinds
+        for name, values, lines in the_distortion.kinds
         if np.count_nonzero(lines) >= FEWEST
     }
     if max(medians.values(), default=0.0) < ROUNDING:

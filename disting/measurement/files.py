@@ -112,10 +112,12 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     (19, np.complex128(-1-1j))
     """
     file = source(path)
-    known = format_of(file)
-    if options.keys() & set(SERIES) or (known.records and known.records.held(file, options)):
-        return _through_time(file, _records(file, known), options)
-    return known.response(file, options)
+    file_format = format_of(file)
+    if options.keys() & set(SERIES) or (
+        file_format.records and file_format.records.held(file, options)
+    ):
+        return _through_time(file, _records(file, file_format), options)
+    return file_format.response(file, options)
 
 
 def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[int, ...] | None:
@@ -133,10 +135,10 @@ def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[
     (2, 4)
     """
     file = source(path)
-    known = format_of(file)
-    if known.begin is None or (known.records and known.records.held(file, {})):
+    file_format = format_of(file)
+    if file_format.begin is None or (file_format.records and file_format.records.held(file, {})):
         return None
-    return known.begin(file, columns)
+    return file_format.begin(file, columns)
 
 
 def read_time_series(
@@ -162,11 +164,11 @@ def read_time_series(
     return _records(file, format_of(file)).read(file, input, output, options)
 
 
-def _records(file: Source, known: Format) -> Records:
-    if known.records is None:
+def _records(file: Source, file_format: Format) -> Records:
+    if file_format.records is None:
         able = " and ".join(other.name for other in FORMATS if other.records)
         raise InputError(f"{file.name}: time series are read from {able} files")
-    return known.records
+    return file_format.records
 
 
 def _signals(file: Source, records: Records, given: Options) -> tuple[Options, tuple[str, ...]]:

@@ -70,7 +70,7 @@ class Format:
 def format_of(file: Source) -> Format:
     """The format of a file: that of the content, where the content shows it, else of the ending."""
     head = file.content[:HEAD]
-    return next(known for known in FORMATS if known.fits(file, head))
+    return next(file_format for file_format in FORMATS if file_format.fits(file, head))
 
 
 def _is_matlab(file: Source, head: bytes) -> bool:

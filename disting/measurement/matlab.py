@@ -124,13 +124,16 @@ def variables(file: Source) -> Arrays:
     if HDF5 in (content[:8], content[512:520]):  # MATLAB puts 512 bytes of its own before it
         return _hdf5(file, allowance.take)
     if mat5.is_version_5(content):
-        found = list(mat5.variables(content))
+        the_variables = list(mat5.variables(content))
         fields = {
             name: partial(np.asarray, array)
-            for one in found
-            for name, array in mat5_objects.numbers_in(one, allowance.take).items()
+            for variable in the_variables
+            for name, array in mat5_objects.numbers_in(variable, allowance.take).items()
         }
-        whole = {one.name: partial(_whole, one, file, allowance.take) for one in found}
+        whole = {
+            variable.name: partial(_whole, variable, file, allowance.take)
+            for variable in the_variables
+        }
         return fields | whole
     if b"\0" not in content[:4]:  # version 4 begins with a small number
         raise InputError(f"{file.name} is no MATLAB file")

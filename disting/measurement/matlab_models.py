@@ -66,7 +66,7 @@ def stored_responses(content: bytes, take: Take) -> dict[str, Stored]:
     """The response objects of a MATLAB file of version 5 to 7 by name, `frf.Pv` where a struct
     holds them.
     """
-    found = dict[str, Stored]()
+    the_stored_responses = dict[str, Stored]()
     try:
         subsystem = objects(content, take)
     except mat5.DAMAGE:
@@ -74,16 +74,16 @@ def stored_responses(content: bytes, take: Take) -> dict[str, Stored]:
     for variable in mat5.variables(content):
         try:
             if variable.kind in HOLDERS:
-                found |= _within(
+                the_stored_responses |= _within(
                     variable.name, tree(variable.matrix(take), variable.order), subsystem
                 )
         except mat5.DAMAGE:
             continue  # what is damaged is no response
-    return found
+    return the_stored_responses
 
 
 def from_stored(
-    found: Stored,
+    stored_response: Stored,
     name: str,
     origin: str,
     *,
@@ -93,42 +93,46 @@ def from_stored(
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from a stored one; options as in `variables.from_variables`."""
-    output, input = found.at((index,) if isinstance(index, int) else tuple(index or ()))
-    omega, noted = in_omega(found.frequency, found.unit, frequency_unit, name)
+    output, input = stored_response.at((index,) if isinstance(index, int) else tuple(index or ()))
+    omega, noted = in_omega(stored_response.frequency, stored_response.unit, frequency_unit, name)
     response = (
-        found.response[output, input]
-        * np.exp(-1j * omega * found.dead_time[output, input])
+        stored_response.response[output, input]
+        * np.exp(-1j * omega * stored_response.dead_time[output, input])
         * as_sign(sign)
     )
-    deviation = None if found.variance is None else np.sqrt(found.variance[output, input])
+    deviation = (
+        None
+        if stored_response.variance is None
+        else np.sqrt(stored_response.variance[output, input])
+    )
     chosen = FrequencyResponse(
         omega,
         response,
         deviation,
         sensor=as_sensor(sensor or Sensor.ACCELERATION),
-        input=found.inputs[input],
-        output=found.outputs[output],
+        input=stored_response.inputs[input],
+        output=stored_response.outputs[output],
         origin=f"{origin}, {name}",
     )
-    unit = taken_unit(omega, found.frequency)
+    unit = taken_unit(omega, stored_response.frequency)
     words = f"frequency in {unit}, complex response of the object {name}"
     assumed = None if sensor else ASSUMED_ACCELERATION
     return chosen.noted(assumed).doubted(*([noted] if noted else [])).read_as(words)
 
 
-def chosen_response(found: Mapping[str, Stored], asked: str | None, origin: str) -> str:
+def chosen_response(stored: Mapping[str, Stored], asked: str | None, origin: str) -> str:
     """The name asked for, or the only one; raises InputError listing them."""
-    if asked in found:
+    if asked in stored:
         return str(asked)
-    if asked is None and len(found) == 1:
-        return next(iter(found))
+    if asked is None and len(stored) == 1:
+        return next(iter(stored))
     wrong = (
         f"has no frequency response {shown(asked)}"
         if asked
         else "holds several frequency responses"
     )
     raise InputError(
-        f"{origin} {wrong}; choose one by --read response=NAME: {listed(sorted(found))}"
+        f"{origin} {wrong}; choose one by --read response=NAME: {listed(sorted(stored))}"
     )
 
 
@@ -137,14 +141,14 @@ def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, Store
     for.
     """
     held = _properties(value, subsystem) if isinstance(value, Reference) else value
-    found = _response(held) if isinstance(held, dict) else None
-    if found is not None:
-        return {name: found}
+    stored_response = _response(held) if isinstance(held, dict) else None
+    if stored_response is not None:
+        return {name: stored_response}
     parts = value.items() if isinstance(value, dict) else ()
     return {
-        key: one
+        key: this_stored_response
         for field, part in parts
-        for key, one in _within(f"{name}.{field}", part, subsystem).items()
+        for key, this_stored_response in _within(f"{name}.{field}", part, subsystem).items()
     }
 
 

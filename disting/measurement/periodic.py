@@ -79,8 +79,8 @@ def estimate(
     notes += ["one period alone: no standard deviation and no coherence"] * (len(inputs) == 1)
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
     refuse_few(omega, notes, band)
-    found = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
-    return replace(found, notes=(*notes, *found.notes), distortion=between)
+    response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
+    return replace(response, notes=(*notes, *response.notes), distortion=between)
 
 
 def refuse_few(omega: Real, notes: Sequence[str], band: tuple[float, float] | None) -> None:

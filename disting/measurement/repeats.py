@@ -126,8 +126,8 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         _check_alike(first, other)
     if n == 1:
         return first
-    values = np.stack([one.G for one in repeats])
-    names = [one.origin or f"repeat {i}" for i, one in enumerate(repeats, 1)]
+    values = np.stack([response.G for response in repeats])
+    names = [response.origin or f"repeat {i}" for i, response in enumerate(repeats, 1)]
     kept, notes, outlying = left_out(values, names, first.omega, outliers)
     count = kept.sum(axis=0)
     deviation = np.std(values, axis=0, ddof=1, where=kept) / np.sqrt(count)
@@ -140,8 +140,8 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         freedom=2.0 * (int(count.min()) - 1),
     )
     relative = float(np.median(deviation * np.sqrt(count) / np.abs(mean.G)))
-    said = dict.fromkeys(note for one in repeats for note in one.notes)
-    doubts = [*(doubt for one in repeats for doubt in one.doubts), *outlying]
+    said = dict.fromkeys(note for response in repeats for note in response.notes)
+    doubts = [*(doubt for response in repeats for doubt in response.doubts), *outlying]
     if len(set(repeats)) < n:
         doubts.append("some repeats are the same numbers: they scatter less than the machine does")
     return (
@@ -167,7 +167,7 @@ def _check_alike(first: FrequencyResponse, other: FrequencyResponse) -> None:
         )
 
 
-def are_opposite(one: FrequencyResponse, other: FrequencyResponse) -> bool:
+def are_opposite(response: FrequencyResponse, other: FrequencyResponse) -> bool:
     """Whether two responses of one machine have opposite signs: at most frequencies that they
     share, the phase is reversed.
 
@@ -176,7 +176,7 @@ def are_opposite(one: FrequencyResponse, other: FrequencyResponse) -> bool:
     >>> are_opposite(one, other)
     True
     """
-    at = nearest(one.omega, other.omega)
-    near = np.abs(one.omega[at] - other.omega) <= NEAR * other.omega
-    turned = np.angle(other.G[near]) - np.angle(one.G[at[near]])
+    at = nearest(response.omega, other.omega)
+    near = np.abs(response.omega[at] - other.omega) <= NEAR * other.omega
+    turned = np.angle(other.G[near]) - np.angle(response.G[at[near]])
     return bool(len(turned) and np.mean(np.cos(turned)) < AGAINST)

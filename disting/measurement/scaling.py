@@ -111,15 +111,15 @@ def in_si(
     >>> in_si(degrees, output="deg", input="Nm").G.real[:2].round(4).tolist()
     [3.1416, 6.2832]
     """
-    there, here = motion(output or response.output.unit), drive(input or response.input.unit)
-    for given, unit, example in ((output, there, "rad, mm/s, rpm"), (input, here, "A, Nm, N")):
+    other_unit, here = motion(output or response.output.unit), drive(input or response.input.unit)
+    for given, unit, example in ((output, other_unit, "rad, mm/s, rpm"), (input, here, "A, Nm, N")):
         if given and unit is None:
             raise InputError(
                 f"{shown(given)} is no unit that is known here; known are such as {example}"
             )
-    if there is not None:
+    if other_unit is not None:
         response = _moved(
-            response, there, said=output or response.output.unit, asked=output is not None
+            response, other_unit, said=output or response.output.unit, asked=output is not None
         )
     if here is None:
         return response
@@ -136,16 +136,16 @@ def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResp
         raise InputError(
             f"the input is in {response.input.unit} already; leave --torque-constant away"
         )
-    found = motion(response.output.unit)
+    unit = motion(response.output.unit)
     note = (
         None
-        if found
+        if unit
         else (
             "the output is taken to be in rad, the results are rotational; if not, give --unit"
             " output=m"
         )
     )
-    base = found.base if found else "rad"
+    base = unit.base if unit else "rad"
     units = (
         response.output._replace(unit=base + SUFFIX[response.sensor.order]),
         response.input._replace(unit="N" if base == "m" else "Nm"),

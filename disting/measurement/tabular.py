@@ -70,9 +70,9 @@ def frequency_response(
     at = frequency_column(table, roles)
     ours = _written(table.comments)
     grid = _grid(table, at, roles[at], roles[at].unit if ours else frequency_unit, notes, doubts)
-    found = groups(table, roles)
+    the_groups = groups(table, roles)
     whole = column == "all" and "all" not in table.headers
-    used = found if whole else [chosen(table, roles, found, column)]
+    used = the_groups if whole else [chosen(table, roles, the_groups, column)]
     said = _units(table, roles, used[0], ours)
     quantity = quantity_of(table, sensor or ours.get("sensor"), said[0], notes)
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)

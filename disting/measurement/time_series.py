@@ -171,23 +171,23 @@ class TimeSeries:
         with np.errstate(over="ignore", invalid="ignore"):
             if segment is None:
                 excitation = self.u if self.reference is None else self.reference
-                found = periodic.estimate(
+                the_response = periodic.estimate(
                     *given, period, transient, lines, band, excitation, outliers
                 )
             else:
-                found = welch.estimate(
+                the_response = welch.estimate(
                     *given, segment, band, self.reference, least_coherence, self.sensor.order
                 )
         in_doubt = segment is not None and self.reference is None
         doubt = follows_output(self.u, self.y) if in_doubt else None
         closed = ", with a reference, which holds in closed loop" * (self.reference is not None)
         response = replace(
-            found,
+            the_response,
             sensor=self.sensor,
             input=self.input,
             output=self.output,
             origin=self.origin,
-            notes=(*self.notes, *found.notes, *([doubt] if doubt else [])),
+            notes=(*self.notes, *the_response.notes, *([doubt] if doubt else [])),
             reading=f"record in time, input {self.input}, output {self.output}{closed}"
             + (self.left_out and f"; {self.left_out}"),
         )

@@ -118,9 +118,9 @@ def _check_columns(text: str) -> None:
 def _quantity(record: Record, asked: Sensor | str | None) -> tuple[Sensor, str | None]:
     if asked is not None:
         return as_sensor(asked), None
-    found = QUANTITIES.get(record.get("ordinate_spec_data_type", 0))
-    if found is not None:
-        return found, None
+    sensor = QUANTITIES.get(record.get("ordinate_spec_data_type", 0))
+    if sensor is not None:
+        return sensor, None
     return Sensor.ACCELERATION, ASSUMED_ACCELERATION
 
 

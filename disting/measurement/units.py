@@ -197,21 +197,21 @@ def differentiated(text: str, sensor: Sensor, wanted: Sensor) -> str:
     >>> differentiated("cm", Sensor.POSITION, Sensor.ACCELERATION)
     'cm/s^2'
     """
-    found, name, steps = _parted(text)
-    if found is None:
+    the_unit, name, steps = _parted(text)
+    if the_unit is None:
         return text if sensor is wanted else ""
-    if found.sensor is not sensor:
+    if the_unit.sensor is not sensor:
         return ""
     return name + SUFFIX[steps + wanted.order - sensor.order]
 
 
 def agree(text: str, sensor: Sensor) -> None:
     """Raise InputError where a unit is that of another quantity than the output was read as."""
-    found = motion(text)
-    if found is not None and found.sensor is not sensor:
+    the_unit = motion(text)
+    if the_unit is not None and the_unit.sensor is not sensor:
         raise InputError(
-            f"the output in {text} is a {found.sensor.value}, the response is read as that of a"
-            f" {sensor.value}: give --quantity {found.sensor.value}, or another unit"
+            f"the output in {text} is a {the_unit.sensor.value}, the response is read as that of a"
+            f" {sensor.value}: give --quantity {the_unit.sensor.value}, or another unit"
         )
 
 
@@ -231,7 +231,7 @@ def ratio(texts: Iterable[str]) -> tuple[str, str] | None:
     >>> ratio(["# acceleration/current, rad/s^2 per A"]), ratio(["f [Hz]", "Re"])
     (('rad/s^2', 'A'), None)
     """
-    found = {(one[1], one[2]) for text in texts for one in RATIO.finditer(text)}
+    found = {(match[1], match[2]) for text in texts for match in RATIO.finditer(text)}
     return found.pop() if len(found) == 1 else None
 
 

@@ -67,7 +67,7 @@ def from_variables(
     response, chosen_index = indexed(response)
     index = index if chosen_index is None else chosen_index
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
-    found = FrequencyResponse(
+    the_response = FrequencyResponse(
         values,
         row(_numeric(arrays, chosen, origin), len(values), index, chosen) * as_sign(sign),
         _optional(arrays, deviation, DEVIATION_NAMES, len(values), index, origin),
@@ -77,7 +77,7 @@ def from_variables(
         origin=f"{origin}, {chosen}",
     )
     words = f"frequency in {taken_unit(values, grid)} ({name}), complex response ({chosen})"
-    return found.noted(None if sensor else ASSUMED_ACCELERATION, taken).read_as(words)
+    return the_response.noted(None if sensor else ASSUMED_ACCELERATION, taken).read_as(words)
 
 
 def holds_response(arrays: Arrays) -> bool:
@@ -124,8 +124,8 @@ def indexed(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
     >>> indexed("data[2]"), indexed("frf.Pv[2,1]"), indexed("data(:,2)"), indexed("iq")
     (('data', (1,)), ('frf.Pv', (1, 0)), ('data', (1,)), ('iq', None))
     """
-    found = INDEXED.fullmatch(asked) if asked else None
-    return (found[1], tuple(int(n) - 1 for n in found[2].split(","))) if found else (asked, None)
+    match = INDEXED.fullmatch(asked) if asked else None
+    return (match[1], tuple(int(n) - 1 for n in match[2].split(","))) if match else (asked, None)
 
 
 def row(

@@ -73,11 +73,11 @@ class Frame:
         entries = self.entries
         if all(abs(x) == 1 for e in entries for _, x in e.feels):
             return self
-        found = []
+        the_entries = []
         for e in entries:
             v = tuple((i, sign) for (i, _), sign in zip(e.feels, (1, -1), strict=False))
-            found.append(replace(e, pulls=v, feels=v))
-        return _frame(self.size, tuple(found), self.n_values)
+            the_entries.append(replace(e, pulls=v, feels=v))
+        return _frame(self.size, tuple(the_entries), self.n_values)
 
     @property
     def highest(self) -> int:
@@ -179,8 +179,8 @@ def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
         wanted, wanted, [pow(at.s, j, modulus) for at in seen for j in range(wanted)], modulus
     )
     width = len(rows[0])
-    known = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
-    found = [int(x) for x in powers.solve(known).entries()]
+    own_nmod_mat = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
+    found = [int(x) for x in powers.solve(own_nmod_mat).entries()]
     num, den, *slopes = (nmod_poly(found[i::width], modulus) for i in range(width))
     return _turned(of, point, num, den, slopes)
 
@@ -191,8 +191,8 @@ def solved(of: Frame, point: tuple[int, ...], modulus: int) -> tuple[Solved, ...
     values = [pow(e.value(point), -1, modulus) if e.divides else e.value(point) for e in of.entries]
     wanted = of.highest + 1
     tried = (_at(of, point, values, s, modulus) for s in range(1, 2 * wanted + 1))
-    found = tuple(islice((at for at in tried if at), wanted))
-    return found if len(found) == wanted else ()
+    solveds = tuple(islice((at for at in tried if at), wanted))
+    return solveds if len(solveds) == wanted else ()
 
 
 def _at(
@@ -263,24 +263,24 @@ def _turned(
     for e in of.frame.entries:
         whole = whole * e.value(point) % modulus if e.divides else whole
     sides = [side * whole for side in (num, den)]
-    found = [[zero] * of.frame.n_values, [zero] * of.frame.n_values]
-    given = iter(slopes)
+    nmod_polies = [[zero] * of.frame.n_values, [zero] * of.frame.n_values]
+    source_nmod_polies = iter(slopes)
     for e in of.frame.entries:
-        pair = [next(given) * whole for _ in sides]
+        pair = [next(source_nmod_polies) * whole for _ in sides]
         if e.divides and e.place is not None:
             below = pow(point[e.place], -1, modulus)
             pair = [(side - d * below) * below for side, d in zip(sides, pair, strict=True)]
-        by_ratio = [] if e.ratio is None else [next(given) * whole for _ in sides]
+        by_ratio = [] if e.ratio is None else [next(source_nmod_polies) * whole for _ in sides]
         for place, each in ((e.place, pair), (e.ratio, by_ratio)):
             if place is not None:
-                for total, slope in zip(found, each, strict=True):
+                for total, slope in zip(nmod_polies, each, strict=True):
                     total[place] += slope
     up = of.gained
     return Sides(
         sides[0].left_shift(up),
         sides[1],
-        tuple(d.left_shift(up) for d in found[0]),
-        tuple(found[1]),
+        tuple(d.left_shift(up) for d in nmod_polies[0]),
+        tuple(nmod_polies[1]),
     )
 
 
@@ -288,8 +288,8 @@ def quotient_at(of: Assembly, point: Sequence[int], modulus: int) -> Quotient:
     """N/D in lowest terms at a point without zeros; both sides are zero where P cannot be
     inverted.
     """
-    found = sides_at(of, point, modulus)
-    if found is None:
+    sides = sides_at(of, point, modulus)
+    if sides is None:
         zero = nmod_poly([0], modulus)
         return Quotient(zero, zero, (), ())
-    return lowest_terms(found.num, found.den, found.num_derivatives, found.den_derivatives)
+    return lowest_terms(sides.num, sides.den, sides.num_derivatives, sides.den_derivatives)

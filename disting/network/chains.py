@@ -22,13 +22,13 @@ def of_chain(chain: Chain, name: str = "network") -> Network:
 
 def elements_of(structure: Structure) -> tuple[Element, ...]:
     """The elements of a structure as those of a network."""
-    found = []
+    elements = []
     for e in structure.elements:
         nodes = (e.at,) if isinstance(e, Mass) else (e.at, 0)
         if isinstance(e, Spring | Damper):
             nodes = (e.at + 1, e.at)
-        found.append(Element(e.parameter, "d" if e.kind == "b" else e.kind, nodes))
-    return tuple(found)
+        elements.append(Element(e.parameter, "d" if e.kind == "b" else e.kind, nodes))
+    return tuple(elements)
 
 
 def ports_of(structure: Structure) -> tuple[Port, Port]:

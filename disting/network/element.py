@@ -122,8 +122,8 @@ class Element:
         if self.letter == "a" or not others:
             return {first: Fraction(1)}
         ratio = self.known_ratio
-        there: Fraction | str = self.ratio if ratio is None else -ratio
-        return {i: x for i, x in ((first, Fraction(1)), (others[0], there)) if i}
+        number: Fraction | str = self.ratio if ratio is None else -ratio
+        return {i: x for i, x in ((first, Fraction(1)), (others[0], number)) if i}
 
     @property
     def pulls(self) -> dict[int, Fraction | str]:

@@ -37,14 +37,14 @@ def transfer_functions(
     size = max((i for e in plain.elements for i in e.nodes), default=0)
     step = 1 if network.halves else 2
     lift = max((0, *(-e.kind.halves for e in plain.elements))) // step
-    one = ring[s] ** 0
+    unit = ring[s] ** 0
     scale = plain.ratio_scale
-    rows = [[one - one] * size for _ in range(size)]
+    rows = [[unit - unit] * size for _ in range(size)]
     for e in plain.elements:
         power = ring[s] ** (e.kind.halves // step + lift)
         _add(rows, e, ring, power * ring[e.exponent] if e.exponent else power, scale)
     whole = (1 << size) - 1
-    determinant = minors(rows, {0: one}, times).get(whole, one - one)
+    determinant = minors(rows, {0: unit}, times).get(whole, unit - unit)
     if determinant.is_zero():
         raise InputError(
             f"{network.name}: no motion or voltage follows from what enters: {_loose(network)}"
@@ -54,12 +54,12 @@ def transfer_functions(
     dividing = [e.value for e in plain.elements if e.kind.divides]
     columns = []
     for port in plain.inputs:
-        entering = _vector(port, size, one)
-        above = minors([[*r, b] for r, b in zip(rows, entering, strict=True)], {0: one}, times)
+        entering = _vector(port, size, unit)
+        above = minors([[*r, b] for r, b in zip(rows, entering, strict=True)], {0: unit}, times)
         columns.append(
             [
                 _turned(
-                    _bordered(above, _vector(out, size, one), one - one, times)
+                    _bordered(above, _vector(out, size, unit), unit - unit, times)
                     * ring[s] ** gained
                     * scale**2,
                     determinant,
@@ -94,8 +94,8 @@ def _entry(x: Fraction | str, ring: Ring, scale: int) -> fmpz_mpoly | int:
     return -ring[x] * scale if isinstance(x, str) else int(x * scale)
 
 
-def _vector(port: Port, size: int, one: fmpz_mpoly) -> list[fmpz_mpoly]:
-    return [one * port.ends.get(i, 0) for i in range(1, size + 1)]
+def _vector(port: Port, size: int, unit: fmpz_mpoly) -> list[fmpz_mpoly]:
+    return [unit * port.ends.get(i, 0) for i in range(1, size + 1)]
 
 
 def _bordered(

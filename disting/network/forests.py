@@ -83,22 +83,22 @@ def forests(weights: Mapping[Edge, int], kept: Iterable[int]) -> Mapping[Partiti
 
 def _with_edge(states: Counter[Partition], edge: Edge, weight: int) -> Counter[Partition]:
     """Without the edge and, where that closes no loop, with it."""
-    found = Counter(states)
+    counter = Counter(states)
     for blocks, total in states.items():
         joined = frozenset(block for block in blocks if block & edge)
         if len(joined) > 1:
-            found[blocks - joined | {frozenset().union(*joined)}] += total * weight
-    return found
+            counter[blocks - joined | {frozenset().union(*joined)}] += total * weight
+    return counter
 
 
 def _without(states: Counter[Partition], node: int) -> Counter[Partition]:
     """The node forgotten; a tree that holds no other one would end here."""
-    found = Counter[Partition]()
+    counter = Counter[Partition]()
     for blocks, total in states.items():
         (own,) = (block for block in blocks if node in block)
         if len(own) > 1:
-            found[blocks - {own} | {own - {node}}] += total
-    return found
+            counter[blocks - {own} | {own - {node}}] += total
+    return counter
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,23 +137,23 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     geared = any(e.ratio for e in network.elements)
     if of is None or (geared and (ungeared(network) is None or not _sign(of))):
         return None
-    known = _counted(of)
-    if known is None or not any(known.num) or not any(known.den):
+    counts = _counted(of)
+    if counts is None or not any(counts.num) or not any(counts.den):
         return None
     label = about("lowest terms", network.elements, network.ports, network.order, halves)
     modulus = prime(label)
     q = quotient_at(of, residues(f"point:{label}", of.frame.n_values, modulus), modulus)
     places = (e.place for e in of.frame.entries)
     slopes = [(q.num_derivatives[i], q.den_derivatives[i]) for i in places if i is not None]
-    kept = (q.num.degree(), q.den.degree()) == known.degrees
-    return known if kept and all(a or b for a, b in slopes) else None
+    kept = (q.num.degree(), q.den.degree()) == counts.degrees
+    return counts if kept and all(a or b for a, b in slopes) else None
 
 
 def _counted(of: Assembly) -> Counts | None:
     """Those of an assembly whose ratios agree; None of one whose terms are not counted, or where
     both sides share the ratio of a gear.
     """
-    powers, given = [e.power for e in of.frame.entries], of
+    powers, source_assembly = [e.power for e in of.frame.entries], of
     of = replace(of, frame=of.frame.ungeared, scale=1)
     sides = _digits(of, powers)
     # twice the values that do not divide, once the s of compartments and the ratios
@@ -174,7 +174,7 @@ def _counted(of: Assembly) -> Counts | None:
         if side
     ]
     num, den = sides
-    sizes = sides if of == given else _digits(given, powers) or sides
+    sizes = sides if of == source_assembly else _digits(source_assembly, powers) or sides
     directed = any(e.place is None for e in of.frame.entries)
     free = (n - 1 + of.gained, n) if directed else (None, None)
     size, mean = max(map(max, filter(None, sizes))), Fraction(sizes[1][-1], den[-1])

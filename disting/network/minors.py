@@ -105,9 +105,9 @@ def minors(part: Network, whole: Network) -> Iterator[dict[int, int]]:
 def _port_places(part: Network, whole: Network) -> Iterator[dict[int, int]]:
     """Yield the places of the nodes of ports, port by port, with their ends either way."""
     found: list[dict[int, int]] = [{0: 0}]
-    for mine, there in zip(whole.ports, part.ports, strict=True):
-        ways = [((mine.plus, there.plus), (mine.minus, there.minus))]
-        ways.append(((mine.plus, there.minus), (mine.minus, there.plus)))
+    for mine, port in zip(whole.ports, part.ports, strict=True):
+        ways = [((mine.plus, port.plus), (mine.minus, port.minus))]
+        ways.append(((mine.plus, port.minus), (mine.minus, port.plus)))
         found = [
             places | dict(way)
             for places in found
@@ -122,11 +122,11 @@ def _has_ports(part: Network, whole: Network, places: Places) -> bool:
     input to an output.
     """
     signs = []
-    for mine, there in zip(whole.ports, part.ports, strict=True):
+    for mine, port in zip(whole.ports, part.ports, strict=True):
         at = places[mine.plus], places[mine.minus]
-        if at not in ((there.plus, there.minus), (there.minus, there.plus)):
+        if at not in ((port.plus, port.minus), (port.minus, port.plus)):
             return False
-        signs.append(at == (there.plus, there.minus))
+        signs.append(at == (port.plus, port.minus))
     return len(set(signs)) == 1
 
 

@@ -136,8 +136,8 @@ class Network(Drawn):
     @property
     def ratio_scale(self) -> int:
         """The smallest number that makes all ratios that are numbers whole."""
-        known = (e.known_ratio for e in self.elements)
-        return lcm(*(ratio.denominator for ratio in known if ratio is not None))
+        numbers = (e.known_ratio for e in self.elements)
+        return lcm(*(ratio.denominator for ratio in numbers if ratio is not None))
 
     @property
     def grounded(self) -> "Network":
@@ -259,8 +259,8 @@ def _problems_of_ends(network: Network, port: Port, what: str) -> Iterator[str]:
 
 def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]:
     (entering, _), (seeing, _) = names = PORTS[network.sort]
-    for given, (what, example) in zip((network.inputs, network.outputs), names, strict=True):
-        if not given:
+    for source_ports, (what, example) in zip((network.inputs, network.outputs), names, strict=True):
+        if not source_ports:
             yield f"{what} is missing: say where it is, such as {example} in a text"
     if len(ports) > 2 * MOST_PORTS:
         yield f"a network has {MOST_PORTS} inputs and outputs at most"

@@ -72,7 +72,7 @@ def written(elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterab
     return ", ".join([*map(str, elements), *said])
 
 
-def same_drawing(one: Network, other: Network) -> bool:
+def same_drawing(network: Network, other: Network) -> bool:
     """Whether they are one network in other numbers: no part is replaced.
 
     >>> from disting.network.notation import network_of
@@ -80,10 +80,10 @@ def same_drawing(one: Network, other: Network) -> bool:
     >>> same_drawing(series, simplest(series)), same_drawing(parallel, simplest(parallel))
     (True, False)
     """
-    return len(one.elements) == len(other.elements) and _plain(one) == _plain(other)
+    return len(network.elements) == len(other.elements) and _plain(network) == _plain(other)
 
 
-def same_but_for_gears(one: Network, other: Network) -> bool:
+def same_but_for_gears(network: Network, other: Network) -> bool:
     """Whether they are one machine without their gears, of which one at least has some (see
     `disting.network.gears`).
 
@@ -91,10 +91,10 @@ def same_but_for_gears(one: Network, other: Network) -> bool:
     >>> same_but_for_gears(network_of("1~2*5/2; F1; S2"), network_of("1~2; F2; S1"))
     True
     """
-    first, second = ungeared(one), ungeared(other)
-    if first is None or second is None or (first is one and second is other):
+    first, second = ungeared(network), ungeared(other)
+    if first is None or second is None or (first is network and second is other):
         return False
-    alike = (one.sort, one.order, one.shape) == (other.sort, other.order, other.shape)
+    alike = (network.sort, network.order, network.shape) == (other.sort, other.order, other.shape)
     return alike and same_drawing(first, second)
 
 

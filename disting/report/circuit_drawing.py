@@ -56,13 +56,13 @@ def series_parallel(network: Network) -> Part | None:
         pair = _pair(edges, {port.plus, port.minus})
         if pair is None:
             return None
-        (a, b, one), (c, d, other) = pair
+        (a, b, part), (c, d, other) = pair
         edges = [e for e in edges if e not in pair]
         if {a, b} == {c, d}:
-            edges.append((a, b, _joined("parallel", one, other)))
+            edges.append((a, b, _joined("parallel", part, other)))
             continue
         shared = ({a, b} & {c, d}).pop()
-        edges.append((a + b - shared, c + d - shared, _joined("series", one, other)))
+        edges.append((a + b - shared, c + d - shared, _joined("series", part, other)))
     a, b, whole = edges[0]
     if {a, b} != {port.plus, port.minus}:
         return None
@@ -101,13 +101,13 @@ def _from(network: Network, part: Part, start: int) -> Part:
     if part.form == "parallel":
         inner = sorted((_from(network, p, start) for p in part.parts), key=lambda p: p.first)
         return Part(part.first, None, part.form, tuple(inner))
-    left, found = list(part.parts), []
+    left, parts = list(part.parts), []
     while left:
-        here = next(p for p in left if start in _ends(p))
-        left.remove(here)
-        found.append(_from(network, here, start))
-        start = sum(_ends(here)) - start
-    return Part(part.first, None, part.form, tuple(found))
+        own_part = next(p for p in left if start in _ends(p))
+        left.remove(own_part)
+        parts.append(_from(network, own_part, start))
+        start = sum(_ends(own_part)) - start
+    return Part(part.first, None, part.form, tuple(parts))
 
 
 def _ends(part: Part) -> tuple[int, int]:

@@ -76,7 +76,7 @@ class Open:
     pairs: int
 
 
-def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
+def damper_page(the_family: DamperFamily, *, beside: Families | None = None) -> str:
     """HTML of a family with sets of ground dampers; `beside`: the pages of pairs beside it (see
     `families`).
 
@@ -84,31 +84,35 @@ def damper_page(found: DamperFamily, *, beside: Families | None = None) -> str:
     >>> damper_page(damper_catalog(3, damped=True))[:15]
     '<!DOCTYPE html>'
     """
-    pages = families([], [found]) | dict(beside or {})
-    catalog = chains_name(found.family.n_masses, found.family.damped) in pages
-    family, by_size, totals = found.family, numbered(found.found), found.found.counts()
+    pages = families([], [the_family]) | dict(beside or {})
+    catalog = chains_name(the_family.family.n_masses, the_family.family.damped) in pages
+    family, by_size, totals = (
+        the_family.family,
+        numbered(the_family.found),
+        the_family.found.counts(),
+    )
     drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(family, 1)]
     sample = Chain(3, 1, 1, 3, 1, 2, damped=family.damped, ground_dampers=(2,))
     example = Drawing(0, draw(sample))
-    undecided = list(opened(found, by_size))
+    undecided = list(opened(the_family, by_size))
     return render(
         "dampers.html",
         family=family,
         kind="damped" if family.damped else "undamped",
-        models=len(found),
-        sets=len(found.sets),
+        models=len(the_family),
+        sets=len(the_family.sets),
         compared=sum(totals.values()),
         totals=totals,
-        groups=[_group(found, by_size, number) for number in range(by_size.several)],
+        groups=[_group(the_family, by_size, number) for number in range(by_size.several)],
         at_once=SHOWN_AT_ONCE,
-        structures=list(structures(found, by_size, drawings)),
-        counts=counts(found),
+        structures=list(structures(the_family, by_size, drawings)),
+        counts=counts(the_family),
         undecided=undecided[:LISTED],
         more=len(undecided) - LISTED,
         held=held((*drawings, example), ground_dampers(family.n_masses)),
         sample=example,
         payload=payload(
-            found,
+            the_family,
             catalog=catalog,
             families=pages,
             tall=height_with_dampers(family.n_masses),
@@ -124,20 +128,20 @@ def family_title(n_masses: int, damped: bool) -> str:
 
 
 def structures(
-    found: DamperFamily, by_size: Numbered, drawings: Sequence[Drawing]
+    family: DamperFamily, by_size: Numbered, drawings: Sequence[Drawing]
 ) -> Iterator[Structure]:
     """The family's chains."""
-    rows = by_size.group.reshape(len(found.family), len(found.sets)).tolist()
-    undecided = open_classes(found.found, by_size)
+    rows = by_size.group.reshape(len(family.family), len(family.sets)).tolist()
+    undecided = open_classes(family.found, by_size)
     for drawing, row in zip(drawings, map(set, rows), strict=True):
         yield Structure(drawing, len(row), sum(a in row and b in row for a, b in undecided))
 
 
-def counts(found: DamperFamily) -> list[Count]:
+def counts(family: DamperFamily) -> list[Count]:
     """Pairs by deciding rule: those that prove distinguishable, those that prove
     indistinguishable, the undecided ones.
     """
-    number, same = found.found.counts_by_rule(), found.found.counts()[Relation.INDISTINGUISHABLE]
+    number, same = family.found.counts_by_rule(), family.found.counts()[Relation.INDISTINGUISHABLE]
     said, exact = rules(), EXACT.name
     parts = {rule: (decides(RULES[rule]), number.get(rule, 0)) for rule in said if rule != exact}
     by_exact = same - sum(
@@ -148,22 +152,22 @@ def counts(found: DamperFamily) -> list[Count]:
         (exact, Relation.DISTINGUISHABLE, number.get(exact, 0) - by_exact),
         (exact, Relation.INDISTINGUISHABLE, by_exact),
     ]
-    told = [
+    own_counts = [
         Count(said[rule][0], _title(said[rule][1]), said[rule][2], relation, n)
         for rule, relation, n in rows
     ]
-    return [*told, Count("", "undecided", "nothing decides", Relation.UNDECIDED, number[""])]
+    return [*own_counts, Count("", "undecided", "nothing decides", Relation.UNDECIDED, number[""])]
 
 
-def opened(found: DamperFamily, by_size: Numbered) -> Iterator[Open]:
+def opened(family: DamperFamily, by_size: Numbered) -> Iterator[Open]:
     """The pairs of classes that stay open, in the order of the classes."""
-    for a, b in open_classes(found.found, by_size):
-        left, right = (_short(found.name(int(by_size.first[g]))) for g in (a, b))
+    for a, b in open_classes(family.found, by_size):
+        left, right = (_short(family.name(int(by_size.first[g]))) for g in (a, b))
         yield Open(left, right, int(by_size.sizes[a] * by_size.sizes[b]))
 
 
-def _group(found: DamperFamily, by_size: Numbered, number: int) -> Group:
-    names = [found.name(i) for i in by_size.members(number)]
+def _group(family: DamperFamily, by_size: Numbered, number: int) -> Group:
+    names = [family.name(i) for i in by_size.members(number)]
     sets: dict[str, list[int]] = {}
     for structure, of in groupby(names, key=lambda name: name[0]):
         sets.setdefault(", ".join(spelled(masses) for _, masses in of), []).append(structure)

@@ -54,15 +54,15 @@ class Numbered:
         return tuple(map(int, np.flatnonzero(self.group == group)))
 
 
-def numbered(found: Classes) -> Numbered:
+def numbered(classes: Classes) -> Numbered:
     """The classes, the largest first, those of one size by their first models.
 
     Raises InputError where the columns of a class disagree: then no look-up by class is possible.
     """
     _, first, inverse, sizes = np.unique(
-        found.group, return_index=True, return_inverse=True, return_counts=True
+        classes.group, return_index=True, return_inverse=True, return_counts=True
     )
-    if not np.array_equal(found.columns, found.columns[first][inverse]):
+    if not np.array_equal(classes.columns, classes.columns[first][inverse]):
         raise InputError("the models of one class have the same buckets")
     order = np.lexsort((first, -sizes))
     place = np.empty_like(order)
@@ -70,17 +70,17 @@ def numbered(found: Classes) -> Numbered:
     return Numbered(place[inverse], first[order], sizes[order])
 
 
-def payload(found: DamperFamily, **more: object) -> Markup:
+def payload(family: DamperFamily, **more: object) -> Markup:
     """JSON text that is safe inside a script element, with what else the page's script is to
     know.
     """
-    classes, by_size = found.found, numbered(found.found)
+    classes, by_size = family.found, numbered(family.found)
     data = more | {
-        "masses": found.family.n_masses,
-        "damped": found.family.damped,
-        "sets": [bits(masses) for masses in found.sets],
+        "masses": family.family.n_masses,
+        "damped": family.family.damped,
+        "sets": [bits(masses) for masses in family.sets],
         "structures": [
-            [chain.gap, mirror(chain), len(chain.structure.elements)] for chain in found.family
+            [chain.gap, mirror(chain), len(chain.structure.elements)] for chain in family.family
         ],
         "tests": classes.tests,
         "rules": rules(),

@@ -124,7 +124,7 @@ def _depending(c: Catalog) -> dict[int, list[int]]:
     reverse, but not of all.
     """
     pairs = [way for low, high in c.depending() for way in ((low, high), (high, low))]
-    pairs += [(one.given, one.other) for one in one_sided(c)]
+    pairs += [(case.given, case.other) for case in one_sided(c)]
     return {
         number: sorted(other for given, other in pairs if given == number)
         for number in sorted({p for p, _ in pairs})

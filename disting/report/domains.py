@@ -101,12 +101,12 @@ def one_sided(decided: Decided) -> Iterator[OneSided]:
     """
     for left, right, v in decided.pairs(View.POSITIVE):
         if v.relation is Relation.DISTINGUISHABLE:
-            for found, given, other in (
+            for finding, given, other in (
                 (v.left_positive, left, right),
                 (v.right_positive, right, left),
             ):
-                if found is not None and found.share in ABLE:
-                    yield OneSided(given, other, found.share)
+                if finding is not None and finding.share in ABLE:
+                    yield OneSided(given, other, finding.share)
 
 
 def _size_first(members: Members) -> tuple[int, Members]:

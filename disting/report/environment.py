@@ -92,7 +92,7 @@ def source(template: str) -> str:
 def environment() -> Environment:
     """Templates of this package: a missing value is an error, a text is never taken for markup."""
     loader = PackageLoader("disting.report")
-    found = Environment(
+    the_environment = Environment(
         loader=loader,
         autoescape=True,
         undefined=StrictUndefined,
@@ -100,6 +100,6 @@ def environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    found.globals["version"] = __version__  # every page names it
-    found.globals["file_palette"] = dict(FILE_PALETTE)  # of pictures that a page saves
-    return found
+    the_environment.globals["version"] = __version__  # every page names it
+    the_environment.globals["file_palette"] = dict(FILE_PALETTE)  # of pictures that a page saves
+    return the_environment

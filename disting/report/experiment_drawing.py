@@ -68,8 +68,8 @@ def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
 
 def additions(used: Iterable[tuple[Chain, Item]]) -> list[Part]:
     """What sketches are made of beside the drawings of the chains, each once."""
-    found = {layer.name: layer for layer in (added(*one) for one in used)}
-    return [Part(f"more-{name}", layer) for name, layer in sorted(found.items())]
+    layers = {layer.name: layer for layer in (added(*one) for one in used)}
+    return [Part(f"more-{name}", layer) for name, layer in sorted(layers.items())]
 
 
 def state(

@@ -92,9 +92,9 @@ def written(chain: Chain) -> TransferFunction:
     \end{align}
     """
     stiffness = chain.damped and chain.n_masses > LARGEST_SPELLED_OUT
-    found = expand((replace(chain, damped=False) if stiffness else chain).structure)
+    polynomials = expand((replace(chain, damped=False) if stiffness else chain).structure)
     names = ("B", "A") if stiffness else ("b", "a")
-    sides = [(letter, _coefficients(p)) for letter, p in zip(names, found, strict=True)]
+    sides = [(letter, _coefficients(p)) for letter, p in zip(names, polynomials, strict=True)]
     return _transfer(sides, stiffness=stiffness)
 
 
@@ -134,20 +134,22 @@ def _transfer(
     )
 
 
-def correspondence(given: Chain, other: Chain) -> Correspondence | None:
+def correspondence(chain: Chain, other: Chain) -> Correspondence | None:
     """The explicit map from one chain to another where a short one is known."""
-    if given.n_masses > CAUER_UP_TO and other not in _images(given):
+    if chain.n_masses > CAUER_UP_TO and other not in _images(chain):
         return None
-    found = explicit_map(given, other)
-    if found is None:
+    formula_map = explicit_map(chain, other)
+    if formula_map is None:
         return None
-    lines = (equation(primed(name), expression(value)) for name, value in found.formulas.items())
-    return Correspondence(tuple(lines), found.latex, ", then ".join(found.steps))
+    lines = (
+        equation(primed(name), expression(value)) for name, value in formula_map.formulas.items()
+    )
+    return Correspondence(tuple(lines), formula_map.latex, ", then ".join(formula_map.steps))
 
 
 @cache
-def _images(given: Chain) -> frozenset[Chain]:
-    return frozenset(image.chain for image in images(given, dict.fromkeys(given.parameters, 1.0)))
+def _images(chain: Chain) -> frozenset[Chain]:
+    return frozenset(image.chain for image in images(chain, dict.fromkeys(chain.parameters, 1.0)))
 
 
 ROOT = re.compile(r"\((.+) \+ sqrt\((.+)\)\)/\((.+)\)")
@@ -165,13 +167,13 @@ class Values:
     root: tuple[Markup, ...]
 
 
-def written_values(found: Assignment) -> Values:
+def written_values(assignment: Assignment) -> Values:
     """Formulas for the values of another model, typeset."""
-    root = found.root
-    steps = (equation(symbol(name), _typed(text)) for name, text in found.steps)
-    equations = (equation(primed(name), _typed(text)) for name, text in found.values)
+    root = assignment.root
+    steps = (equation(symbol(name), _typed(text)) for name, text in assignment.steps)
+    equations = (equation(primed(name), _typed(text)) for name, text in assignment.values)
     return Values(
-        tuple(math(_typed(text)) for text in found.where),
+        tuple(math(_typed(text)) for text in assignment.where),
         (*steps, *equations),
         (math(symbol(root[0])), *(math(_typed(text)) for text in root[1:])) if root else (),
     )
@@ -184,9 +186,9 @@ def _typed(text: str) -> str:
     if root := ROOT.fullmatch(text):
         first, inside, below = map(_typed, root.groups())
         return fraction(f"{first}<mo>+</mo><msqrt>{inside}</msqrt>", below)
-    found = tree(text)
-    ring = symbols(sorted({*symbols_of(found)}) or ["s"])
-    return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(found))
+    number = tree(text)
+    ring = symbols(sorted({*symbols_of(number)}) or ["s"])
+    return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(number))
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,9 +60,9 @@ def graph_layers(network: Network) -> list[Layer]:
     nodes, sheet.layers = sheet.layers, []
     joints, hanging = _joints(network, places)
     names = list[tuple[Element, Track, float]]()
-    for ends, found in joints.items():
+    for ends, elements in joints.items():
         whole = Track(*(places[i] for i in ends))
-        for e, aside in zip(found, _asides(len(found)), strict=True):
+        for e, aside in zip(elements, _asides(len(elements)), strict=True):
             track = whole.shifted(aside, radius)
             turned = Track(track.end, track.start) if e.nodes[0] != ends[0] else track
             sheet.add(e.value, (*_fan(whole, aside, radius), *_element(e, turned)))
@@ -71,8 +71,8 @@ def graph_layers(network: Network) -> list[Layer]:
         sheet.add(f"name-{e.value}", (sheet.clearest(list(_names(e, track, aside))),))
     for place, kind, sign in _ends_of_ports(network, places):
         _arm_of_port(sheet, Track(place, place), kind, sign, radius)
-    for i, found in hanging.items():
-        _arm_to_ground(sheet, places[i], found, radius, network.sort)
+    for i, elements in hanging.items():
+        _arm_to_ground(sheet, places[i], elements, radius, network.sort)
     # nodes lie above the ends of what leads to them
     return [*sheet.layers, *nodes]
 
@@ -249,18 +249,18 @@ def _arm_of_port(sheet: Sheet, at: Track, kind: str, sign: str, radius: float) -
 
 
 def _arm_to_ground(
-    sheet: Sheet, place: Point, found: Sequence[Element], radius: float, sort: Sort
+    sheet: Sheet, place: Point, elements: Sequence[Element], radius: float, sort: Sort
 ) -> None:
     """Joints of one node to the ground, side by side, with the piece of ground; flows outside."""
-    half = 13.0 + ASIDE / 2 * (len(found) - 1)
+    half = 13.0 + ASIDE / 2 * (len(elements) - 1)
     arms = list(_arms(place, radius, 0.25))
     arm = min(arms, key=lambda t: sheet.crowd(Track(t.at(2), t.at(ARM + 8)), half))
-    for e, aside in zip(found, _asides(len(found)), strict=True):
+    for e, aside in zip(elements, _asides(len(elements)), strict=True):
         track = arm.shifted(aside, 0)
         sheet.add(e.value, (*_fan_at(arm, aside, radius), *_element(e, track)))
     if sort is Sort.MACHINE:
         sheet.add("ground", hatched(arm, half))
-    for e, aside in zip(found, _asides(len(found)), strict=True):
+    for e, aside in zip(elements, _asides(len(elements)), strict=True):
         names = list(_names(e, arm.shifted(aside, 0), aside))
         sheet.add(f"name-{e.value}", (sheet.clearest(names),))
 

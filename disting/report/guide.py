@@ -30,7 +30,7 @@ NAMELESS = re.compile(r"<th>\s*</th>")  # the corner of a table heads nothing
 PICTURE = Markup('<img alt="Figure that the code above draws" src="data:image/png;base64,{}">')
 
 
-def notebook_page(name: str, text: str, known: Container[str]) -> GuidePage:
+def notebook_page(name: str, text: str, container: Container[str]) -> GuidePage:
     """The page of a notebook, given as the text of its file; its name is the title where its first
     cell does not begin with one.
 
@@ -60,7 +60,7 @@ def notebook_page(name: str, text: str, known: Container[str]) -> GuidePage:
         raise InputError(f"{shown(name)} is no executed notebook: {error}") from error
     title = [] if parts and parts[0].startswith("# ") else [f"# {name}"]
     return guide_page(
-        PREFIX + name, "\n\n".join([*title, *parts, "```file\n```"]), known, outputs=outputs
+        PREFIX + name, "\n\n".join([*title, *parts, "```file\n```"]), container, outputs=outputs
     )
 
 

@@ -25,24 +25,24 @@ from disting.verdict.result import Relation
 INKS = {Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE, Relation.UNDECIDED: Ink.OPEN}
 
 
-def damper_thumbnail(found: DamperFamily, side: float = 168) -> Scene:
+def damper_thumbnail(family: DamperFamily, side: float = 168) -> Scene:
     """A triangle with its diagonal, `side` pixels wide: a field that is not blue holds pairs
     that are not told apart.
     """
-    size = len(found.family)
+    size = len(family.family)
     cell = side / size
     steps = [(x * cell, y * cell) for i in range(size) for x, y in ((i, i), (i + 1, i))]
     stairs = Path((*steps, (side, side), (0, side)), Ink.NONE, Ink.DISTINGUISHABLE)
     fields = tuple(
         Rect(x * cell, y * cell, count * cell, cell, INKS[relation])
-        for relation, x, y, count in sorted(runs(found))
+        for relation, x, y, count in sorted(runs(family))
     )
     return Scene(side, side, (Layer("distinguishable", (stairs,)), Layer("others", fields)))
 
 
-def runs(found: DamperFamily) -> Iterator[tuple[Relation, int, int, int]]:
+def runs(family: DamperFamily) -> Iterator[tuple[Relation, int, int, int]]:
     """Neighbours in a row that are not all distinguishable: relation, first column, row, length."""
-    rows = found.found.group.reshape(len(found.family), len(found.sets)).tolist()
+    rows = family.found.group.reshape(len(family.family), len(family.sets)).tolist()
     groups = [frozenset(row) for row in rows]
     holders = {
         group: [s for s, of in enumerate(groups) if group in of]
@@ -50,7 +50,7 @@ def runs(found: DamperFamily) -> Iterator[tuple[Relation, int, int, int]]:
     }
     opened = {
         frozenset((s, t))
-        for a, b in found.found.open_groups
+        for a, b in family.found.open_groups
         for s in holders[a]
         for t in holders[b]
     }
@@ -59,7 +59,7 @@ def runs(found: DamperFamily) -> Iterator[tuple[Relation, int, int, int]]:
         """Of two structures, some of whose sets of dampers are not told apart; of one, two of
         its own sets.
         """
-        same = groups[s] & groups[t] if s != t else len(groups[s]) < len(found.sets)
+        same = groups[s] & groups[t] if s != t else len(groups[s]) < len(family.sets)
         if same:
             return Relation.INDISTINGUISHABLE
         return Relation.UNDECIDED if frozenset((s, t)) in opened else Relation.DISTINGUISHABLE
@@ -154,12 +154,17 @@ def card(catalog: Catalog) -> Card:
     )
 
 
-def damper_card(found: DamperFamily) -> Card:
+def damper_card(family: DamperFamily) -> Card:
     """Headline of a family with ground dampers, and a thumbnail of its structures."""
-    kind = found.family.n_masses, found.family.damped
-    groups, counts = len(found.classes()), found.found.counts()
+    kind = family.family.n_masses, family.family.damped
+    groups, counts = len(family.classes()), family.found.counts()
     return _card(
-        damper_name(*kind), family_title(*kind), len(found), groups, counts, damper_thumbnail(found)
+        damper_name(*kind),
+        family_title(*kind),
+        len(family),
+        groups,
+        counts,
+        damper_thumbnail(family),
     )
 
 
@@ -167,10 +172,10 @@ def example(catalogs: Sequence[Catalog]) -> Example | None:
     """Two chains that look different and cannot be told apart: of three masses where there are
     any.
     """
-    found = [c for c in catalogs if c.classes()]
-    if not found:
+    the_catalogs = [c for c in catalogs if c.classes()]
+    if not the_catalogs:
         return None
-    chosen = min(found, key=lambda c: (abs(c.n_masses - 3), not c.damped))
+    chosen = min(the_catalogs, key=lambda c: (abs(c.n_masses - 3), not c.damped))
     low, high = chosen.classes()[0][:2]
     drawings = (model_of(chosen, low).drawing, model_of(chosen, high).drawing)
     motion = f"{motion_of(chosen)}#A{low}-A{high}"

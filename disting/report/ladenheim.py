@@ -88,10 +88,10 @@ def is_canonical(card: Card) -> bool:
 
 def classes(shown: Listing) -> list[Class]:
     """The canonical networks by what they can do over positive values, the smallest first."""
-    found: dict[object, list[Card]] = {}
+    the_cards: dict[object, list[Card]] = {}
     for card in filter(is_canonical, shown.cards):
-        found.setdefault(card.groups[0] or ("alone", card.number), []).append(card)
-    groups = sorted(found.values(), key=lambda g: (len(g[0].model.parameters), g[0].number))
+        the_cards.setdefault(card.groups[0] or ("alone", card.number), []).append(card)
+    groups = sorted(the_cards.values(), key=lambda g: (len(g[0].model.parameters), g[0].number))
     return [_class(shown, number, cards) for number, cards in enumerate(groups, 1)]
 
 
@@ -108,34 +108,34 @@ def _class(shown: Listing, number: int, cards: list[Card]) -> Class:
     return Class(number, tuple(map(tuple, parts)), exact)
 
 
-def _differ(one: Member, other: Member) -> bool:
+def _differ(member: Member, other: Member) -> bool:
     """Whether one of two networks that are the same for almost all values is known to give more
     than the other one at special values.
     """
-    if None not in (one.special, other.special) and bool(one.special) != bool(other.special):
+    if None not in (member.special, other.special) and bool(member.special) != bool(other.special):
         return True
-    return False in _within(one, other)
+    return False in _within(member, other)
 
 
-def _within(one: Member, other: Member) -> tuple[bool | None, bool | None]:
-    left, right = one.card.model.network, other.card.model.network
+def _within(member: Member, other: Member) -> tuple[bool | None, bool | None]:
+    left, right = member.card.model.network, other.card.model.network
     if left is None or right is None:
         return None, None
     return within(left, right), within(right, left)
 
 
-def _same(shown: Listing, one: Member, other: Member) -> bool:
+def _same(shown: Listing, member: Member, other: Member) -> bool:
     """Whether two networks that are the same for almost all values are so for special ones too: by
     the parts of which they are made, or by formulas.
     """
-    if all(_within(one, other)):
+    if all(_within(member, other)):
         return True
-    left, right = one.card.number, other.card.number
-    found, models = shown.found.decisions[View.POSITIVE], shown.found.family
-    if not found.verdict(left - 1, right - 1).has_exceptions:
+    left, right = member.card.number, other.card.number
+    decisions, models = shown.found.decisions[View.POSITIVE], shown.found.family
+    if not decisions.verdict(left - 1, right - 1).has_exceptions:
         return True
     ways = (left, right), (right, left)
-    formulas = [duplicate(found, models, a - 1, b - 1).formulas for a, b in ways]
+    formulas = [duplicate(decisions, models, a - 1, b - 1).formulas for a, b in ways]
     if not all(formulas):
         return False
     if any(f.steps for of in formulas for f in of):
@@ -162,19 +162,19 @@ def ladenheim_page(shown: Listing, *, site: bool = False) -> str:
     """HTML of the page, from a family of circuits; its page of models lies beside it. `site`:
     whether the pages of the site do.
     """
-    found = classes(shown)
+    the_classes = classes(shown)
     left = [card for card in shown.cards if not is_canonical(card)]
     pairs = list(open_pairs(shown))
     decided = not any(relation is Relation.UNDECIDED for *_, relation in pairs)
     return render(
         "ladenheim.html",
         shown=shown,
-        classes=found,
+        classes=the_classes,
         canonical=len(shown.cards) - len(left),
-        parts=sum(len(c.parts) for c in found),
-        with_factors=sum(c.n_with_factors for c in found),
-        proven=decided and all(c.exact for c in found),
-        split=[c for c in found if len(c.parts) > 1],
+        parts=sum(len(c.parts) for c in the_classes),
+        with_factors=sum(c.n_with_factors for c in the_classes),
+        proven=decided and all(c.exact for c in the_classes),
+        split=[c for c in the_classes if len(c.parts) > 1],
         left=left,
         open=pairs,
         held=held(card.drawing for card in shown.cards if card.drawing),

@@ -77,9 +77,9 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
     """HTML of one model; beside it the style sheet that `write_model_list` writes is expected.
     `site`: whether the pages of the site stand around it.
     """
-    found, card = shown.found, shown.cards[number - 1]
+    listing, card = shown.found, shown.cards[number - 1]
     verdicts = {
-        other: found.verdict(min(number, other), max(number, other), View.POSITIVE)
+        other: listing.verdict(min(number, other), max(number, other), View.POSITIVE)
         for other in range(1, len(shown.cards) + 1)
         if other != number
     }
@@ -92,7 +92,7 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
     complex_same = [
         shown.cards[o - 1]
         for o in verdicts
-        if found.relation(number, o, View.EXACT) is Relation.INDISTINGUISHABLE
+        if listing.relation(number, o, View.EXACT) is Relation.INDISTINGUISHABLE
         and verdicts[o].relation is not Relation.INDISTINGUISHABLE
     ]
     network = card.model.network
@@ -150,36 +150,38 @@ def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
 
 
 def _special(shown: Listing, number: int, other: int) -> tuple[str, tuple[Markup, ...]]:
-    found = shown.found.at_special_values(number, other)
-    if found is None:
+    special_values = shown.found.at_special_values(number, other)
+    if special_values is None:
         return "", ()
     names = shown.label(number), shown.label(other)
-    equations = tuple(typeset(s.polynomial) for s in found.lower)
-    outer = names[1] if found.left_in_right else names[0]
+    equations = tuple(typeset(s.polynomial) for s in special_values.lower)
+    outer = names[1] if special_values.left_in_right else names[0]
     few = f" {outer} has fewer poles where" if equations else ""
-    return f"{found.in_short(*names)}{few}", equations
+    return f"{special_values.in_short(*names)}{few}", equations
 
 
 def _parts(shown: Listing, number: int, other: int) -> Iterator[Part]:
     for pair in ((number, other), (other, number)):
-        found = shown.found.reached(*pair)
-        if found and found.pieces:
-            pieces = () if found.is_everything else found.pieces
+        reach = shown.found.reached(*pair)
+        if reach and reach.pieces:
+            pieces = () if reach.is_everything else reach.pieces
             conditions = tuple(map(written_conditions, pieces))
             names = shown.label(pair[0]), shown.label(pair[1])
-            yield Part(*names, found.is_everything, conditions)
+            yield Part(*names, reach.is_everything, conditions)
 
 
 def _values(shown: Listing, number: int, other: int) -> tuple[Values, ...]:
     """Formulas for the values of another model, where it has finitely many."""
-    found, card = shown.found, shown.cards[other - 1]
+    listing, card = shown.found, shown.cards[other - 1]
     size = len(card.model.parameters)
     group = shown.cards[number - 1].groups[0]
     members = shown.domains[0].groups[group - 1] if group else ()
     if card.known.local.rank < size or len(members) > MOST_TWINS:
         return ()
-    known = duplicate(found.decisions[View.POSITIVE], found.family, number - 1, other - 1)
-    return tuple(map(written_values, known.formulas))
+    own_duplicate = duplicate(
+        listing.decisions[View.POSITIVE], listing.family, number - 1, other - 1
+    )
+    return tuple(map(written_values, own_duplicate.formulas))
 
 
 def _transfers(model: AnyModel, letter: str) -> list[tuple[str, TransferFunction]]:

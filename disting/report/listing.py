@@ -68,7 +68,7 @@ class JudgedList:
         if special:
             return special.sentence("{L}", "{R}")
         named = ((low, high), "{L}", "{R}"), ((high, low), "{R}", "{L}")
-        told = (found.sentence(*names) for pair, *names in named if (found := self.reached(*pair)))
+        told = (reach.sentence(*names) for pair, *names in named if (reach := self.reached(*pair)))
         return " ".join(filter(None, told))
 
     def pairs(self, view: View) -> Iterator[tuple[int, int, Verdict]]:
@@ -185,14 +185,14 @@ class Listing:
 
 
 def judged(
-    found: ModelList,
+    the_models: ModelList,
     engine: Engine,
     *,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> JudgedList:
     """Decide all pairs over positive and over complex parameters, and what is identifiable."""
-    subjects = engine.general_subjects(found.models)
+    subjects = engine.general_subjects(the_models.models)
     decided = {
         view: engine.decisions(
             subjects, Query(view, inclusion=False), executor=executor, progress=progress
@@ -201,9 +201,11 @@ def judged(
     }
     asked = [(unnamed(subject.subject),) for subject in subjects]
     engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
-    known = tuple(engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked)
+    global_identifiabilities = tuple(
+        engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked
+    )
     conditions = _conditions(subjects, decided[View.POSITIVE], engine, executor, progress)
-    return JudgedList(found.models, decided, known, conditions)
+    return JudgedList(the_models.models, decided, global_identifiabilities, conditions)
 
 
 def _conditions(
@@ -220,8 +222,8 @@ def _conditions(
         if over_positive.relation(*sorted((i, j))) is Relation.SOMETIMES
     }
     engine.answer_all(REACHED, list(asked.values()), executor=executor, progress=progress)
-    found = {pair: engine.answer(REACHED, m, engine.settings) for pair, m in asked.items()}
-    return {pair: known for pair, known in found.items() if known}
+    reaches = {pair: engine.answer(REACHED, m, engine.settings) for pair, m in asked.items()}
+    return {pair: reach for pair, reach in reaches.items() if reach}
 
 
 def _is_named_by_its_text(model: AnyModel) -> bool:

@@ -78,11 +78,11 @@ NOTHING: Mapping[str, str] = MappingProxyType({})
 def guide_page(
     name: str,
     text: str,
-    known: Container[str],
+    container: Container[str],
     drawings: Mapping[str, str] = NOTHING,
     outputs: Mapping[str, str] = NOTHING,
 ) -> GuidePage:
-    """A page of Markdown whose first block is its title; `known`: names of the pages that links
+    """A page of Markdown whose first block is its title; `container`: names of the pages that links
     may lead to; `drawings`: SVG by the names of the files that images may name; `outputs`: HTML
     in the place of blocks, by what these are named.
 
@@ -103,11 +103,11 @@ def guide_page(
     _with_names_of_columns(tokens)
     for before, token, after in zip(tokens, tokens[1:], tokens[2:], strict=False):
         if token.children:
-            token.children = list(_led(token.children, known))
+            token.children = list(_led(token.children, container))
             if [child.type for child in token.children] == ["image"]:
                 before.hidden = after.hidden = True  # a figure is no part of a paragraph
     title = _words(tokens[1])
-    if glossary.PAGE in known and name != glossary.PAGE:
+    if glossary.PAGE in container and name != glossary.PAGE:
         pairs = pairwise(tokens[2:])
         glossary.linked(
             inner for token, inner in pairs if inner.children and token.type != "heading_open"
@@ -209,21 +209,21 @@ def _with_anchors(tokens: Sequence[Token]) -> tuple[Section, ...]:
     sections.
     """
     seen: Counter[str] = Counter()
-    found = [Section("", _words(tokens[1]), 1)]
+    sections = [Section("", _words(tokens[1]), 1)]
     words: list[str] = []
     for token, inner in pairwise(tokens[2:]):
         if token.type == "heading_open":
-            found[-1] = replace(found[-1], words=" ".join(words))
+            sections[-1] = replace(sections[-1], words=" ".join(words))
             words, heading = [], _words(inner)
             anchor = _anchor(heading)
             token.attrSet("id", f"{anchor}-{seen[anchor]}" if seen[anchor] else anchor)
             seen[anchor] += 1
-            found.append(Section(str(token.attrs["id"]), heading, int(token.tag[1:])))
+            sections.append(Section(str(token.attrs["id"]), heading, int(token.tag[1:])))
         elif token.type == "table_open":
-            token.meta["under"] = found[-1].title
+            token.meta["under"] = sections[-1].title
         elif inner.type == "inline" and token.type != "heading_open":
             words.append(_words(inner))
-    return (*found[:-1], replace(found[-1], words=" ".join(words)))
+    return (*sections[:-1], replace(sections[-1], words=" ".join(words)))
 
 
 def _with_names_of_columns(tokens: Sequence[Token]) -> None:
@@ -265,26 +265,26 @@ def _words(inline: Token) -> str:
     )
 
 
-def _led(children: Sequence[Token], known: Container[str]) -> Iterator[Token]:
+def _led(children: Sequence[Token], container: Container[str]) -> Iterator[Token]:
     """The same words with links to rendered pages; of a link that leads out of the guide only
     its words.
     """
     leads = True  # links do not nest
     for token in children:
         if token.type == "link_open":
-            address = _rendered(str(token.attrs["href"]), known)
+            address = _rendered(str(token.attrs["href"]), container)
             leads = bool(address)
             token.attrSet("href", address)
         if leads or token.type not in ("link_open", "link_close"):
             yield token
 
 
-def _rendered(address: str, known: Container[str]) -> str:
+def _rendered(address: str, container: Container[str]) -> str:
     """Where a link of a page leads in the site; empty if that is nowhere."""
     if address.startswith("#"):
         return address
     if notebook := NOTEBOOK.fullmatch(address):
         name = f"{PREFIX}{notebook[1]}"
-        return f"{name}.html" if name in known else ""
+        return f"{name}.html" if name in container else ""
     match = ADDRESS.fullmatch(address)
-    return f"{match[1]}.html{match[2] or ''}" if match and match[1] in known else ""
+    return f"{match[1]}.html{match[2] or ''}" if match and match[1] in container else ""

@@ -37,12 +37,16 @@ class Model:
     @property
     def sets(self) -> str:
         """How many parameter vectors have one behaviour."""
-        found = self.row.identifiability
-        if found.level is Level.NOT:
+        identifiability = self.row.identifiability
+        if identifiability.level is Level.NOT:
             return "infinitely many"
-        if found.most is None:
+        if identifiability.most is None:
             return "not known"
-        return str(found.most) if found.least == found.most else f"{found.least} to {found.most}"
+        return (
+            str(identifiability.most)
+            if identifiability.least == identifiability.most
+            else f"{identifiability.least} to {identifiability.most}"
+        )
 
     @property
     def ports(self) -> tuple[str, str]:
@@ -139,7 +143,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         if seen[other] is not Relation.DISTINGUISHABLE
     ]
     shown = [number, *(t.model.row.number for t in twins)]
-    told = advice(found_for(catalog), number)
+    own_advice = advice(found_for(catalog), number)
     return render(
         "model.html",
         catalog=catalog,
@@ -154,7 +158,8 @@ def model_page(catalog: Catalog, number: int) -> str:
         complex_same=_over_complex(catalog, number, Relation.INDISTINGUISHABLE),
         complex_open=_over_complex(catalog, number, Relation.UNDECIDED),
         held=held(
-            (model_of(catalog, n).drawing for n in shown), additions(drawn([told] if told else []))
+            (model_of(catalog, n).drawing for n in shown),
+            additions(drawn([own_advice] if own_advice else [])),
         ),
         transfer=written(model.row.chain),
         free=catalog.record(number)["free"],
@@ -163,7 +168,7 @@ def model_page(catalog: Catalog, number: int) -> str:
             {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}
         ),
         limits=limits(number, verdicts),
-        advice=told,
+        advice=own_advice,
         next_name=page_of(catalog),
         motion=motion_of(catalog),
         last=len(catalog.family),
@@ -179,10 +184,10 @@ def _over_complex(catalog: Catalog, number: int, relation: Relation) -> list[int
 
 def told_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:
     """What tells the model from how many others, the most frequent first."""
-    found = Counter(
+    counter = Counter(
         v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE
     )
-    return tuple((rule_in_words(rule), count) for rule, count in found.most_common())
+    return tuple((rule_in_words(rule), count) for rule, count in counter.most_common())
 
 
 def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
@@ -209,14 +214,14 @@ def standing(number: int, other: int, verdict: Verdict) -> Relation:
     """The relation as seen from one model; of a distinguishable pair, some positive models of
     one side may have equivalents.
     """
-    found = ways(number, other, verdict)[0]
+    finding = ways(number, other, verdict)[0]
     if (
         verdict.relation is not Relation.DISTINGUISHABLE
-        or found is None
-        or found.share is Share.NEVER
+        or finding is None
+        or finding.share is Share.NEVER
     ):
         return verdict.relation
-    return Relation.UNDECIDED if found.share is Share.UNKNOWN else Relation.SOMETIMES
+    return Relation.UNDECIDED if finding.share is Share.UNKNOWN else Relation.SOMETIMES
 
 
 def ways(
@@ -250,7 +255,9 @@ def _positive(
     """Which positive parameters of this model have positive ones of the other, and the reverse
     where that is not the same.
     """
-    here, there = (Share.UNKNOWN if found is None else found.share for found in ways)
+    own_share, other_share = (
+        Share.UNKNOWN if finding is None else finding.share for finding in ways
+    )
     said = {
         Share.ALWAYS: (
             f"for all positive parameters here, A{other} has positive ones that do the same"
@@ -262,10 +269,12 @@ def _positive(
         Share.UNKNOWN: f"whether A{other} has positive parameters that do the same is not known",
     }
     if one_sided:
-        return f"{said[here]}; generic ones of A{other} have none here"
+        return f"{said[own_share]}; generic ones of A{other} have none here"
     back = {Share.ALWAYS: "for all", Share.SOMETIMES: "for some only", Share.UNKNOWN: "not known"}
-    return said[here] + (
-        f"; the reverse {back[there]}" if there is not here and there in back else ""
+    return said[own_share] + (
+        f"; the reverse {back[other_share]}"
+        if other_share is not own_share and other_share in back
+        else ""
     )
 
 

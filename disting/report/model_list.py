@@ -79,9 +79,11 @@ def write_family(
     (['list-two-cells.html', 'list-two-cells.csv'], 7)
     """
     engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
-    given = of_type(models, Iterable, "the models are a list of models, or what yields them")
+    source_models = of_type(
+        models, Iterable, "the models are a list of models, or what yields them"
+    )
     called = of_type(title, str, "the title is a text")
-    made = ModelList(tuple(map(model_of, given)), called)
+    made = ModelList(tuple(map(model_of, source_models)), called)
     if len(made) < 2:
         raise InputError("there is nothing to compare: a family has two models at least")
     refuse_ports(made.models)
@@ -103,15 +105,15 @@ def page_name(path: Path) -> str:
 
 def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) -> str:
     """HTML of the page; `site`, `guide`: whether these pages stand beside it."""
-    found, count = shown.found, len(shown.cards)
+    listing, count = shown.found, len(shown.cards)
     n_pairs = count * (count - 1) // 2
     data = payload(
-        found,
+        listing,
         shown.domains,
         VIEWS,
-        what=measured(found.family),
-        aside=found.said_of,
-        names=[model.name for model in found.family],
+        what=measured(listing.family),
+        aside=listing.said_of,
+        names=[model.name for model in listing.family],
         numbered=shown.numbered,
         folder=shown.folder,
         next={},

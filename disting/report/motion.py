@@ -104,7 +104,7 @@ def _able(catalog: Catalog) -> list[tuple[int, int, Share]]:
     """(given, other, share): how many positive models of `given` have a positive equivalent in
     `other`, of the pairs that are neither always nor never told apart.
     """
-    found = [(one.given, one.other, one.share) for one in one_sided(catalog)]
+    found = [(case.given, case.other, case.share) for case in one_sided(catalog)]
     for low, high in catalog.depending():
         for given, other in ((low, high), (high, low)):
             way = ways(given, other, catalog.verdict(low, high, View.POSITIVE))[0]

@@ -69,8 +69,8 @@ def machine_of(model: AnyModel) -> Network | None:
 
 def motion_page_of(shown: Listing, *, site: bool = False) -> str:
     """HTML of the page; `site`: whether start page and guide stand beside it."""
-    found, groups = shown.found, shown.found.classes(View.POSITIVE)
-    machines = [m for m in map(machine_of, found.family) if m is not None]
+    listing, groups = shown.found, shown.found.classes(View.POSITIVE)
+    machines = [m for m in map(machine_of, listing.family) if m is not None]
     payload = {
         "folder": shown.folder,
         "masses": len(machines[0].nodes),
@@ -81,11 +81,11 @@ def motion_page_of(shown: Listing, *, site: bool = False) -> str:
         "values": [start_values_of(m) for m in machines],
         "first": groups[0][:2] if groups else (1, 2),
         "groups": groups,
-        "aside": list(with_exceptions(found, View.POSITIVE)),
-        "able": _able(found),
+        "aside": list(with_exceptions(listing, View.POSITIVE)),
+        "able": _able(listing),
         "open": [
             (low, high)
-            for low, high, v in found.pairs(View.POSITIVE)
+            for low, high, v in listing.pairs(View.POSITIVE)
             if v.relation is Relation.UNDECIDED
         ],
         "sided": False,
@@ -101,11 +101,11 @@ def motion_page_of(shown: Listing, *, site: bool = False) -> str:
     )
 
 
-def _able(found: JudgedList) -> list[tuple[int, int, Share]]:
+def _able(listing: JudgedList) -> list[tuple[int, int, Share]]:
     """(given, other, share) where it is known."""
-    known = [(one.given, one.other, one.share) for one in one_sided(found)]
-    for low, high in found.depending(View.POSITIVE):
-        v = found.verdict(low, high, View.POSITIVE)
+    known = [(case.given, case.other, case.share) for case in one_sided(listing)]
+    for low, high in listing.depending(View.POSITIVE):
+        v = listing.verdict(low, high, View.POSITIVE)
         for given, other, side in ((low, high, v.left_positive), (high, low, v.right_positive)):
             known.append((given, other, Share.UNKNOWN if side is None else side.share))
     return known
@@ -134,8 +134,8 @@ def _joints(machine: Network) -> dict[frozenset[int], Joint]:
     found = dict[frozenset[int], Joint]()
     for e in machine.elements:
         if e.kind.ends > 1:
-            (i, j), known = e.nodes if e.ratio else sorted(e.nodes), e.known_ratio
-            gear: Joint = (i, j, e.ratio if known is None else float(known))
+            (i, j), number = e.nodes if e.ratio else sorted(e.nodes), e.known_ratio
+            gear: Joint = (i, j, e.ratio if number is None else float(number))
             found.setdefault(_ends(e), gear if e.ratio else (i, j))
     return found
 

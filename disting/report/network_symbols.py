@@ -174,9 +174,9 @@ class Sheet:
 
     def add(self, name: str, shapes: Iterable[Shape]) -> None:
         """Draw something."""
-        found = tuple(shapes)
-        self.layers.append(Layer(name, found))
-        self.clouds += [_cloud(shape) for shape in found]
+        rects = tuple(shapes)
+        self.layers.append(Layer(name, rects))
+        self.clouds += [_cloud(shape) for shape in rects]
 
     def crowd(self, track: Track, half: float) -> int:
         """How many points lie within a distance of a track."""

@@ -49,8 +49,8 @@ def found_for(catalog: Catalog) -> NextCatalog | None:
     """What is shipped for a catalogue; None where its groups are not those of the shipped one."""
     if catalog.n_masses not in SHIPPED_SIZES or catalog.n_masses not in CATALOGUES:
         return None
-    found = next_catalog(catalog.n_masses, damped=catalog.damped)
-    return found if found.groups == catalog.classes(View.EXACT) else None
+    the_catalog = next_catalog(catalog.n_masses, damped=catalog.damped)
+    return the_catalog if the_catalog.groups == catalog.classes(View.EXACT) else None
 
 
 def page_of(catalog: Catalog) -> str:
@@ -63,98 +63,98 @@ def page_of(catalog: Catalog) -> str:
     return f"{name_of(catalog.n_masses, catalog.damped)}.html"
 
 
-def advice(found: NextCatalog | None, number: int) -> Advice | None:
+def advice(catalog: NextCatalog | None, number: int) -> Advice | None:
     """For a model that is in a group."""
-    group = found.group(number) if found else ()
-    if found is None or len(group) < 2:
+    group = catalog.group(number) if catalog else ()
+    if catalog is None or len(group) < 2:
         return None
-    return advice_of(named(found, group), group.index(number), group)
+    return advice_of(named(catalog, group), group.index(number), group)
 
 
-def for_pairs(found: NextCatalog | None) -> dict[str, str]:
+def for_pairs(catalog: NextCatalog | None) -> dict[str, str]:
     """A sentence for each pair of a group, by the pair's address, such as 2-5."""
-    return dict(_sentences(found)) if found else {}
+    return dict(_sentences(catalog)) if catalog else {}
 
 
-def sketches_for_pairs(found: NextCatalog | None) -> dict[str, list[Sketch]]:
+def sketches_for_pairs(catalog: NextCatalog | None) -> dict[str, list[Sketch]]:
     """The drawings beside these sentences: for either model the cheapest sets that are surely
     enough, else the one that leaves least.
     """
-    told: dict[str, list[Sketch]] = {}
-    for members in found.groups if found else ():
+    sketches: dict[str, list[Sketch]] = {}
+    for members in catalog.groups if catalog else ():
         for low, high in combinations(members, 2):
-            assert found is not None
-            pair = named(found, (low, high))
-            told[f"{low}-{high}"] = [
+            assert catalog is not None
+            pair = named(catalog, (low, high))
+            sketches[f"{low}-{high}"] = [
                 sketch(number, pair.structures[k], option.items)
                 for k, number in enumerate((low, high))
                 for option in pair.least(k) or filter(None, [pair.best(k)])
             ]
-    return told
+    return sketches
 
 
-def menu_of(found: NextCatalog | None) -> Iterator[tuple[Chain, Item]]:
+def menu_of(catalog: NextCatalog | None) -> Iterator[tuple[Chain, Item]]:
     """Yield what is worth doing on any model of a group."""
-    for members in found.groups if found else ():
-        assert found is not None
-        whole = named(found, members)
+    for members in catalog.groups if catalog else ():
+        assert catalog is not None
+        whole = named(catalog, members)
         for k, chain in enumerate(whole.structures):
             yield from ((chain, item) for item in whole.items(k))
 
 
-def named(found: NextCatalog, members: tuple[int, ...]) -> Further[Chain]:
+def named(catalog: NextCatalog, members: tuple[int, ...]) -> Further[Chain]:
     """What to measure next for structures of one group, called as pages call them."""
-    whole = found.further(members)
+    whole = catalog.further(members)
     assert whole is not None  # members of one group
     return replace(whole, names=tuple(f"A{m}" for m in members))
 
 
-def _sentences(found: NextCatalog) -> Iterator[tuple[str, str]]:
-    for members in found.groups:
+def _sentences(catalog: NextCatalog) -> Iterator[tuple[str, str]]:
+    for members in catalog.groups:
         for low, high in combinations(members, 2):
-            pair = named(found, (low, high))
+            pair = named(catalog, (low, high))
             told = anywhere(pair)
             each = [f"If it is {name}, {conclusion(pair, k)}." for k, name in enumerate(pair.names)]
             yield f"{low}-{high}", f"{told[0].upper()}{told[1:]}." if told else " ".join(each)
 
 
-def advice_of(found: Further[Chain], structure: int, members: tuple[int, ...]) -> Advice:
+def advice_of(advice: Further[Chain], structure: int, members: tuple[int, ...]) -> Advice:
     """For a structure of a group, counted from 0; `members`: the numbers of all."""
-    masses, items = found.places(structure), tuple(found.items(structure))
+    masses, items = advice.places(structure), tuple(advice.items(structure))
     rows = tuple(
         (
             kind.title,
-            f"{found.costs.cost(kind):g}",
-            tuple(_cell(found, structure, members, Item(kind, at), items) for at in masses),
+            f"{advice.costs.cost(kind):g}",
+            tuple(_cell(advice, structure, members, Item(kind, at), items) for at in masses),
         )
-        for kind in found.kinds
+        for kind in advice.kinds
     )
     others = tuple(m for m in members if m != members[structure])
     return Advice(
         members[structure],
-        found.structures[structure],
+        advice.structures[structure],
         items,
         others,
         rows,
-        anywhere(found),
-        conclusion(found, structure),
+        anywhere(advice),
+        conclusion(advice, structure),
     )
 
 
 def drawn(advice: Iterable[Advice]) -> Iterator[tuple[Chain, Item]]:
     """Yield what a page with this advice draws."""
-    return ((one.chain, item) for one in advice for item in one.items)
+    return ((this_advice.chain, item) for this_advice in advice for item in this_advice.items)
 
 
 def _cell(
-    found: Further[Chain],
+    advice: Further[Chain],
     structure: int,
     members: tuple[int, ...],
     item: Item,
     items: tuple[Item, ...],
 ) -> Cell:
     worth = item in items
-    sure = worth and not left_over(found, structure, item)
-    text = "surely" if sure else in_words(found, structure, item)
-    chain = found.structures[structure]
+    sure = worth and not left_over(advice, structure, item)
+    text = "surely" if sure else in_words(advice, structure, item)
+    chain = advice.structures[structure]
     return Cell(sure, text, sketch(members[structure], chain, (item,)) if worth else None)

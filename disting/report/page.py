@@ -66,21 +66,21 @@ class Group:
     advice: tuple[Advice, ...]
 
 
-def next_page(catalog: Catalog, found: NextCatalog) -> str:
+def next_page(catalog: Catalog, the_catalog: NextCatalog) -> str:
     """HTML of the page."""
     groups = []
-    for members in found.groups:
-        whole = named(found, members)
+    for members in the_catalog.groups:
+        whole = named(the_catalog, members)
         drawings = tuple(model_of(catalog, m).drawing for m in members)
-        told = tuple(advice_of(whole, k, members) for k in range(len(members)))
-        groups.append(Group(drawings, anywhere(whole), told))
+        advices = tuple(advice_of(whole, k, members) for k in range(len(members)))
+        groups.append(Group(drawings, anywhere(whole), advices))
     return render(
         "next.html",
         catalog=catalog,
         family=short_title(catalog),
         folder=folder_of(catalog),
         groups=groups,
-        held=held((d for group in groups for d in group.drawings), additions(menu_of(found))),
+        held=held((d for group in groups for d in group.drawings), additions(menu_of(the_catalog))),
         plural=plural,
     )
 

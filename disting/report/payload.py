@@ -173,19 +173,19 @@ def _shares(verdict: Verdict) -> Iterator[str]:
     """
     if verdict.decided_by == ADMISSIBLE.name:
         return
-    for found, given, other in (
+    for finding, given, other in (
         (verdict.left_positive, "{L}", "{R}"),
         (verdict.right_positive, "{R}", "{L}"),
     ):
-        if found is not None:
+        if finding is not None:
             seen = (
-                f" ({found.empirical.sentence})"
-                if found.share is Share.SOMETIMES and found.empirical
+                f" ({finding.empirical.sentence})"
+                if finding.share is Share.SOMETIMES and finding.empirical
                 else ""
             )
-            every = found.evidence and found.evidence.without_exception(Domain.POSITIVE)
+            every = finding.evidence and finding.evidence.without_exception(Domain.POSITIVE)
             generic = "" if every else " generic"
-            yield SHARES[found.share].format(given, other, generic=generic) + seen + "."
+            yield SHARES[finding.share].format(given, other, generic=generic) + seen + "."
 
 
 def _undecided(verdict: Verdict) -> str:

@@ -87,35 +87,35 @@ class Size:
     drawings: tuple[Drawing, ...]
 
 
-def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
+def sizes_page(catalog: SizesCatalog, *, beside: Families | None = None) -> str:
     """HTML of models of several sizes; `beside`: the pages of pairs beside it (see `families`)."""
-    pages = families([], across=[found]) | dict(beside or {})
-    counts, domains = list(between(found)), [over(found, view) for view in VIEWS]
-    drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(found.family, 1)]
+    pages = families([], across=[catalog]) | dict(beside or {})
+    counts, domains = list(between(catalog)), [over(catalog, view) for view in VIEWS]
+    drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(catalog.family, 1)]
     return render(
         "sizes.html",
-        damped=found.damped,
-        sizes=list(_sizes(found, pages, drawings)),
-        models=len(found.family),
+        damped=catalog.damped,
+        sizes=list(_sizes(catalog, pages, drawings)),
+        models=len(catalog.family),
         views=[(view, VIEW_TITLES[view]) for view in VIEWS],
         between=counts,
         inside=sum(b.inside for b in counts),
         pairs=sum(b.inside + b.outside + b.unknown for b in counts),
         unknown=sum(b.unknown for b in counts),
         limits=True,  # the panel has room for them
-        outside=list(_by_reason(found, NO_LIMIT)),
-        open=list(_by_reason(found, NOT_KNOWN)),
+        outside=list(_by_reason(catalog, NO_LIMIT)),
+        open=list(_by_reason(catalog, NOT_KNOWN)),
         held=held(drawings),
         payload=payload(
-            found,
+            catalog,
             domains,
             VIEWS,
-            sizes=[[c.n_masses, len(c.family)] for c in found.catalogs],
-            damped=found.damped,
-            premise=str(found.premise),
+            sizes=[[c.n_masses, len(c.family)] for c in catalog.catalogs],
+            damped=catalog.damped,
+            premise=str(catalog.premise),
             version=__version__,
             families=pages,
-            limits=limits(found),
+            limits=limits(catalog),
             next={},
             sketches={},
         ),
@@ -123,14 +123,14 @@ def sizes_page(found: SizesCatalog, *, beside: Families | None = None) -> str:
     )
 
 
-def limits(found: SizesCatalog) -> dict[str, object]:
+def limits(catalog: SizesCatalog) -> dict[str, object]:
     """For the page's script: of each pair, in the order of the payload, its entry; an entry is a
     kind, a sentence and a reason.
     """
     entries: dict[tuple[int, str, str], int] = {}
     places = [
-        entries.setdefault(_entry(found.verdict(low, high, View.EXACT)), len(entries))
-        for high in range(2, len(found.family) + 1)
+        entries.setdefault(_entry(catalog.verdict(low, high, View.EXACT)), len(entries))
+        for high in range(2, len(catalog.family) + 1)
         for low in range(1, high)
     ]
     return {
@@ -151,24 +151,28 @@ def limit(verdict: Verdict) -> int:
 def _entry(verdict: Verdict) -> tuple[int, str, str]:
     said = SENTENCES.get(limit(verdict), "")
     if _masses(verdict.left) == _masses(verdict.right):
-        told = verdict.inclusions
-        said = "" if told is None else f"Over complex parameters: {told.sentence('{L}', '{R}')}"
+        inclusions = verdict.inclusions
+        said = (
+            ""
+            if inclusions is None
+            else f"Over complex parameters: {inclusions.sentence('{L}', '{R}')}"
+        )
     return limit(verdict), said, _reason(verdict)
 
 
-def between(found: SizesCatalog) -> Iterator[Between]:
+def between(catalog: SizesCatalog) -> Iterator[Between]:
     """Counts for every two sizes."""
     number: defaultdict[tuple[int, int], Counter[int]] = defaultdict(Counter)
-    for v in _across(found):
+    for v in _across(catalog):
         number[_masses(v.left), _masses(v.right)][limit(v)] += 1
     for (small, large), count in sorted(number.items()):
         yield Between(small, large, count[LEFT_INSIDE], count[NO_LIMIT], count[NOT_KNOWN])
 
 
-def _by_reason(found: SizesCatalog, wanted: int) -> Iterator[Outside]:
+def _by_reason(catalog: SizesCatalog, wanted: int) -> Iterator[Outside]:
     """The pairs of two sizes of one kind, those with one reason together."""
     pairs: defaultdict[str, list[tuple[str, str]]] = defaultdict(list)
-    for v in _across(found):
+    for v in _across(catalog):
         if limit(v) == wanted:
             why = _reason(v).format(L="the smaller one", R="the larger one")
             pairs[why[:1].upper() + why[1:]].append((v.left, v.right))
@@ -176,13 +180,13 @@ def _by_reason(found: SizesCatalog, wanted: int) -> Iterator[Outside]:
         yield Outside(why, tuple(of))
 
 
-def _across(found: SizesCatalog) -> Iterator[Verdict]:
+def _across(catalog: SizesCatalog) -> Iterator[Verdict]:
     """Pairs of different size, the smaller model first."""
-    numbers = range(1, len(found.family) + 1)
+    numbers = range(1, len(catalog.family) + 1)
     return (
-        found.verdict(i, j, View.EXACT)
+        catalog.verdict(i, j, View.EXACT)
         for i, j in combinations(numbers, 2)
-        if found.size(i) != found.size(j)
+        if catalog.size(i) != catalog.size(j)
     )
 
 
@@ -205,24 +209,28 @@ def _reason(verdict: Verdict) -> str:
             if of_two_sizes
             else ""
         )
-    told = verdict.inclusions.closure
-    return told.evidence.sentence("{L}", "{R}") + _bound(told) if told.evidence else _open(told)
+    finding = verdict.inclusions.closure
+    return (
+        finding.evidence.sentence("{L}", "{R}") + _bound(finding)
+        if finding.evidence
+        else _open(finding)
+    )
 
 
-def _bound(told: InclusionFinding) -> str:
-    if told.certainty is not Certainty.BOUNDED:
+def _bound(finding: InclusionFinding) -> str:
+    if finding.certainty is not Certainty.BOUNDED:
         return ""
-    return f" ({raised(told.certainty.in_words(told.safety))})"
+    return f" ({raised(finding.certainty.in_words(finding.safety))})"
 
 
-def _open(told: InclusionFinding) -> str:
+def _open(finding: InclusionFinding) -> str:
     """The reason as a sentence; it may have braces of its own."""
-    reason = told.reason.replace("{", "(").replace("}", ")")
+    reason = finding.reason.replace("{", "(").replace("}", ")")
     return f"{reason[:1].upper()}{reason[1:]}." if reason else ""
 
 
-def _sizes(found: SizesCatalog, pages: Families, drawings: Sequence[Drawing]) -> Iterator[Size]:
+def _sizes(catalog: SizesCatalog, pages: Families, drawings: Sequence[Drawing]) -> Iterator[Size]:
     rest = iter(drawings)
-    for c in found.catalogs:
+    for c in catalog.catalogs:
         folder = str(pages.get(c.name, {}).get("folder", ""))
         yield Size(c.n_masses, folder, tuple(next(rest) for _ in c.family))

@@ -97,11 +97,11 @@ def headline(catalog: Catalog) -> str:
 def totals(decided: Decided, view: View = View.POSITIVE) -> dict[Relation, int]:
     """Number of pairs by relation; SOMETIMES only where it can occur."""
     numbers = range(1, len(decided.family) + 1)
-    found = [decided.relation(low, high, view) for high in numbers for low in range(1, high)]
+    relations = [decided.relation(low, high, view) for high in numbers for low in range(1, high)]
     shown = [
         r for r in Relation if r is not Relation.SOMETIMES or view.domain is not Domain.COMPLEX
     ]
-    return {relation: found.count(relation) for relation in shown}
+    return {relation: relations.count(relation) for relation in shown}
 
 
 def rule_in_words(decided_by: str) -> str:
@@ -138,4 +138,4 @@ def raised(text: str) -> str:
     'probability of error at most 2⁻¹³¹'
     """
     up = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-    return re.sub(r"\b2\^(-\d+)", lambda found: f"2{found[1].translate(up)}", text)
+    return re.sub(r"\b2\^(-\d+)", lambda match: f"2{match[1].translate(up)}", text)

@@ -58,10 +58,10 @@ File = tuple[str, bytes]
 
 def of_sizes(site: Site, damped: bool) -> Iterator[File]:
     """The page of the catalogues of several sizes, where they are given."""
-    for found in site.across:
-        if found.damped == damped:
-            yield f"{found.name}.html", sizes_page(found, beside=site.pages).encode()
-            found.forget()
+    for the_catalog in site.across:
+        if the_catalog.damped == damped:
+            yield f"{the_catalog.name}.html", sizes_page(the_catalog, beside=site.pages).encode()
+            the_catalog.forget()
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,8 +184,8 @@ def _pages(site: Site) -> Iterator[File]:
         c.forget()
     for family in site.dampers:
         yield _damper_file(family, site.pages)
-    for known in PAGES:
-        yield from known.files(site)
+    for site_page in PAGES:
+        yield from site_page.files(site)
 
 
 def _write(out: Path, file: File) -> str:
@@ -224,18 +224,18 @@ def _dampers_beside(dampers: Sequence[DamperFamily], out: Path) -> Iterator[Damp
 
 
 def _across_beside(
-    across: Sequence[SizesCatalog], known: Sequence[Catalog], out: Path
+    across: Sequence[SizesCatalog], catalogs: Sequence[Catalog], out: Path
 ) -> Iterator[SizesCatalog]:
     """The shipped catalogues of several sizes whose pages are in the folder already."""
     given = {s.damped for s in across}
     for damped in (False, True):
         if damped not in given and (out / f"{sizes_name(damped)}.html").is_file():
-            yield sizes_catalog(damped=damped, known=known)
+            yield sizes_catalog(damped=damped, known=catalogs)
 
 
-def _damper_file(found: DamperFamily, pages: Families) -> File:
-    name = damper_name(found.family.n_masses, found.family.damped)
-    return f"{name}.html", damper_page(found, beside=pages).encode()
+def _damper_file(family: DamperFamily, pages: Families) -> File:
+    name = damper_name(family.family.n_masses, family.family.damped)
+    return f"{name}.html", damper_page(family, beside=pages).encode()
 
 
 def _figures(c: Catalog) -> Iterator[File]:
@@ -251,9 +251,9 @@ def _files(c: Catalog, pages: Families) -> Iterator[File]:
     yield from _figures(c)
     yield f"{c.name}.csv", c.to_csv().encode()
     yield f"{c.name}.json", c.to_json().encode()
-    found = found_for(c)
-    if found is not None:
-        yield page_of(c), next_page(c, found).encode()
+    the_catalog = found_for(c)
+    if the_catalog is not None:
+        yield page_of(c), next_page(c, the_catalog).encode()
     if motion_of(c):
         yield motion_of(c), motion_page(c).encode()
     for row in c.rows:

@@ -63,11 +63,11 @@ def undetermined(candidate: Candidate, task: Task) -> str:
     )
 
 
-def _is_designed(found: Result) -> bool:
-    return any(word in DESIGNED for word in found.name.split()) and not found.name.startswith(
+def _is_designed(result: Result) -> bool:
+    return any(word in DESIGNED for word in result.name.split()) and not result.name.startswith(
         "damping"
     )
 
 
-def _share(found: Result) -> float:
-    return found.standard_error / abs(found.value) if found.value else float("inf")
+def _share(result: Result) -> float:
+    return result.standard_error / abs(result.value) if result.value else float("inf")

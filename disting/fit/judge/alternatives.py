@@ -85,8 +85,8 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
             any(is_within(r, limits) for r in renamings(*pair))
             for pair in ((chain, other), (other, chain))
         )
-    here, there = (engine.subject(str(c), c) for c in (chain, other))
-    return here.has_same_positive(there)
+    own_side, other_side = (engine.subject(str(c), c) for c in (chain, other))
+    return own_side.has_same_positive(other_side)
 
 
 def alternatives(
@@ -101,10 +101,10 @@ def alternatives(
         for c in family
         if c != winner and c.n_masses == winner.n_masses and not _surely_apart(winner, c)
     )
-    found = (
+    the_alternatives = (
         _alternative(subject, engine.subject(str(chain), chain), engine, limits) for chain in others
     )
-    return tuple(a for a in found if a is not None)
+    return tuple(a for a in the_alternatives if a is not None)
 
 
 def _alternative(
@@ -144,13 +144,13 @@ def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], R
     """Relation over complex parameters by two places: looked up where all chains are shipped,
     else by the conditions.
     """
-    known = _shipped()
+    matrix = _shipped()
     if (
-        known is not None
+        matrix is not None
         and len({c.sensor for c in chains}) == 1
-        and all(c in known for c in chains)
+        and all(c in matrix for c in chains)
     ):
-        return lambda i, j: known.relation(chains[i], chains[j])
+        return lambda i, j: matrix.relation(chains[i], chains[j])
     return engine.decisions(
         [engine.subject(str(c), c) for c in chains], Query(View.COMBINED)
     ).relation
@@ -158,15 +158,15 @@ def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], R
 
 def _surely_apart(winner: Chain, other: Chain) -> bool:
     """Whether the shipped verdict says so."""
-    known = _shipped()
+    matrix = _shipped()
     if (
-        known is None
-        or winner not in known
-        or other not in known
+        matrix is None
+        or winner not in matrix
+        or other not in matrix
         or winner.sensor is not other.sensor
     ):
         return False
-    return known.relation(winner, other) is Relation.DISTINGUISHABLE
+    return matrix.relation(winner, other) is Relation.DISTINGUISHABLE
 
 
 def _shipped() -> stored.Matrix | None:

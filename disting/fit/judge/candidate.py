@@ -87,10 +87,10 @@ class Candidate:
         }
 
 
-def witnessed(known: Iterable[Estimate], task: Task, test_cost: AnyCost | None) -> Scatters:
+def witnessed(estimates: Iterable[Estimate], task: Task, test_cost: AnyCost | None) -> Scatters:
     """The scatter of training and judged data about the best estimates."""
     cost = test_cost or task.cost
-    best = sorted(known, key=lambda e: e.j)[:WITNESSES]
+    best = sorted(estimates, key=lambda e: e.j)[:WITNESSES]
     return yardsticks(
         task.cost,
         cost,
@@ -100,102 +100,103 @@ def witnessed(known: Iterable[Estimate], task: Task, test_cost: AnyCost | None) 
 
 
 def judged(
-    found: Iterable[Estimate],
+    estimates: Iterable[Estimate],
     task: Task,
     test_cost: AnyCost | None,
-    known: Scatters,
+    own_scatters: Scatters,
     settings: Settings,
 ) -> list[Candidate]:
     """What each estimate is worth by the scatter of the data, in the order of the cost on test."""
-    each = list(found)
-    first = {e.chain: _criteria(e, task, known[0]) for e in each}
+    each = list(estimates)
+    first = {e.chain: _criteria(e, task, own_scatters[0]) for e in each}
     criteria = with_structure({c: seen for c, (seen, *_) in first.items()}, task, settings)
     fitted = [
-        _candidate(e, criteria[e.chain], first[e.chain], task, test_cost, known) for e in each
+        _candidate(e, criteria[e.chain], first[e.chain], task, test_cost, own_scatters)
+        for e in each
     ]
     return sorted(fitted, key=lambda c: c.j_test)
 
 
-def explains(found: Estimate, task: Task, most: Real) -> bool:
+def explains(estimate: Estimate, task: Task, most: Real) -> bool:
     """Whether an estimate explains the data of its task, of one response, at lines that its fit has
     not seen (`explanation`), if these scatter as they do about it and by no more than the shares
     `most` of the measured amplitudes, shape (n_f,).
     """
-    own, size = _scatter_about(found, task), np.abs(task.cost.measured.G)
+    own, size = _scatter_about(estimate, task), np.abs(task.cost.measured.G)
     sigma = np.minimum(own.sigma, most * size)
-    known = replace(own, rho=sigma / (np.sqrt(2) * own.size))
-    missed = _expected(found, task, None, known, known)
-    response = _cross_validated(found, task, values_of(found, task))
-    residual = Whitened(task.cost, known).residual(response)
-    return explained(task.cost, residual, missed, known).explains
+    scatter = replace(own, rho=sigma / (np.sqrt(2) * own.size))
+    missed = _expected(estimate, task, None, scatter, scatter)
+    response = _cross_validated(estimate, task, values_of(estimate, task))
+    residual = Whitened(task.cost, scatter).residual(response)
+    return explained(task.cost, residual, missed, scatter).explains
 
 
-def share_about(found: Estimate, task: Task) -> Real:
+def share_about(estimate: Estimate, task: Task) -> Real:
     """Scatter of the data about one estimate, as shares of the measured amplitudes, shape
     (n_f,).
     """
-    return np.asarray(_scatter_about(found, task).sigma / np.abs(task.cost.measured.G))
+    return np.asarray(_scatter_about(estimate, task).sigma / np.abs(task.cost.measured.G))
 
 
-def _scatter_about(found: Estimate, task: Task) -> Scatter:
+def _scatter_about(estimate: Estimate, task: Task) -> Scatter:
     """Scatter of the data about one estimate."""
-    return together(scatters(task.cost, [_response(found, task)]))
+    return together(scatters(task.cost, [_response(estimate, task)]))
 
 
-def values_of(found: Estimate, task: Task) -> Real:
+def values_of(estimate: Estimate, task: Task) -> Real:
     """Parameters as an array, in the order of the task."""
-    return np.array([found.parameters[n] for n in task.names(found.chain)])
+    return np.array([estimate.parameters[n] for n in task.names(estimate.chain)])
 
 
-def _response(found: Estimate, task: Task) -> Complex:
-    return task.plant(found.chain).response(values_of(found, task))
+def _response(estimate: Estimate, task: Task) -> Complex:
+    return task.plant(estimate.chain).response(values_of(estimate, task))
 
 
 Criteria = tuple[Practical, Seen, Real]
 """Criteria of an estimate, noise of its residuals, and these whitened."""
 
 
-def _criteria(found: Estimate, task: Task, known: Scatter) -> Criteria:
+def _criteria(estimate: Estimate, task: Task, scatter: Scatter) -> Criteria:
     """The criteria at the optimum, of the parameters that are free, and what the residuals
     there are like.
     """
-    chain, names = found.chain, task.names(found.chain)
-    p = values_of(found, task)
+    chain, names = estimate.chain, task.names(estimate.chain)
+    p = values_of(estimate, task)
     free = task.box(names).free
     residual, columns = task.cost.of(task.plant(chain), p)
-    sigma = task.cost.scatter(known)
-    there = noises(task.cost, residual, sigma, expected(columns[:, free], sigma))
+    sigma = task.cost.scatter(scatter)
+    noise = noises(task.cost, residual, sigma, expected(columns[:, free], sigma))
     return (
         practical(
-            columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], there
+            columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], noise
         ),
-        there,
-        Whitened(task.cost, known).residual(task.plant(chain).response(p)),
+        noise,
+        Whitened(task.cost, scatter).residual(task.plant(chain).response(p)),
     )
 
 
 def _candidate(
-    found: Estimate,
+    estimate: Estimate,
     criteria: Practical,
     first: Criteria,
     task: Task,
     test: AnyCost | None,
-    known: Scatters,
+    own_scatters: Scatters,
 ) -> Candidate:
     """Test cost of one estimate with its criteria."""
-    chain, names = found.chain, task.names(found.chain)
-    p = values_of(found, task)
+    chain, names = estimate.chain, task.names(estimate.chain)
+    p = values_of(estimate, task)
     box = task.box(names)
     cost = test or task.cost
-    response = _cross_validated(found, task, p) if test is None else _at(chain, task, test, p)
+    response = _cross_validated(estimate, task, p) if test is None else _at(chain, task, test, p)
     residual = cost.residual(response)
     near = (box.high - p <= AT_BOUND * p) | ((box.low > 0) & (p - box.low <= AT_BOUND * p))
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
-    missed = _expected(found, task, test, *known)
-    whitened = Whitened(cost, known[1]).residual(response)
+    missed = _expected(estimate, task, test, *own_scatters)
+    whitened = Whitened(cost, own_scatters[1]).residual(response)
     return Candidate(
         chain,
-        found,
+        estimate,
         criteria,
         float(residual @ residual),
         chi2(whitened, missed),
@@ -207,16 +208,16 @@ def _candidate(
 
 
 def _expected(
-    found: Estimate, task: Task, test: AnyCost | None, inside: Scatter, outside: Scatter
+    estimate: Estimate, task: Task, test: AnyCost | None, inside: Scatter, outside: Scatter
 ) -> Real:
     """What the whitened residuals on the judged data are expected to be, shape (n_y,): 1, and the
     errors of the parameters. Without test data these are errors of a fit without the line: what one
     line alone determines, as the height of a narrow resonance, the others do not foretell.
     """
-    p, free = values_of(found, task), task.box(task.names(found.chain)).free
-    plant, sigma, judging = task.plant(found.chain), task.cost.scatter(inside), test or task.cost
-    there = replace(task, cost=judging).plant(found.chain)
-    seen = Whitened(judging, outside).of(there, p)[1][:, free]
+    p, free = values_of(estimate, task), task.box(task.names(estimate.chain)).free
+    plant, sigma, judging = task.plant(estimate.chain), task.cost.scatter(inside), test or task.cost
+    other_plant = replace(task, cost=judging).plant(estimate.chain)
+    seen = Whitened(judging, outside).of(other_plant, p)[1][:, free]
     ones = np.ones(len(seen))
     if test is not None:
         return expected(task.cost.of(plant, p)[1][:, free], sigma, seen, ones)
@@ -241,16 +242,16 @@ def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:
     return replace(task, cost=cost).plant(chain).response(p)
 
 
-def _cross_validated(found: Estimate, task: Task, p: Real) -> Complex:
+def _cross_validated(estimate: Estimate, task: Task, p: Real) -> Complex:
     """The response at each line of the fit to the other folds, shape (n_f,)."""
-    if not task.box(task.names(found.chain)).free.any():
-        return _at(found.chain, task, task.cost, p)  # no fit sees any line
-    plant = task.plant(found.chain)
+    if not task.box(task.names(estimate.chain)).free.any():
+        return _at(estimate.chain, task, task.cost, p)  # no fit sees any line
+    plant = task.plant(estimate.chain)
     at = np.concatenate(_folds(task.cost))
     whole = np.empty(len(at), dtype=np.complex128)
     for fold in range(FOLDS):
         kept = _without(task, fold)
-        box = kept.box(task.names(found.chain))
-        there, _ = fine(kept.plant(found.chain), kept.cost, box, p, FOLD_GAIN)
+        box = kept.box(task.names(estimate.chain))
+        there, _ = fine(kept.plant(estimate.chain), kept.cost, box, p, FOLD_GAIN)
         whole[at == fold] = plant.response(there)[at == fold]
     return whole

@@ -72,28 +72,28 @@ def choice(
     fitted: Sequence[Candidate],
     task: Task,
     test: AnyCost | None,
-    known: Scatters,
+    scatters: Scatters,
     rule: Rule,
     settings: Settings,
 ) -> Choice:
     """Which candidates are left, and which one is selected; `fitted` in the order of J on test,
-    `known` = scatter of training data and of those on test.
+    `scatters` = scatter of training data and of those on test.
     """
-    judging, seen = test or task.cost, known[1]
+    judging, seen = test or task.cost, scatters[1]
     asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
     asked = [c for c in asked if not c.practical.unidentifiable] or asked
     explaining = [c for c in asked if c.chi2 <= allowed(seen)]
     if not explaining:
         best = asked[0] if asked else None
         said = _explained(best or fitted[0], judging, seen)
-        better = _better(best, fitted, task, known) if best and rule is Rule.PAPER else ()
+        better = _better(best, fitted, task, scatters) if best and rule is Rule.PAPER else ()
         return Choice(tuple(fitted), said, best, better=better)
-    out = _excluded(explaining, task, test, known, settings)
+    out = _excluded(explaining, task, test, scatters, settings)
     whole = tuple(replace(c, excluded=out.get(c.chain)) for c in fitted)
     chains = {c.chain for c in explaining} - out.keys()
     left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.j_test))
     selected = left[0]
-    better = _better(selected, fitted, task, known) if rule is Rule.PAPER else ()
+    better = _better(selected, fitted, task, scatters) if rule is Rule.PAPER else ()
     return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)
 
 
@@ -105,27 +105,27 @@ def _excluded(
     candidates: Sequence[Candidate],
     task: Task,
     test: AnyCost | None,
-    known: Scatters,
+    scatters: Scatters,
     settings: Settings,
 ) -> Mapping[Chain, Exclusion]:
     """Those that others exclude: on the data that no fit has seen, where there are such, since a
     machine that changes leaves traces that a rich candidate fits too; else on those of the fit.
     """
-    inside, outside = known
+    inside, outside = scatters
     if test is None:
         return excluded([trained_as(c, task, inside) for c in candidates], inside.freedom, settings)
-    there = replace(task, cost=test)
-    tested = [_fitted(c, c.residual, there, outside) for c in candidates]
+    other_task = replace(task, cost=test)
+    tested = [_fitted(c, c.residual, other_task, outside) for c in candidates]
     return excluded(tested, outside.freedom, settings, seen=False)
 
 
-def trained_as(candidate: Candidate, task: Task, known: Scatter) -> Fitted:
+def trained_as(candidate: Candidate, task: Task, scatter: Scatter) -> Fitted:
     """What the test of exclusion asks of a candidate on the data of its fit."""
-    return _fitted(candidate, candidate.trained, task, known)
+    return _fitted(candidate, candidate.trained, task, scatter)
 
 
-def _fitted(candidate: Candidate, residual: Real, task: Task, known: Scatter) -> Fitted:
-    whitened = Whitened(task.cost, known)
+def _fitted(candidate: Candidate, residual: Real, task: Task, scatter: Scatter) -> Fitted:
+    whitened = Whitened(task.cost, scatter)
     p = values_of(candidate.estimate, task)
     columns = whitened.of(task.plant(candidate.chain), p)[1]
     free = task.box(task.names(candidate.chain)).free
@@ -134,17 +134,17 @@ def _fitted(candidate: Candidate, residual: Real, task: Task, known: Scatter) ->
 
 
 def _better(
-    selected: Candidate, fitted: Sequence[Candidate], task: Task, known: Scatters
+    selected: Candidate, fitted: Sequence[Candidate], task: Task, scatters: Scatters
 ) -> tuple[Candidate, ...]:
     """Candidates that the paper's criteria leave out, and that would exclude the selected one,
     those with few parameters first.
     """
-    inside = known[0]
+    inside = scatters[0]
     own = trained_as(selected, task, inside)
     lower = [c for c in fitted if not c.admissible and c.j_train < selected.j_train]
-    found = [
+    candidates = [
         c
         for c in lower
         if statistic(own, trained_as(c, task, inside)) > limit(c.n_parameters, inside.freedom)
     ]
-    return tuple(sorted(found, key=lambda c: (c.n_parameters, c.j_test)))
+    return tuple(sorted(candidates, key=lambda c: (c.n_parameters, c.j_test)))

@@ -94,14 +94,14 @@ def basis_of(columns: Real) -> Real:
     return np.asarray(left[:, sizes > VANISHING * sizes[0]])
 
 
-def statistic(one: Residuals, other: Residuals) -> float:
+def statistic(residuals: Residuals, other: Residuals) -> float:
     """T of one structure against another one; 0 where the other one is no step towards the data."""
 
     def beyond(vector: Real) -> Real:
         """Less what the parameters make up for."""
-        return np.asarray(vector - one.basis @ (one.basis.T @ vector))
+        return np.asarray(vector - residuals.basis @ (residuals.basis.T @ vector))
 
-    d, r = beyond(other.residual - one.residual), beyond(one.residual)
+    d, r = beyond(other.residual - residuals.residual), beyond(residuals.residual)
     towards = -float(r @ d)
     size = float(np.linalg.norm(other.noise.seen(d[:, None])) ** 2)
     return towards**2 / size if towards > 0 and size > 0 else 0.0
@@ -129,21 +129,25 @@ def excluded(
     """The structures that others exclude, each with the one that does so most clearly; `seen`:
     by the data that all were fitted to.
     """
-    found: dict[Chain, Exclusion] = {}
-    for one in fitted:
+    exclusions: dict[Chain, Exclusion] = {}
+    for candidate in fitted:
         for other in fitted:
-            if not other.cost < one.cost:
+            if not other.cost < candidate.cost:
                 continue
-            size = statistic(one, other)
+            size = statistic(candidate, other)
             if size <= limit(1, freedom):
                 continue
-            s = surplus(other.chain, one.chain, settings) if seen else 1
-            count = trials(one.chain, other.chain, len(one.residual) // 2) if seen else 1
+            s = surplus(other.chain, candidate.chain, settings) if seen else 1
+            count = (
+                trials(candidate.chain, other.chain, len(candidate.residual) // 2) if seen else 1
+            )
             most = limit(s, freedom, count)
-            known = found.get(one.chain)
-            if size > most and (known is None or size / most > known.statistic / known.limit):
-                found[one.chain] = Exclusion(other.chain, size, most)
-    return found
+            exclusion = exclusions.get(candidate.chain)
+            if size > most and (
+                exclusion is None or size / most > exclusion.statistic / exclusion.limit
+            ):
+                exclusions[candidate.chain] = Exclusion(other.chain, size, most)
+    return exclusions
 
 
 def surplus(model: Chain, rival: Chain, settings: Settings | None = None) -> int:

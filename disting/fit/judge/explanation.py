@@ -109,11 +109,11 @@ class Explanation:
         return (self.scatter.clear if self.clear is None else self.clear) < FEW_CLEAR
 
 
-def allowed(known: Scatter) -> float:
+def allowed(own_scatter: Scatter) -> float:
     """Largest chi2 per line of a model that explains data of this scatter."""
-    count = 2 * len(known.rho)
-    if isfinite(known.freedom):
-        return max(LARGEST, float(f_distribution.isf(LEVEL, count, known.freedom)))
+    count = 2 * len(own_scatter.rho)
+    if isfinite(own_scatter.freedom):
+        return max(LARGEST, float(f_distribution.isf(LEVEL, count, own_scatter.freedom)))
     return max(LARGEST, float(chi2_distribution.isf(LEVEL, count)) / count)
 
 
@@ -125,16 +125,19 @@ def chi2(residual: Real, missed: Real) -> float:
     return float(np.mean((residual[used] / missed[used]) ** 2)) if used.any() else 0.0
 
 
-def explanation(residual: Real, missed: Real, cost: Cost, known: Scatter) -> Explanation:
+def explanation(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) -> Explanation:
     """What whitened residuals, shape (n_y,), of data with this scatter say; `missed` = their
     expected sizes.
     """
     return Explanation(
-        chi2(residual, missed), known, correlation(residual), _misses(residual, missed, cost, known)
+        chi2(residual, missed),
+        own_scatter,
+        correlation(residual),
+        _misses(residual, missed, cost, own_scatter),
     )
 
 
-def _misses(residual: Real, missed: Real, cost: Cost, known: Scatter) -> tuple[Miss, ...]:
+def _misses(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) -> tuple[Miss, ...]:
     """Ranges of lines whose averaged excess is above `LARGEST`, those with the largest share of
     chi2 first.
     """
@@ -145,10 +148,10 @@ def _misses(residual: Real, missed: Real, cost: Cost, known: Scatter) -> tuple[M
     )
     beyond = np.flatnonzero(averaged > LARGEST)
     runs = np.split(beyond, np.flatnonzero(np.diff(beyond) > SMOOTHED) + 1) if beyond.size else []
-    factor, angle = _plain(residual, known)
+    factor, angle = _plain(residual, own_scatter)
     hertz, total = cost.measured.frequency, max(float(power.sum()), 1e-300)
     shares = [float(power[run[0] : run[-1] + 1].sum()) / total for run in runs]
-    found = [
+    misses = [
         Miss(
             low=float(hertz[run[0]]),
             high=float(hertz[run[-1]]),
@@ -158,12 +161,12 @@ def _misses(residual: Real, missed: Real, cost: Cost, known: Scatter) -> tuple[M
         )
         for run, share in zip(runs, shares, strict=True)
     ]
-    return tuple(sorted(found, key=lambda miss: -miss.share)[:RANGES])
+    return tuple(sorted(misses, key=lambda miss: -miss.share)[:RANGES])
 
 
-def _plain(residual: Real, known: Scatter) -> tuple[Real, Real]:
+def _plain(residual: Real, own_scatter: Scatter) -> tuple[Real, Real]:
     """|ln of the amplitudes' ratio| and |difference of the phases| [rad], shape (n_f,) each."""
-    along, across = residual.reshape(2, -1) * known.rho
+    along, across = residual.reshape(2, -1) * own_scatter.rho
     ratio = np.log(np.maximum(np.abs(1 + along + 1j * across), 1e-300))
     return np.abs(ratio), np.minimum(np.abs(np.arctan2(across, 1 + along)), pi)
 
@@ -212,7 +215,8 @@ def partners(train: AnyCost, judged: AnyCost) -> list[FrequencyResponse]:
     """The training data of each response that is judged."""
     rest = iter(zip(train.setups, train.parts, strict=True))
     return [
-        next(part.measured for there, part in rest if there == setup) for setup in judged.setups
+        next(part.measured for other_setup, part in rest if other_setup == setup)
+        for setup in judged.setups
     ]
 
 
@@ -222,8 +226,8 @@ def noises(
     """C of the residuals, shape (n_y,), as in `noise`."""
     rows = [cost.by_residual(a) for a in (residual, sigma)]
     missing = [None] * len(cost.parts) if missed is None else cost.by_residual(missed)
-    found = [noise(*own) for own in zip(*rows, missing, strict=True)]
-    return found[0] if len(found) == 1 else JointNoise(tuple(found))
+    the_noises = [noise(*own) for own in zip(*rows, missing, strict=True)]
+    return the_noises[0] if len(the_noises) == 1 else JointNoise(tuple(the_noises))
 
 
 def correlations(cost: AnyCost, residual: Real) -> float:
@@ -232,35 +236,38 @@ def correlations(cost: AnyCost, residual: Real) -> float:
 
 
 def explanations(
-    cost: AnyCost, residual: Real, missed: Real, known: Scatter
+    cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter
 ) -> tuple[Explanation, ...]:
     """What the whitened residuals of each response say."""
     ends = np.cumsum([len(part.measured) for part in cost.parts])
     rows = (cost.by_residual(a) for a in (residual, missed))
     each = zip(cost.parts, *rows, ends, strict=True)
     return tuple(
-        explanation(own, expected, part, known.at(slice(end - len(part.measured), end)))
+        explanation(own, expected, part, own_scatter.at(slice(end - len(part.measured), end)))
         for part, own, expected, end in each
     )
 
 
-def explained(cost: AnyCost, residual: Real, missed: Real, known: Scatter) -> Explanation:
+def explained(cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter) -> Explanation:
     """What the residuals of all responses say together."""
-    each = explanations(cost, residual, missed, known)
+    each = explanations(cost, residual, missed, own_scatter)
     if len(each) == 1:
         return each[0]
-    power = [one.chi2 * part.n_residuals for one, part in zip(each, cost.parts, strict=True)]
+    power = [
+        this_explanation.chi2 * part.n_residuals
+        for this_explanation, part in zip(each, cost.parts, strict=True)
+    ]
     whole = max(sum(power), 1e-300)
     misses = [
         replace(miss, share=miss.share * own / whole, response=setup.text)
-        for one, own, setup in zip(each, power, cost.setups, strict=True)
-        for miss in one.misses
+        for this_explanation, own, setup in zip(each, power, cost.setups, strict=True)
+        for miss in this_explanation.misses
     ]
     misses.sort(key=lambda miss: -miss.share)
     largest = correlations(cost, residual)
-    clearest = max(one.scatter.clear for one in each)
+    clearest = max(this_explanation.scatter.clear for this_explanation in each)
     return Explanation(
-        chi2(residual, missed), known, largest, tuple(misses[:RANGES]), clear=clearest
+        chi2(residual, missed), own_scatter, largest, tuple(misses[:RANGES]), clear=clearest
     )
 
 
@@ -273,11 +280,13 @@ def _each(cost: AnyCost, fitted: Sequence[Complex]) -> list[list[Complex]]:
 
 def together(each: Iterable[Scatter]) -> Scatter:
     """The scatter of all lines."""
-    found = list(each)
+    the_scatters = list(each)
     return Scatter(
-        np.concatenate([one.rho for one in found]),
-        np.concatenate([one.size for one in found]),
-        ", ".join(dict.fromkeys(one.source for one in found)),
-        sum(one.freedom for one in found),
-        "; ".join(dict.fromkeys(one.doubt for one in found if one.doubt)),
+        np.concatenate([this_scatter.rho for this_scatter in the_scatters]),
+        np.concatenate([this_scatter.size for this_scatter in the_scatters]),
+        ", ".join(dict.fromkeys(this_scatter.source for this_scatter in the_scatters)),
+        sum(this_scatter.freedom for this_scatter in the_scatters),
+        "; ".join(
+            dict.fromkeys(this_scatter.doubt for this_scatter in the_scatters if this_scatter.doubt)
+        ),
     )

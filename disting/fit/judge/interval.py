@@ -68,12 +68,12 @@ class _Likelihood:
         return sqrt(float(self.spread[at, at]))
 
 
-def intervals(candidate: Candidate, task: Task, known: Scatter) -> dict[str, Interval]:
+def intervals(candidate: Candidate, task: Task, scatter: Scatter) -> dict[str, Interval]:
     """The interval of each fitted parameter; 0 and infinity where it has no end."""
     values, errors = candidate.estimate.parameters, candidate.practical.relative_errors
-    wide = float(t_distribution.isf(OUTSIDE / 2, known.freedom))
+    wide = float(t_distribution.isf(OUTSIDE / 2, scatter.freedom))
     found = {n: _about(values[n], wide * e) for n, e in errors.items()}
-    about = _likelihood(candidate, task, known)
+    about = _likelihood(candidate, task, scatter)
     if any(e > STRAIGHT for e in errors.values()):
         response = task.plant(candidate.chain).response(values_of(candidate.estimate, task))
         own = float(about.whitened.total(response))
@@ -115,8 +115,8 @@ def _with_valleys(
     return whole
 
 
-def _likelihood(candidate: Candidate, task: Task, known: Scatter) -> _Likelihood:
-    names, whitened = task.names(candidate.chain), Whitened(task.cost, known)
+def _likelihood(candidate: Candidate, task: Task, scatter: Scatter) -> _Likelihood:
+    names, whitened = task.names(candidate.chain), Whitened(task.cost, scatter)
     plant, box = task.plant(candidate.chain), task.box(names)
     best, lowest = fine(plant, whitened, box, values_of(candidate.estimate, task))
     columns = whitened.of(plant, best)[1][:, box.free]
@@ -126,21 +126,21 @@ def _likelihood(candidate: Candidate, task: Task, known: Scatter) -> _Likelihood
         spread[np.ix_(box.free, box.free)] = covariance(columns, unit)
     size = max(1.0, lowest / max(whitened.cost.n_residuals - len(best), 1))
     usual = natural(candidate.chain, scale(task.cost.measured))
-    return _Likelihood(task, candidate, whitened, known, best, lowest, size, spread, usual)
+    return _Likelihood(task, candidate, whitened, scatter, best, lowest, size, spread, usual)
 
 
 def _profiled(about: _Likelihood, name: str, is_felt: bool) -> Interval:
     """The interval by the profile of the likelihood; `is_felt`: it is known not to be zero."""
-    task, candidate, known = about.task, about.candidate, about.known
+    task, candidate, scatter = about.task, about.candidate, about.known
     at = task.names(candidate.chain).index(name)
     usual = about.usual.get(name, float(about.best[at]))
     value, zero = float(about.best[at]), log(ZERO * usual)
-    felt = is_felt or _rise(about, at, inf)(zero) > limit(1, known.freedom, level=OUTSIDE)
+    felt = is_felt or _rise(about, at, inf)(zero) > limit(1, scatter.freedom, level=OUTSIDE)
     gone = not is_felt and value <= ZERO * usual  # the best value is as good as zero
     # what is as small and felt all the same, as others follow it, is followed from its own value
     middle = log(value) if value and (felt or not gone) else zero
     from_zero = gone or not felt
-    most = limit(1, known.freedom, level=2 * OUTSIDE if from_zero else OUTSIDE)
+    most = limit(1, scatter.freedom, level=2 * OUTSIDE if from_zero else OUTSIDE)
     wide = sqrt(most * about.size) * about.error(at)
     step = min(wide, STEP) if isfinite(wide) and wide > 0 else STEP
     high = _end(_rise(about, at, most), middle, step, most)

@@ -44,8 +44,8 @@ def under_all(
     same is known where a renaming of the parameters, within the limits, turns all responses of the
     one into those of the other.
     """
-    mine, there = (engine.measured_subject(str(c), _measured(c, cost)) for c in (chain, other))
-    verdict = engine.verdict(mine, there, Query(View.COMBINED))
+    mine, side = (engine.measured_subject(str(c), _measured(c, cost)) for c in (chain, other))
+    verdict = engine.verdict(mine, side, Query(View.COMBINED))
     if verdict.relation is Relation.DISTINGUISHABLE:
         return None
     if is_same_under_all(chain, other, cost, limits):
@@ -60,25 +60,27 @@ def is_same_under_all(chain: Chain, other: Chain, cost: AnyCost, limits: Limits)
     return chain == other or all(
         any(
             is_within(renaming, limits)
-            and is_renaming(_measured(one, cost), _measured(two, cost), renaming)
-            for renaming in renamings(one, two)
+            and is_renaming(_measured(this_chain, cost), _measured(two, cost), renaming)
+            for renaming in renamings(this_chain, two)
         )
-        for one, two in ((chain, other), (other, chain))
+        for this_chain, two in ((chain, other), (other, chain))
     )
 
 
 def alternatives_under_all(
     chain: Chain,
-    found: Iterable[Alternative],
+    alternatives: Iterable[Alternative],
     cost: AnyCost,
     engine: Engine,
     limits: Limits,
 ) -> tuple[Alternative, ...]:
     """What may behave the same as a chain in all responses, from what may in the first one."""
     if len(cost.setups) == 1:
-        return tuple(found)
-    each = (under_all(chain, one.chain, cost, engine, limits) for one in found)
-    return tuple(one for one in each if one is not None)
+        return tuple(alternatives)
+    each = (
+        under_all(chain, alternative.chain, cost, engine, limits) for alternative in alternatives
+    )
+    return tuple(alternative for alternative in each if alternative is not None)
 
 
 def representatives_under_all(
@@ -119,9 +121,9 @@ def _responses(
 ) -> list[Complex]:
     """Each response at its lines."""
     cost = JointCost(task.cost.parts, tuple(setups))
-    given = replace(task, cost=cost)
-    p = np.array([values[name] for name in given.names(chain)])
-    return task.cost.by_line(given.plant(chain).response(p))
+    source_task = replace(task, cost=cost)
+    p = np.array([values[name] for name in source_task.names(chain)])
+    return task.cost.by_line(source_task.plant(chain).response(p))
 
 
 def _same(one: Complex, other: Complex) -> bool:
@@ -155,17 +157,17 @@ def located(task: Task, candidates: Sequence[Chain], home: Chain, store: Store) 
         c: [cost.setups] if body(c) == body(home) else list(placements(home, c, cost.setups))
         for c in candidates
     }
-    found = dict[Structure, tuple[Setup, ...]]()
+    the_setups = dict[Structure, tuple[Setup, ...]]()
     least = dict[Chain, float]()
     few = cost.thinned(SEARCHED)
     for k in range(max(map(len, ways.values()))):
         tried = {c: each[k] for c, each in ways.items() if k < len(each)}
-        there = {c.structure: setups for c, setups in tried.items()}
-        fits = estimates(tried, replace(task, cost=replace(few, places=there)), store=store)
+        other_setups = {c.structure: setups for c, setups in tried.items()}
+        fits = estimates(tried, replace(task, cost=replace(few, places=other_setups)), store=store)
         for c, setups in tried.items():
             if fits[c].j < least.get(c, inf):
-                least[c], found[c.structure] = fits[c].j, setups
-    return replace(task, cost=replace(cost, places=found))
+                least[c], the_setups[c.structure] = fits[c].j, setups
+    return replace(task, cost=replace(cost, places=the_setups))
 
 
 def learning(
@@ -175,24 +177,26 @@ def learning(
     those that do not; raises InputError where no candidate has the places. `home`: as in `located`.
     """
     if home is not None:
-        lacking = [one.setup.missing(home.structure) for one in further]
+        lacking = [extra.setup.missing(home.structure) for extra in further]
         if any(lacking):
             said = listed(list(filter(None, lacking)))
             raise InputError(f"{reference(home)} cannot be measured like this: {said}")
-        setups = [Setup(), *(one.setup for one in further)]
-        there = [c for c in candidates if body(c) == body(home) or any(placements(home, c, setups))]
-        return there, list(further), []
+        setups = [Setup(), *(extra.setup for extra in further)]
+        other_chains = [
+            c for c in candidates if body(c) == body(home) or any(placements(home, c, setups))
+        ]
+        return other_chains, list(further), []
     kept, reasons = list(candidates), dict[str, None]()
-    for one in further:
-        missing = {c.n_masses: one.setup.missing(c.structure) for c in kept}
+    for extra in further:
+        missing = {c.n_masses: extra.setup.missing(c.structure) for c in kept}
         reasons |= dict.fromkeys(filter(None, missing.values()))
         kept = [c for c in kept if not missing[c.n_masses]]
     if not kept:
         raise InputError(f"no candidate can be measured like this: {listed(reasons)}")
-    silent = [all(one.setup.is_silent(c.structure) for c in kept) for one in further]
-    heard = [one for one, dead in zip(further, silent, strict=True) if not dead]
-    kept = [c for c in kept if not any(one.setup.is_silent(c.structure) for one in heard)]
+    silent = [all(extra.setup.is_silent(c.structure) for c in kept) for extra in further]
+    heard = [extra for extra, dead in zip(further, silent, strict=True) if not dead]
+    kept = [c for c in kept if not any(extra.setup.is_silent(c.structure) for extra in heard)]
     if not kept:
         raise InputError("in every candidate one of the responses is zero: check the places")
-    words = [one.setup.text for one, dead in zip(further, silent, strict=True) if dead]
+    words = [extra.setup.text for extra, dead in zip(further, silent, strict=True) if dead]
     return kept, heard, words

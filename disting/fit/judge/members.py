@@ -114,7 +114,7 @@ def members(
     left: Sequence[Candidate],
     task: Task,
     test: AnyCost | None,
-    known: Scatters,
+    own_scatters: Scatters,
     limits: Limits,
     executor: Executor | None,
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
@@ -135,7 +135,7 @@ def members(
             c,
             *found.get(c.chain, ((), ())),
             disagreements=disagreements(c, task, test) if test and c.chain in found else (),
-            intervals=intervals(c, task, known[0]) if c.chain in found else {},
+            intervals=intervals(c, task, own_scatters[0]) if c.chain in found else {},
             contains=inside[c.chain],
             differs=_differs(left[0], c, test or task.cost, task),
         )
@@ -158,7 +158,7 @@ def twins(
     """Structures with the same behaviour within the limits, and the names of those of which
     that is not known.
     """
-    found, unknown, form = list[Twin](), list[str](), as_listed(chain)
+    the_twins, unknown, form = list[Twin](), list[str](), as_listed(chain)
     text = {form.renaming[name]: repr(max(value, NOTHING)) for name, value in values.items()}
     limits = {form.renaming.get(name, name): both for name, both in limits.items()}
     for other in _catalogue(chain):
@@ -172,17 +172,17 @@ def twins(
                 (m.free_choices, {n: complex(v).real for n, v in m.values.items()})
                 for m in positive
             ]
-            found += [Twin(other, p, free) for free, p in real if _inside(p, limits)]
+            the_twins += [Twin(other, p, free) for free, p in real if _inside(p, limits)]
             if not (listing.complete or positive or other == form.chain):
                 unknown.append(listing.name)
-    found.sort(key=lambda t: (t.free_choices, len(t.chain.ground_dampers)))
-    return tuple(found), tuple(unknown)
+    the_twins.sort(key=lambda t: (t.free_choices, len(t.chain.ground_dampers)))
+    return tuple(the_twins), tuple(unknown)
 
 
 def _in_all(
     chain: Chain,
     values: Mapping[str, float],
-    found: Sequence[Twin],
+    the_twins: Sequence[Twin],
     unknown: Sequence[str],
     task: Task,
 ) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
@@ -190,13 +190,13 @@ def _in_all(
     family, of which one is known, that stays open.
     """
     if len(task.cost.setups) == 1:
-        return tuple(found), tuple(unknown)
+        return tuple(the_twins), tuple(unknown)
     kept = [
         t
-        for t in found
+        for t in the_twins
         if not t.free_choices and behaves_alike(chain, values, t.chain, t.parameters, task)
     ]
-    families = [t.name for t in found if t.free_choices]
+    families = [t.name for t in the_twins if t.free_choices]
     return tuple(kept), tuple(dict.fromkeys([*unknown, *families]))
 
 
@@ -223,29 +223,29 @@ def disagreements(candidate: Candidate, task: Task, test: AnyCost) -> tuple[Disa
     """Parameters that a fit of the same structure to the test data moves by more than `APART`
     standard errors of both fits.
     """
-    names, there = task.names(candidate.chain), replace(task, cost=test)
+    names, other_task = task.names(candidate.chain), replace(task, cost=test)
     start = np.array([candidate.estimate.parameters[n] for n in names])
-    box, plant = there.box(names), there.plant(candidate.chain)
+    box, plant = other_task.box(names), other_task.plant(candidate.chain)
     if not box.free.any():
         return ()
     p, _ = fine(plant, test, box, start)
     residual, columns = test.of(plant, p)
-    known = together(scatters(test, [plant.response(p)]))
+    scatter = together(scatters(test, [plant.response(p)]))
     free = [n for n, chosen in zip(names, box.free, strict=True) if chosen]
-    sigma, columns = test.scatter(known), columns[:, box.free]
+    sigma, columns = test.scatter(scatter), columns[:, box.free]
     other = practical(
         columns, free, noises(test, residual, sigma, expected(columns, sigma))
     ).relative_errors
     values = dict(zip(names, map(float, p), strict=True))
-    found = []
+    the_disagreements = []
     for name, error in candidate.standard_errors.items():
         both = float(np.hypot(error, other[name] * values[name]))
         distance = abs(values[name] - candidate.estimate.parameters[name]) / both if both else 0.0
         if distance > APART:
-            found.append(
+            the_disagreements.append(
                 Disagreement(name, candidate.estimate.parameters[name], values[name], distance)
             )
-    return tuple(found)
+    return tuple(the_disagreements)
 
 
 def _differs(
@@ -254,9 +254,9 @@ def _differs(
     """Frequencies at which two fitted candidates differ most, largest difference first."""
     if first is other:
         return ()
-    there = replace(task, cost=cost)
+    other_task = replace(task, cost=cost)
     both = [
-        there.plant(c.chain).response(np.array(list(c.estimate.parameters.values())))
+        other_task.plant(c.chain).response(np.array(list(c.estimate.parameters.values())))
         for c in (first, other)
     ]
     size = np.abs(np.log(both[1] / both[0]))

@@ -225,30 +225,32 @@ class Thresholds:
     importance_ratio: float = 1000.0
     collinearity: float = 20.0
 
-    def reasons(self, found: Practical) -> tuple[str, ...]:
+    def reasons(self, assessment: Practical) -> tuple[str, ...]:
         """Why a candidate is excluded; nothing if it is admissible. What is not a number violates
         every threshold.
 
         Structural unidentifiability excludes at any threshold, and is said instead of the infinite
         indices that follow from it.
         """
-        along = ", ".join(found.worst_direction)
-        least = max(found.importance.values(), default=0.0) / self.importance_ratio
-        weak = ", ".join(name for name, value in found.importance.items() if not value >= least)
+        along = ", ".join(assessment.worst_direction)
+        least = max(assessment.importance.values(), default=0.0) / self.importance_ratio
+        weak = ", ".join(
+            name for name, value in assessment.importance.items() if not value >= least
+        )
         rows = [
-            (CONDITION, found.condition_index, self.condition_index, along),
-            (IMPORTANCE, found.importance_ratio, self.importance_ratio, weak),
-            (COLLINEARITY, found.collinearity, self.collinearity, along),
+            (CONDITION, assessment.condition_index, self.condition_index, along),
+            (IMPORTANCE, assessment.importance_ratio, self.importance_ratio, weak),
+            (COLLINEARITY, assessment.collinearity, self.collinearity, along),
         ]
         unknown = dict.fromkeys(who for _, value, limit, who in rows if value == inf > limit)
         infinite = [
             f"these data do not determine {who}"
             for who in unknown
-            if not (found.unidentifiable and who == along)
+            if not (assessment.unidentifiable and who == along)
         ]
         finite = [
             what.format(who, f"{v:.3g} exceeds {limit:g}")
             for what, v, limit, who in rows
             if v != inf and not v <= limit
         ]
-        return (*filter(None, [found.unidentifiable]), *infinite, *finite)
+        return (*filter(None, [assessment.unidentifiable]), *infinite, *finite)

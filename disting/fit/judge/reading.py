@@ -73,8 +73,8 @@ def other_quantities(
     taken = assumed(cost.measured)
     if taken is None:
         return ()
-    task, known = explored(searched, task)
-    nearest = min(known, key=lambda fit: _criterion(fit, task))
+    task, own_estimates = explored(searched, task)
+    nearest = min(own_estimates, key=lambda fit: _criterion(fit, task))
     before, most = _criterion(nearest, task), share_about(nearest, task)
     found = list[tuple[float, Sensor, Estimate]]()
     for quantity in Sensor:
@@ -83,7 +83,7 @@ def other_quantities(
         progress(f"read as {quantity.value}", len(found), len(Sensor) - 1)
         shifted = _shifted(task.cost.measured, taken.order - quantity.order)
         seen = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
-        fits = estimates(_small(known), seen, store=store, executor=executor).values()
+        fits = estimates(_small(own_estimates), seen, store=store, executor=executor).values()
         best = min(fits, key=lambda fit: _criterion(fit, seen))
         if _criterion(best, seen) <= before + AS_WELL and explains(best, seen, most):
             found.append((_criterion(best, seen), quantity, best))

@@ -45,19 +45,19 @@ def signed(task: Task, candidates: Sequence[Chain]) -> Task:
     asked = _extremes(candidates)
     cost = task.cost.thinned(SEARCHED)
     first = replace(task, cost=cost.parts[0])
-    found = _better([replace(first, sign=sign) for sign in (1, -1)], asked)
+    the_task = _better([replace(first, sign=sign) for sign in (1, -1)], asked)
     if not isinstance(task.cost, JointCost):
-        return replace(task, sign=found.sign)
+        return replace(task, sign=the_task.sign)
     setups = [cost.setups[0]]
     for part, setup in zip(cost.parts[1:], cost.setups[1:], strict=True):
         pairs = [
             JointCost((cost.parts[0], part), (cost.setups[0], replace(setup, sign=sign, delay="")))
             for sign in (1, -1)
         ]
-        best = _better([replace(found, cost=pair) for pair in pairs], asked)
+        best = _better([replace(the_task, cost=pair) for pair in pairs], asked)
         setups.append(replace(setup, sign=best.cost.setups[1].sign))
     whole = replace(task.cost, setups=tuple(setups))
-    return replace(task, sign=found.sign, cost=whole)
+    return replace(task, sign=the_task.sign, cost=whole)
 
 
 def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[Complex]]:
@@ -66,10 +66,12 @@ def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[C
     """
     least = min(c.n_masses for c in candidates)
     asked = _extremes([c for c in candidates if c.n_masses <= max(PILOT, least)])
-    known = estimates(asked, task.thinned(SEARCHED))  # and smaller chains, which may lack a place
-    there = min((known[chain] for chain in asked), key=lambda e: e.j)
-    p = np.array([there.parameters[n] for n in task.names(there.chain)])
-    return lambda cost: [replace(task, cost=cost).plant(there.chain).response(p)]
+    own_estimates = estimates(
+        asked, task.thinned(SEARCHED)
+    )  # and smaller chains, which may lack a place
+    estimate = min((own_estimates[chain] for chain in asked), key=lambda e: e.j)
+    p = np.array([estimate.parameters[n] for n in task.names(estimate.chain)])
+    return lambda cost: [replace(task, cost=cost).plant(estimate.chain).response(p)]
 
 
 def _extremes(candidates: Sequence[Chain]) -> list[Chain]:
@@ -79,7 +81,9 @@ def _extremes(candidates: Sequence[Chain]) -> list[Chain]:
     ]
     return list(
         dict.fromkeys(
-            choose(one, key=lambda c: len(c.parameters)) for one in by_size for choose in (min, max)
+            choose(chains, key=lambda c: len(c.parameters))
+            for chains in by_size
+            for choose in (min, max)
         )
     )
 
@@ -115,20 +119,20 @@ def readings(
     """Readings under which the data fit much better than the best of the estimates does, small
     changes first.
     """
-    task, known = explored(searched, task)
-    small = [e for e in known if e.chain.n_masses <= SMALL] or known
+    task, own_estimates = explored(searched, task)
+    small = [e for e in own_estimates if e.chain.n_masses <= SMALL] or own_estimates
     base = _loose(min(small, key=lambda e: e.j).chain)
-    largest = max((e.chain for e in known), key=lambda c: c.n_masses)
-    nearest = min(known, key=lambda fit: fit.j)
+    largest = max((e.chain for e in own_estimates), key=lambda c: c.n_masses)
+    nearest = min(own_estimates, key=lambda fit: fit.j)
     lowest, most = nearest.j, share_about(nearest, task)
-    found, views = list[Reading](), list(_views(base, largest, task))
+    the_readings, views = list[Reading](), list(_views(base, largest, task))
     for words, chain, other in views:
-        progress("other readings of the data", len(found), len(views))
+        progress("other readings of the data", len(the_readings), len(views))
         fitted = estimates([chain], other, store=store, executor=executor)[chain]
         if chain.n_masses <= largest.n_masses or explains(fitted, other, most):
-            found.append(Reading(words, fitted, lowest))
-    limit = max(min(r.found.j for r in found) / FALLS, NOTHING)
-    helpful = [r for r in found if r.found.j < FALLS * lowest and r.found.j <= limit]
+            the_readings.append(Reading(words, fitted, lowest))
+    limit = max(min(r.found.j for r in the_readings) / FALLS, NOTHING)
+    helpful = [r for r in the_readings if r.found.j < FALLS * lowest and r.found.j <= limit]
     return tuple(helpful[:NAMED])
 
 

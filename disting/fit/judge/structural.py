@@ -34,42 +34,44 @@ def with_structure(
     indices are infinite.
     """
     return {
-        chain: _told_together(chain, found, task, settings)
+        chain: _told_together(chain, assessment, task, settings)
         if isinstance(task.cost, JointCost)
-        else _told(chain, found, settings)
-        for chain, found in judged.items()
+        else _told(chain, assessment, settings)
+        for chain, assessment in judged.items()
     }
 
 
-def _told_together(chain: Chain, found: Practical, task: Task, settings: Settings) -> Practical:
+def _told_together(
+    chain: Chain, assessment: Practical, task: Task, settings: Settings
+) -> Practical:
     """What the first response determines, all determine; else their stacked Jacobian is asked."""
-    common = tuple(name for name in found.names if name in chain.parameters)
+    common = tuple(name for name in assessment.names if name in chain.parameters)
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
     if max(t.rank_by(common) for t in proof) == len(common):
-        return found
+        return assessment
     measured = measured_chain(chain, task.cost.setups_of(chain.structure))
     labels = (f"joint:{settings.seed}:{k}" for k in range(settings.points))
     rank = max(rank_by(measured, common, label) for label in labels)
     lacking = len(common) - rank
     if lacking <= 0:
-        return found
-    indices = (*found.condition_indices[: len(found.names) - lacking], *(inf,) * lacking)
+        return assessment
+    indices = (*assessment.condition_indices[: len(assessment.names) - lacking], *(inf,) * lacking)
     directions = f"{lacking} combination{'s' * (lacking > 1)} of its parameters"
     words = f"not identifiable: these responses together leave {directions} open, whatever the data"
-    return replace(found, condition_indices=indices, collinearity=inf, unidentifiable=words)
+    return replace(assessment, condition_indices=indices, collinearity=inf, unidentifiable=words)
 
 
-def _told(chain: Chain, found: Practical, settings: Settings) -> Practical:
+def _told(chain: Chain, assessment: Practical, settings: Settings) -> Practical:
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
-    rank = max(t.rank_by(found.names) for t in proof)
-    lacking = len(found.names) - rank
+    rank = max(t.rank_by(assessment.names) for t in proof)
+    lacking = len(assessment.names) - rank
     if lacking <= 0:
-        return found
+        return assessment
     chosen = basis(chain.structure, proof, max(t.rank for t in proof), settings.seed).chosen
-    indices = found.condition_indices[:rank] + (inf,) * lacking
-    given = " and what is given" * (len(found.names) < len(chain.parameters))
+    indices = assessment.condition_indices[:rank] + (inf,) * lacking
+    given = " and what is given" * (len(assessment.names) < len(chain.parameters))
     words = in_words([c.formula for c in chosen]) + given
-    return replace(found, condition_indices=indices, collinearity=inf, unidentifiable=words)
+    return replace(assessment, condition_indices=indices, collinearity=inf, unidentifiable=words)
 
 
 def in_words(determined: Sequence[Formula]) -> str:

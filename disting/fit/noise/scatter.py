@@ -155,7 +155,11 @@ def _preferred(levels: Sequence[float]) -> int:
 def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Complex]) -> Scatter:
     """From standard deviations of the data, against contrasts where candidates are fitted."""
     each = [contrasts(measured.omega, measured.G, other) for other in (None, *fitted)]
-    seen = each[_preferred([log(max(float(np.median(one.power)), TINY**2)) for one in each])]
+    seen = each[
+        _preferred(
+            [log(max(float(np.median(this_contrasts.power)), TINY**2)) for this_contrasts in each]
+        )
+    ]
     floor = float(np.median(deviation[deviation > 0])) ** 2
     power = np.maximum(deviation**2, 1e-6 * floor)
     nu = measured.freedom or freedom_by_jumps(measured.omega, power)
@@ -232,17 +236,17 @@ def _balanced(excess: Callable[[float], float]) -> float:
 
 
 def changed(
-    one: FrequencyResponse, other: FrequencyResponse, own: Scatter, there: Scatter
+    own_response: FrequencyResponse, other: FrequencyResponse, own: Scatter, other_scatter: Scatter
 ) -> float:
     """tau by which a machine changes between two measurements, from lines that both have; 0 where
     what both scatter accounts for their difference.
     """
-    at, common = shared(one, other)
-    if one is other or common.sum() < COMMON:
+    at, common = shared(own_response, other)
+    if own_response is other or common.sum() < COMMON:
         return 0.0
-    power = np.abs(np.log(other.G[common] / one.G[at[common]])) ** 2
-    both = 2 * (own.rho[at[common]] ** 2 + there.rho[common] ** 2)
-    sure = f_distribution.isf(SURE, 2 * len(both), min(own.freedom, there.freedom))
+    power = np.abs(np.log(other.G[common] / own_response.G[at[common]])) ** 2
+    both = 2 * (own.rho[at[common]] ** 2 + other_scatter.rho[common] ** 2)
+    sure = f_distribution.isf(SURE, 2 * len(both), min(own.freedom, other_scatter.freedom))
     if np.mean(power / both) <= sure:
         return 0.0
     return _balanced(lambda tau: float(np.mean(power / (both + 4 * tau**2))) - 1)
@@ -258,11 +262,11 @@ def widened(own: Scatter, tau: float) -> Scatter:
 
 
 def shared(
-    one: FrequencyResponse, other: FrequencyResponse
+    response: FrequencyResponse, other: FrequencyResponse
 ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """For each line of `other` the nearest one of `one`, and whether they are the same; shape
+    """For each line of `other` the nearest one of `response`, and whether they are the same; shape
     (n_f,) each.
     """
-    at = np.clip(np.searchsorted(one.omega, other.omega), 1, len(one.omega) - 1)
-    at -= other.omega - one.omega[at - 1] < one.omega[at] - other.omega
-    return at, np.abs(one.omega[at] - other.omega) <= SAME * other.omega
+    at = np.clip(np.searchsorted(response.omega, other.omega), 1, len(response.omega) - 1)
+    at -= other.omega - response.omega[at - 1] < response.omega[at] - other.omega
+    return at, np.abs(response.omega[at] - other.omega) <= SAME * other.omega

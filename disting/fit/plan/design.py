@@ -69,27 +69,27 @@ class Designed:
         return self.run.noncentrality * (before / after) ** 2
 
 
-def designed(found: Plan) -> Designed | None:
+def designed(plan: Plan) -> Designed | None:
     """Band and spectra against a rival; None where no effort is enough."""
-    if found.rival is None or found.answer is Answer.SAME:
+    if plan.rival is None or plan.answer is Answer.SAME:
         return None
-    adversary = Adversary(found.rival)
+    adversary = Adversary(plan.rival)
     band = best_band(adversary)
     best = optimal(adversary)
-    return Designed(found.rival.hertz, band, best, runnable(adversary, best))
+    return Designed(plan.rival.hertz, band, best, runnable(adversary, best))
 
 
-def designed_to_dict(found: Plan, best: Designed | None) -> dict[str, Any]:
+def designed_to_dict(plan: Plan, best: Designed | None) -> dict[str, Any]:
     """Plain data of a plan with its spectra; `shares` of the power by line."""
-    plain = plan_to_dict(found)
+    plain = plan_to_dict(plan)
     if best is None:
         return plain
     return plain | {
-        "band": _sized(found, best.band.noncentrality)
+        "band": _sized(plan, best.band.noncentrality)
         | {"low": best.band.low, "high": best.band.high},
-        "optimal": _sized(found, best.optimum.noncentrality)
+        "optimal": _sized(plan, best.optimum.noncentrality)
         | {"bound": best.optimum.bound, "lines": best.optimum.lines},
-        "run": _sized(found, best.run.noncentrality)
+        "run": _sized(plan, best.run.noncentrality)
         | {
             "noncentrality_at_equal_peak": best.at_equal_peak,
             "crest_factors": list(best.crests),
@@ -102,9 +102,9 @@ def designed_to_dict(found: Plan, best: Designed | None) -> dict[str, Any]:
     }
 
 
-def _sized(found: Plan, noncentrality: float) -> dict[str, float]:
+def _sized(plan: Plan, noncentrality: float) -> dict[str, float]:
     return {
         "noncentrality": noncentrality,
-        "power": found.power_at(noncentrality),
-        "factor": found.needed / noncentrality,
+        "power": plan.power_at(noncentrality),
+        "factor": plan.needed / noncentrality,
     }

@@ -77,7 +77,7 @@ class Named:
     @property
     def chains(self) -> tuple[Chain, ...]:
         """The structures that the data leave."""
-        return tuple(one.chain for one in self.left)
+        return tuple(survivor.chain for survivor in self.left)
 
 
 def named_by(path: Path) -> Named:
@@ -234,7 +234,7 @@ def networks_named_by(path: Path) -> NamedNetworks:
         return NamedNetworks(
             model=first.network,
             values=first.values,
-            rivals={one.network: one.values for one in others},
+            rivals={survivor.network: survivor.values for survivor in others},
             same={network.name: REASON for network in first.same},
             scatter=number_of(plain["scatter"], 0.0),
             low=number_of(lines["low"], 0.0),
@@ -255,22 +255,22 @@ def _read_plain(path: Path) -> Mapping[str, Any]:
 def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, ...]:
     try:
         entries = {str(entry["name"]): entry for entry in plain["networks"]}
-        known = {name: network_of_entry(entry, name) for name, entry in entries.items()}
-        found = tuple(
+        networks = {name: network_of_entry(entry, name) for name, entry in entries.items()}
+        survivors = tuple(
             LeftNetwork(
-                known[fit["name"]],
+                networks[fit["name"]],
                 {name: number_of(fit["values"][name]) for name in fit["values"]},
-                tuple(known[name] for name in fit["same"]),
+                tuple(networks[name] for name in fit["same"]),
             )
             for fit in plain["fits"]
             if fit["explains"] and not fit["excluded_by"]
         )
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise _broken(path, reason) from None
-    if not found:
+    if not survivors:
         tried = listed(entries, BAR)
         raise InputError(f"none of the networks of {path} explains its data ({tried}): try others")
-    return tuple(sorted(found, key=lambda one: one.network.name != plain["selected"]))
+    return tuple(sorted(survivors, key=lambda survivor: survivor.network.name != plain["selected"]))
 
 
 def _broken(path: Path, reason: Exception) -> InputError:

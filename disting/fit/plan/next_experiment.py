@@ -83,10 +83,14 @@ class Stood:
 
     def standing(self, a: int, b: int) -> Standing:
         """Of two different structures."""
-        one, other = self.left[a], self.left[b]
+        survivor, other = self.left[a], self.left[b]
         if self._class(a) == self._class(b) or self._classes(a, b) in self.across:
             return Standing.EQUAL
-        if one.chain in other.like or other.chain in one.like or set(one.like) & set(other.like):
+        if (
+            survivor.chain in other.like
+            or other.chain in survivor.like
+            or set(survivor.like) & set(other.like)
+        ):
             return Standing.TWIN
         return Standing.NOISE if self.rule(a, b) else Standing.OPEN
 
@@ -104,19 +108,19 @@ class Stood:
 
 def stood(left: Sequence[Left], engine: Engine, progress: Progress = silent) -> Stood:
     """Sort the structures into classes; those of other sizes are in other classes."""
-    sides = [engine.subject(one.name, one.chain) for one in left]
+    sides = [engine.subject(survivor.name, survivor.chain) for survivor in left]
     query = Query(View.EXACT, inclusion=False)
     classes = list[list[int]]()
     rules: dict[tuple[int, int], str] = {}
     across = set[tuple[int, int]]()
-    for at, one in enumerate(left):
+    for at, survivor in enumerate(left):
         progress("structures", at, len(left))
-        found = {}
+        verdicts = {}
         for number, members in enumerate(classes):
-            found[number] = engine.verdict(sides[members[0]], sides[at], query)
+            verdicts[number] = engine.verdict(sides[members[0]], sides[at], query)
             size = left[members[0]].chain.n_masses
-            same = found[number].relation is Relation.INDISTINGUISHABLE
-            if same and size == one.chain.n_masses:
+            same = verdicts[number].relation is Relation.INDISTINGUISHABLE
+            if same and size == survivor.chain.n_masses:
                 members.append(at)
                 break
         else:
@@ -124,11 +128,11 @@ def stood(left: Sequence[Left], engine: Engine, progress: Progress = silent) -> 
                 (number, len(classes)): verdict.decided_by
                 if verdict.relation is Relation.DISTINGUISHABLE
                 else ""
-                for number, verdict in found.items()
+                for number, verdict in verdicts.items()
             }
             across |= {
                 (number, len(classes))
-                for number, verdict in found.items()
+                for number, verdict in verdicts.items()
                 if verdict.relation is Relation.INDISTINGUISHABLE
             }
             classes.append([at])
@@ -253,13 +257,13 @@ class Foretold:
         found = [(self.at(item.kind, (structure, item.at), (other, j)), j) for j in masses]
         return min(((s, j) for s, j in found if s is not None), default=None)
 
-    def power(self, structure: int, other: int, found: Step) -> float:
+    def power(self, structure: int, other: int, the_step: Step) -> float:
         """Probability of excluding the other one by this difference, if it is this structure."""
-        if found.is_motion:
+        if the_step.is_motion:
             return 1.0
         chains = self.left[structure].chain, self.left[other].chain
         count = trials(chains[1], chains[0], len(self.bench.omega))
-        return power(found.noncentrality, surplus(*chains, self.settings), LEVEL / count)
+        return power(the_step.noncentrality, surplus(*chains, self.settings), LEVEL / count)
 
 
 def foretold(
@@ -271,9 +275,9 @@ def foretold(
     """Every structure under every item of its menu, of all kinds that have a cost."""
     costs = costs or Costs()
     responses = {
-        (item, k): [shown(one.chain, values, item, bench) for values in one.values]
-        for k, one in enumerate(left)
-        for item in _menu(one.chain, costs)
+        (item, k): [shown(survivor.chain, values, item, bench) for values in survivor.values]
+        for k, survivor in enumerate(left)
+        for item in _menu(survivor.chain, costs)
     }
     return Foretold(tuple(left), bench, responses, settings or Settings(), costs)
 

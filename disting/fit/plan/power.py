@@ -195,40 +195,40 @@ def _surplus(model: AnyStructure, rival: AnyStructure, engine: Engine) -> int:
     if isinstance(model, Chain) and isinstance(rival, Chain):
         return surplus(model, rival, engine.settings)
     networks = [n for n in (model, rival) if isinstance(n, Network)]
-    one, other = engine.general_subjects(networks)
-    return max(1, one.rank - other.rank)
+    side, other = engine.general_subjects(networks)
+    return max(1, side.rank - other.rank)
 
 
-def plan_to_dict(found: Plan) -> dict[str, Any]:
+def plan_to_dict(the_plan: Plan) -> dict[str, Any]:
     """Plain data; `noncentrality` 0 and `factor` null where no effort is enough."""
-    rival, name = found.rival, found.names
+    rival, name = the_plan.rival, the_plan.names
     plain: dict[str, Any] = {
         "format": Format.PLAN.value,
         "model": name[0],
-        "parameters": dict(found.values),
+        "parameters": dict(the_plan.values),
         "rival": name[1],
-        "answer": found.answer.value,
-        "relation": found.verdict.relation.value if found.verdict is not None else None,
-        "reason": found.verdict.sentence if found.verdict is not None else None,
-        "level": found.level,
+        "answer": the_plan.answer.value,
+        "relation": the_plan.verdict.relation.value if the_plan.verdict is not None else None,
+        "reason": the_plan.verdict.sentence if the_plan.verdict is not None else None,
+        "level": the_plan.level,
         "wanted_power": POWER,
-        "noncentrality": found.noncentrality,
-        "power": found.power,
+        "noncentrality": the_plan.noncentrality,
+        "power": the_plan.power,
     }
     if rival is None:
         return plain
-    more = found.noncentrality > 0
+    more = the_plan.noncentrality > 0
     return plain | {
-        "surplus_parameters": found.surplus,
-        "repeats": found.repeats,
-        "needed_noncentrality": found.needed,
-        "factor": found.factor if more else None,
+        "surplus_parameters": the_plan.surplus,
+        "repeats": the_plan.repeats,
+        "needed_noncentrality": the_plan.needed,
+        "factor": the_plan.factor if more else None,
         "noise": typical(rival.rho),
-        "largest_noise": typical(rival.rho) / sqrt(found.factor) if more else None,
+        "largest_noise": typical(rival.rho) / sqrt(the_plan.factor) if more else None,
         "best_fit": rival.parameters,
         "trust": rival.trust.value,
         "starts": [rival.best.reached, len(rival.best.costs)],
-        "contains": found.is_contained,
+        "contains": the_plan.is_contained,
         "limits": {name: limit.value for name, limit in rival.limits.items()},
     }
 
@@ -240,6 +240,6 @@ def typical(rho: Real) -> float:
     return float((rho**-2.0).mean() ** -0.5)
 
 
-def is_trusted(found: Plan) -> bool:
+def is_trusted(the_plan: Plan) -> bool:
     """Whether the rival's best fit is one that several starts reached."""
-    return found.rival is None or found.rival.trust is Trust.AGREED
+    return the_plan.rival is None or the_plan.rival.trust is Trust.AGREED

@@ -189,9 +189,11 @@ def fitted_rival(
     _check_ports(model, rival)
     responses = responses_of(model, values, omega)
     cost = _cost([FrequencyResponse(omega, g, sensor=sensor) for g in responses], 1.0 / rho)
-    found = search(model, values, rival, cost, store=store, executor=executor, progress=progress)
-    own = found.own * float(np.mean(rho**2)) / len(omega)
-    return Rival(model, values, rho, rival, found.best, own < ROUNDING**2, cost, found)
+    the_search = search(
+        model, values, rival, cost, store=store, executor=executor, progress=progress
+    )
+    own = the_search.own * float(np.mean(rho**2)) / len(omega)
+    return Rival(model, values, rho, rival, the_search.best, own < ROUNDING**2, cost, the_search)
 
 
 def _check_ports(model: AnyStructure, rival: AnyStructure) -> None:
@@ -207,7 +209,9 @@ def _check_ports(model: AnyStructure, rival: AnyStructure) -> None:
 
 def _cost(responses: Sequence[FrequencyResponse], weights: Real) -> AnyCost:
     """That of relative distances with weights of the lines, shape (n_f,)."""
-    parts = tuple(Cost(one, Case.COMPLEX, lines=weights / np.abs(one.G)) for one in responses)
+    parts = tuple(
+        Cost(response, Case.COMPLEX, lines=weights / np.abs(response.G)) for response in responses
+    )
     return parts[0] if len(parts) == 1 else JointCost(parts, (Setup(),) * len(parts))
 
 
@@ -232,14 +236,14 @@ def gain(rival: Rival, *measured: FrequencyResponse) -> float:
     """
     parts = rival.cost.parts
     planned = [part.measured.omega for part in parts]
-    same = map(np.array_equal, (one.omega for one in measured), planned)
+    same = map(np.array_equal, (plant.omega for plant in measured), planned)
     if len(measured) != len(parts) or not all(same):
         raise InputError("the test needs a response at the planned lines")
     seen = tuple(replace(part, measured=m) for part, m in zip(parts, measured, strict=True))
     cost = seen[0] if isinstance(rival.cost, Cost) else replace(rival.cost, parts=seen)
-    one, other = rival.search.plants
-    own = np.array([rival.values[name] for name in one.parameters])
-    return statistic(_left(other, cost, rival.best.p), _left(one, cost, own))
+    plant, other = rival.search.plants
+    own = np.array([rival.values[name] for name in plant.parameters])
+    return statistic(_left(other, cost, rival.best.p), _left(plant, cost, own))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

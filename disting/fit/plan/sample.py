@@ -68,7 +68,7 @@ def simulated(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
     limits, shares, widths = np.empty((3, DRAWS))
     for i in range(DRAWS):
         exact = [part.measured for part in rival.cost.parts]
-        each = [_found(one, rival.rho, source, repeats) for one in exact]
+        each = [_found(response, rival.rho, source, repeats) for response in exact]
         ratios = (
             np.abs(g.G) / k.size * rival.rho / k.rho for g, k in zip(exact, each, strict=True)
         )
@@ -77,7 +77,7 @@ def simulated(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
         d = missed - basis @ (basis.T @ missed)
         shares[i] = d @ d
         widths[i] = (d * weights**2) @ d / shares[i]
-        limits[i] = limit(surplus, min(known.freedom for known in each), level=level)
+        limits[i] = limit(surplus, min(own_scatter.freedom for own_scatter in each), level=level)
     return Sample(limits, shares / rival.noncentrality, widths, surplus)
 
 

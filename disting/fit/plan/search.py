@@ -106,8 +106,10 @@ def search(
     """
     if isinstance(model, Chain) and isinstance(rival, Chain):
         task = Task(cost)
-        known = estimates([model, rival], task, store=store, executor=executor, progress=progress)
-        return _of_chains(model, values, rival, cost, task, known)
+        own_estimates = estimates(
+            [model, rival], task, store=store, executor=executor, progress=progress
+        )
+        return _of_chains(model, values, rival, cost, task, own_estimates)
     if isinstance(model, Network) and isinstance(rival, Network):
         return _of_networks(model, values, rival, cost)
     raise InputError("plan two chains, or two networks: write the chain as a network too")
@@ -119,21 +121,21 @@ def _of_chains(
     rival: Chain,
     cost: AnyCost,
     task: Task,
-    known: Mapping[Chain, Estimate],
+    own_estimates: Mapping[Chain, Estimate],
 ) -> Search:
     def again(other: AnyCost) -> BestFit:
-        return _best(estimate(rival, replace(task, cost=other), known))
+        return _best(estimate(rival, replace(task, cost=other), own_estimates))
 
     omega, size = cost.measured.omega, scale(cost.measured)
     plants = plant_of(model, omega), plant_of(rival, omega)
     starts = _from_values(rival, values, size)
-    best = _better(_best(known[rival]), plants[1], cost, starts)
-    return Search(plants, best, again, known[model].j, natural(rival, size))
+    best = _better(_best(own_estimates[rival]), plants[1], cost, starts)
+    return Search(plants, best, again, own_estimates[model].j, natural(rival, size))
 
 
-def _best(found: Estimate) -> BestFit:
-    p = np.array([found.parameters[name] for name in found.chain.parameters])
-    return BestFit(p, found.j, found.costs)
+def _best(the_estimate: Estimate) -> BestFit:
+    p = np.array([the_estimate.parameters[name] for name in the_estimate.chain.parameters])
+    return BestFit(p, the_estimate.j, the_estimate.costs)
 
 
 def _from_values(rival: Chain, values: Mapping[str, float], size: Scale) -> Real:
@@ -151,27 +153,39 @@ def _of_networks(
     model: Network, values: Mapping[str, float], rival: Network, cost: AnyCost
 ) -> Search:
     def again(other: AnyCost) -> BestFit:
-        return _better(searched(there, other, starts), there, other, own)
+        return _better(
+            searched(other_network_plant, other, starts), other_network_plant, other, own
+        )
 
     measured = cost.measured
     n = len(cost.parts)
-    here, there = (network_plant(network, (measured.omega,) * n) for network in (model, rival))
+    own_network_plant, other_network_plant = (
+        network_plant(network, (measured.omega,) * n) for network in (model, rival)
+    )
     starts, others = (
         random_starts(plant, measured, STARTS, np.random.default_rng((SEED, i)))
-        for i, plant in ((1, there), (0, here))
+        for i, plant in ((1, other_network_plant), (0, own_network_plant))
     )
-    usual = dict(zip(there.parameters, np.exp(np.log(starts).mean(axis=0)), strict=True))
+    usual = dict(
+        zip(other_network_plant.parameters, np.exp(np.log(starts).mean(axis=0)), strict=True)
+    )
     own = np.array([[values.get(name, size) for name, size in usual.items()]])
-    return Search((here, there), again(cost), again, searched(here, cost, others).j, usual)
+    return Search(
+        (own_network_plant, other_network_plant),
+        again(cost),
+        again,
+        searched(own_network_plant, cost, others).j,
+        usual,
+    )
 
 
-def _better(found: BestFit, plant: AnyPlant, cost: AnyCost, starts: Real) -> BestFit:
+def _better(best_fit: BestFit, plant: AnyPlant, cost: AnyCost, starts: Real) -> BestFit:
     """The best fit, or a better one to which further starts lead."""
     box = box_of(plant)
     with np.errstate(all="ignore"):  # far from the data responses may overflow
         ends = [fine(plant, cost, box, start) for start in starts]
-    p, j = min([(found.p, found.j), *ends], key=lambda end: end[1])
-    return BestFit(p, j, tuple(sorted([*found.costs, *(end[1] for end in ends)])))
+    p, j = min([(best_fit.p, best_fit.j), *ends], key=lambda end: end[1])
+    return BestFit(p, j, tuple(sorted([*best_fit.costs, *(end[1] for end in ends)])))
 
 
 def box_of(plant: AnyPlant) -> Box:

@@ -112,9 +112,11 @@ def to_control_transfer_function(
     >>> complex(drive(1j)).real
     -0.5
     """
-    found = zero_pole(chain, values, sign)
-    top, bottom = (np.atleast_1d(np.poly(roots)).real for roots in (found.zeros, found.poles))
-    return _control().TransferFunction(found.gain * top, bottom)
+    the_zero_pole = zero_pole(chain, values, sign)
+    top, bottom = (
+        np.atleast_1d(np.poly(roots)).real for roots in (the_zero_pole.zeros, the_zero_pole.poles)
+    )
+    return _control().TransferFunction(the_zero_pole.gain * top, bottom)
 
 
 @dataclass(frozen=True, eq=False)

@@ -140,9 +140,9 @@ def _joined(
 def total_inertia(every: Sequence[Drawn], family: str) -> Statement:
     """Of all masses."""
     ranges = []
-    for one in every:
-        at = [i for i, name in enumerate(one.chain.parameters) if name[0] == "m"]
-        ranges.append(_spread(one.p[:, at].sum(axis=1)))
+    for sample in every:
+        at = [i for i, name in enumerate(sample.chain.parameters) if name[0] == "m"]
+        ranges.append(_spread(sample.p[:, at].sum(axis=1)))
     return _joined("total inertia", "", ranges, (len(ranges), len(ranges)), family)
 
 
@@ -150,15 +150,18 @@ def _roots(fitted: Sequence[Drawn], band: tuple[float, float]) -> Iterator[State
     """Resonances and antiresonances within the band [Hz] of the first structure, and what the
     others have nearest.
     """
-    total = sum(one.alike for one in fitted)
+    total = sum(sample.alike for sample in fitted)
     for kind, roots_of in ROOTS.items():
-        nominal = [oscillating(_roots_at(one, roots_of, 0)) for one in fitted]
+        nominal = [oscillating(_roots_at(sample, roots_of, 0)) for sample in fitted]
         inside = [r for r in nominal[0] if band[0] <= abs(r) / (2 * pi) <= band[1]]
         for number, root in enumerate(inside, 1):
-            near = [(one, nearest(roots, root)) for one, roots in zip(fitted, nominal, strict=True)]
-            having = [(one, own) for one, own in near if own is not None]
-            follow = [_followed(one, roots_of, own) for one, own in having]
-            numbers = (sum(one.alike for one, _ in having), total)
+            near = [
+                (sample, nearest(roots, root))
+                for sample, roots in zip(fitted, nominal, strict=True)
+            ]
+            having = [(sample, own) for sample, own in near if own is not None]
+            follow = [_followed(sample, roots_of, own) for sample, own in having]
+            numbers = (sum(sample.alike for sample, _ in having), total)
             name = f"{kind} {number}"
             hertz = [_spread(abs(r) / (2 * pi) for r in roots) for roots in follow]
             damping = [_spread(-r.real / abs(r) for r in roots) for roots in follow]
@@ -166,15 +169,16 @@ def _roots(fitted: Sequence[Drawn], band: tuple[float, float]) -> Iterator[State
             yield _joined(f"damping ratio of {name}", "", damping, numbers)
 
 
-def _roots_at(one: Drawn, roots_of: Callable[..., Complex], k: int) -> Complex:
-    structure = one.chain.structure
-    return roots_of(structure, one.p[k, : len(structure.parameters)])
+def _roots_at(sample: Drawn, roots_of: Callable[..., Complex], k: int) -> Complex:
+    structure = sample.chain.structure
+    return roots_of(structure, sample.p[k, : len(structure.parameters)])
 
 
-def _followed(one: Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
+def _followed(sample: Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
     """The root in all draws in which it is still there."""
     found = (
-        nearest(oscillating(_roots_at(one, roots_of, k)), root, inf) for k in range(len(one.p))
+        nearest(oscillating(_roots_at(sample, roots_of, k)), root, inf)
+        for k in range(len(sample.p))
     )
     return [r for r in found if r is not None]
 
@@ -188,8 +192,8 @@ def nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> com
 
 def _at_the_sensor(fitted: Sequence[Drawn], omega: Real) -> Statement:
     """How far the responses lie apart."""
-    responses = (Plant(one.chain.structure, omega).response(one.p) for one in fitted)
-    total = sum(one.alike for one in fitted)
+    responses = (Plant(sample.chain.structure, omega).response(sample.p) for sample in fitted)
+    total = sum(sample.alike for sample in fitted)
     return _apart("response at the sensor", responses, omega, total)
 
 
@@ -218,7 +222,7 @@ def _hertz(omega: Real) -> str:
 
 def _at_the_load(every: Sequence[Drawn], omega: Real, family: str) -> Statement:
     """How far the positions of the loads per force lie apart, of fitted structures and twins."""
-    responses = (position_of_load(one.chain, one.p, omega) for one in every)
+    responses = (position_of_load(sample.chain, sample.p, omega) for sample in every)
     return _apart("position of the load per force", responses, omega, len(every), family)
 
 
@@ -242,26 +246,32 @@ def _load(chain: Chain) -> Structure:
 
 def _margins(fitted: Sequence[Drawn], controller: Controller, omega: Real) -> Iterator[Statement]:
     """Stability, then what `Margins` holds, over all draws of all structures."""
-    total = sum(one.alike for one in fitted)
-    known = [[margins(one.chain, p, controller) for p in one.p] for one in fitted]
-    firm = [one.alike for one, own in zip(fitted, known, strict=True) if all(m.stable for m in own)]
+    total = sum(sample.alike for sample in fitted)
+    own_margins = [[margins(sample.chain, p, controller) for p in sample.p] for sample in fitted]
+    firm = [
+        sample.alike
+        for sample, own in zip(fitted, own_margins, strict=True)
+        if all(m.stable for m in own)
+    ]
     numbers = (total, total)
     yield Statement(Kind.STABLE, "closed loop", 1.0, 1.0, "", sum(firm), total)
     if sum(firm) < total:
         return  # margins of an unstable loop say nothing
-    crossed = _ranged(known, lambda m: m.crossover)
+    crossed = _ranged(own_margins, lambda m: m.crossover)
     low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
     outside = any(not (low <= x <= high) for pair in crossed for x in pair)
     note = "the crossover may lie outside the measured band" if outside else ""
     yield _joined("crossover", "Hz", crossed, numbers, note)
-    yield _joined("phase margin", "deg", _ranged(known, lambda m: m.phase), numbers, note)
-    gains = _ranged(known, lambda m: 20 * log10(m.gain) if isfinite(m.gain) else inf)
+    yield _joined("phase margin", "deg", _ranged(own_margins, lambda m: m.phase), numbers, note)
+    gains = _ranged(own_margins, lambda m: 20 * log10(m.gain) if isfinite(m.gain) else inf)
     yield _joined("gain margin", "dB", gains, numbers)
-    yield _joined("peak of the sensitivity", "", _ranged(known, lambda m: m.sensitivity), numbers)
-    yield _joined("bandwidth", "Hz", _ranged(known, lambda m: m.bandwidth), numbers)
+    yield _joined(
+        "peak of the sensitivity", "", _ranged(own_margins, lambda m: m.sensitivity), numbers
+    )
+    yield _joined("bandwidth", "Hz", _ranged(own_margins, lambda m: m.bandwidth), numbers)
 
 
 def _ranged(
-    known: Sequence[Sequence[Margins]], value: Callable[[Margins], float]
+    own_margins: Sequence[Sequence[Margins]], value: Callable[[Margins], float]
 ) -> list[tuple[float, float]]:
-    return [_spread(map(value, own)) for own in known]
+    return [_spread(map(value, own)) for own in own_margins]

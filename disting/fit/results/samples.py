@@ -59,17 +59,17 @@ def drawn(left: Sequence[Member], task: Task) -> tuple[Drawn, ...]:
 
 def with_twins(left: Sequence[Member], fitted: Sequence[Drawn], omega: Real) -> Iterator[Drawn]:
     """Each fitted structure, then its twins; `omega`: lines of the data [rad/s]."""
-    for member, one in zip(left, fitted, strict=True):
-        yield one
-        yield from (_carried(twin, one, omega) for twin in member.twins)
+    for member, sample in zip(left, fitted, strict=True):
+        yield sample
+        yield from (_carried(twin, sample, omega) for twin in member.twins)
 
 
-def _carried(twin: Twin, one: Drawn, omega: Real) -> Drawn:
+def _carried(twin: Twin, sample: Drawn, omega: Real) -> Drawn:
     """The twin, drawn along with the structure whose twin it is: Newton's steps from its own
     values, the smallest where there are several.
     """
     plant = Plant(twin.chain.structure, omega)
-    aims = Plant(one.chain.structure, omega).response(one.p)
+    aims = Plant(sample.chain.structure, omega).response(sample.p)
     own = np.array([twin.parameters[name] for name in twin.chain.parameters])
     x, near = np.tile(np.log(own), (len(aims), 1)), NEAR * np.abs(np.log(aims / aims[0])).max()
     active = np.arange(len(aims))

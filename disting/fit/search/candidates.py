@@ -68,7 +68,7 @@ def chosen_ports(
     >>> [str(c) for c in chosen_ports([2], "1", "last")][:1]
     ['2 masses, gap 0, force 1-0, sensor 2-0, damped']
     """
-    found, refused = list[Chain](), ""
+    chains, refused = list[Chain](), ""
     for n in sizes:
         (act_minus, act_plus), (meas_minus, meas_plus) = ports = tuple(
             port(text, n) for text in (actuator, shown)
@@ -77,16 +77,16 @@ def chosen_ports(
             refused = f"force {actuator} and sensor {shown} are the same mass"
             continue
         try:
-            found.append(
+            chains.append(
                 Chain(n, gap, act_minus, act_plus, meas_minus, meas_plus, sensor, damped=True)
             )
         except ConstraintViolation as reason:
             refused = str(reason)
-    if not found:
+    if not chains:
         raise InputError(
             f"no chain of {', '.join(map(str, sizes))} masses has these ports: {refused}"
         )
-    return tuple(variant for chain in found for variant in variants(chain))
+    return tuple(variant for chain in chains for variant in variants(chain))
 
 
 def as_listed(chain: Chain) -> Form:

@@ -135,19 +135,19 @@ class Cost(SquaredCost):
         np.multiply(gradient.imag, second, out=columns[..., n_f:])
         return columns.swapaxes(-1, -2)
 
-    def scatter(self, known: Scatter) -> Real:
+    def scatter(self, scatter: Scatter) -> Real:
         """Standard deviation of the residuals, shape (2 n_f,), of data that scatter so."""
         first, second = self._both
-        plane = known.rho * known.size
-        amplitude = known.rho / log(10) if self.case is Case.LOGARITHM else plane
-        phase = plane if self.case is Case.COMPLEX else known.rho
+        plane = scatter.rho * scatter.size
+        amplitude = scatter.rho / log(10) if self.case is Case.LOGARITHM else plane
+        phase = plane if self.case is Case.COMPLEX else scatter.rho
         return np.concatenate([first * amplitude, second * phase])
 
-    def likely(self, known: Scatter) -> "Cost":
+    def likely(self, scatter: Scatter) -> "Cost":
         """Minus twice the logarithm of the likelihood of data that scatter so, but for a constant:
         squared distances in the complex plane in units of sigma / sqrt 2, of variance 1 each.
         """
-        return replace(self, case=Case.COMPLEX, weights=None, lines=sqrt(2) / known.sigma)
+        return replace(self, case=Case.COMPLEX, weights=None, lines=sqrt(2) / scatter.sigma)
 
     def windowed(self) -> "Cost":
         """Of what Welch's method shows, which is the response under a window."""

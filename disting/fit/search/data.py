@@ -94,14 +94,18 @@ def checked(
         )
     for data in filter(None, (train, test)):
         _check_units(data)
-    for one in further:  # each against its own test data
-        if one.test is not None and test is None:
+    for extra in further:  # each against its own test data
+        if extra.test is not None and test is None:
             raise InputError("test data of a further response need test data of the first one too")
-        _check_pair(one.measured, one.test)
-        for data in filter(None, (one.measured, one.test)):
+        _check_pair(extra.measured, extra.test)
+        for data in filter(None, (extra.measured, extra.test)):
             _check_units(data)
     thinned = None if test is None else test.thinned(most)
-    return train.thinned(most), thinned, [one.thinned(most) for one in further]
+    return (
+        train.thinned(most),
+        thinned,
+        [extra.thinned(most) for extra in further],
+    )
 
 
 def _check_pair(train: FrequencyResponse, test: FrequencyResponse | None) -> None:
@@ -158,19 +162,19 @@ class Weighing:
         What the lines scatter is seen beside the stacked responses `fitted` of candidates.
         """
         whole = (Further(self.first.measured, Setup(), self.test), *self.further)
-        ends = np.cumsum([len(one.measured) for one in whole])[:-1]
+        ends = np.cumsum([len(extra.measured) for extra in whole])[:-1]
         known = [np.split(response, ends) for response in fitted]
         own = [
-            self._weights(one.measured, one.test, [each[k] for each in known])
-            for k, one in enumerate(whole)
+            self._weights(extra.measured, extra.test, [each[k] for each in known])
+            for k, extra in enumerate(whole)
         ]
         size = float(np.sqrt(np.mean(np.concatenate(own) ** 2)))
         plain = self.alike and not self.further
         parts = [
-            replace(self.first, measured=one.measured, lines=None if plain else w / size)
-            for one, w in zip(whole, own, strict=True)
+            replace(self.first, measured=extra.measured, lines=None if plain else w / size)
+            for extra, w in zip(whole, own, strict=True)
         ]
-        setups = tuple(one.setup for one in whole)
+        setups = tuple(extra.setup for extra in whole)
         if not self.further:
             return parts[0]
         return JointCost(tuple(parts), setups, tuple(s.delay for s in setups if s.delay))
@@ -184,7 +188,7 @@ class Weighing:
         """
         if self.test is None:
             return None
-        tests = [self.test, *(one.test for one in self.further)]
+        tests = [self.test, *(extra.test for extra in self.further)]
         kept = [
             (replace(part, measured=data, lines=None), part)
             for part, data in zip(cost.parts, tests, strict=True)

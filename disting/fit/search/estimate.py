@@ -153,14 +153,14 @@ Method = Callable[[Chain, Task, Mapping[Chain, Estimate]], Estimate]
 
 
 @one_thread()
-def estimate(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+def estimate(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
     """Best parameters of one candidate, from the data and from the fits of smaller candidates
-    in `known`.
+    in `estimates`.
     """
     task = task.on(chain)
     first = sha256(str(chain).encode()).digest()[0] % task.divided
-    starts = _stacked(list(_starts(chain, task, known))[first :: task.divided], chain, task)
-    return _best(chain, task, known, starts)
+    starts = _stacked(list(_starts(chain, task, estimates))[first :: task.divided], chain, task)
+    return _best(chain, task, estimates, starts)
 
 
 def evaluated(chain: Chain, task: Task) -> Estimate:
@@ -173,13 +173,13 @@ def evaluated(chain: Chain, task: Task) -> Estimate:
 
 
 @one_thread()
-def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
-    """The candidate's estimate in `known`, or a better one that the fits of its neighbours
+def improved(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
+    """The candidate's estimate in `estimates`, or a better one that the fits of its neighbours
     there lead to.
     """
     task = task.on(chain)
-    own, names, size = known[chain], task.names(chain), scale(task.cost.measured)
-    offered = [_common(known[c]) for c in neighbours(chain) if c in known]
+    own, names, size = estimates[chain], task.names(chain), scale(task.cost.measured)
+    offered = [_common(estimates[c]) for c in neighbours(chain) if c in estimates]
     starts = _stacked(
         [start for fit in offered for start in carried(chain, fit, size)], chain, task
     )
@@ -189,33 +189,33 @@ def improved(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estim
     p, j = np.array([own.parameters[name] for name in names]), own.j
     if costs[i] < j * (1 - GAIN):
         p, j = fine(plant, task.cost, box, points[i])
-    p, j = _nested(chain, task, known, p, j)
+    p, j = _nested(chain, task, estimates, p, j)
     tried = tuple(sorted([*own.costs, *map(float, costs)]))
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried, own.valleys)
 
 
 @one_thread()
-def refined(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
-    """The candidate's estimate in `known`, found on other lines, on those of the task; no worse
+def refined(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
+    """The candidate's estimate in `estimates`, found on other lines, on those of the task; no worse
     than what it contains.
     """
     task = task.on(chain)
-    own, names = known[chain], task.names(chain)
+    own, names = estimates[chain], task.names(chain)
     start = np.array([own.parameters[name] for name in names])
     p, j = fine(task.plant(chain), task.cost, task.box(names), start)
-    p, j = _nested(chain, task, known, p, j)
+    p, j = _nested(chain, task, estimates, p, j)
     share = j / own.j if own.j else 1.0
     costs = tuple(share * cost for cost in own.costs)
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, costs, own.valleys)
 
 
-def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Real) -> Estimate:
+def _best(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate], starts: Real) -> Estimate:
     names = task.names(chain)
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
     ends, reached = rough(plant, task.cost, box, points[different(costs, FINISHED)], ITERATIONS)
     p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
-    p, j = _nested(chain, task, known, p, j)
+    p, j = _nested(chain, task, estimates, p, j)
     return Estimate(
         chain,
         dict(zip(names, map(float, p), strict=True)),
@@ -226,11 +226,11 @@ def _best(chain: Chain, task: Task, known: Mapping[Chain, Estimate], starts: Rea
 
 
 def _nested(
-    chain: Chain, task: Task, known: Mapping[Chain, Estimate], p: Real, j: float
+    chain: Chain, task: Task, estimates: Mapping[Chain, Estimate], p: Real, j: float
 ) -> tuple[Real, float]:
     """Parameters and cost that are no worse than those of a candidate which this one contains."""
     contained = min(
-        (known[c] for c in shortened(chain) if c in known), key=lambda e: e.j, default=None
+        (estimates[c] for c in shortened(chain) if c in estimates), key=lambda e: e.j, default=None
     )
     if contained is None or contained.j * (1 + NESTED) >= j:
         return p, j
@@ -250,15 +250,15 @@ def _stacked(starts: Sequence[Parameters], chain: Chain, task: Task) -> Real:
     return stacked(whole, task.names(chain))
 
 
-def _common(found: Estimate) -> Parameters:
+def _common(the_estimate: Estimate) -> Parameters:
     """The parameters of the chain alone."""
-    return {name: found.parameters[name] for name in found.chain.parameters}
+    return {name: the_estimate.parameters[name] for name in the_estimate.chain.parameters}
 
 
-def _own(found: Estimate) -> dict[str, float]:
+def _own(the_estimate: Estimate) -> dict[str, float]:
     """Dead times of single responses."""
-    chain = found.chain.parameters
-    return {name: value for name, value in found.parameters.items() if name not in chain}
+    chain = the_estimate.chain.parameters
+    return {name: value for name, value in the_estimate.parameters.items() if name not in chain}
 
 
 def different(costs: Real, most: int) -> list[int]:
@@ -270,22 +270,22 @@ def different(costs: Real, most: int) -> list[int]:
     return chosen
 
 
-def _starts(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Iterator[Parameters]:
+def _starts(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Iterator[Parameters]:
     """All starts of one candidate."""
     size = scale(task.cost.measured)
     seen = list(from_extrema(chain, task.cost.measured))
     yield from seen
     for joint, fewer in merged(chain):
-        if fewer in known:
-            yield from split(chain, joint, _common(known[fewer]), size)
+        if fewer in estimates:
+            yield from split(chain, joint, _common(estimates[fewer]), size)
     for fewer, joint in {fewer: joint for joint, fewer in merged(chain)}.items():
-        if fewer in known:
+        if fewer in estimates:
             response = Plant(fewer.structure, task.cost.measured.omega, task.sign).response(
-                np.array(list(_common(known[fewer]).values()))
+                np.array(list(_common(estimates[fewer]).values()))
             )
             missed = conspicuous(task.cost.measured, response)
-            yield from paired(chain, joint, _common(known[fewer]), size, missed)
+            yield from paired(chain, joint, _common(estimates[fewer]), size, missed)
     for fewer in shortened(chain):
-        if fewer in known:
-            yield from extended(chain, _common(known[fewer]), size)
+        if fewer in estimates:
+            yield from extended(chain, _common(estimates[fewer]), size)
     yield from random(chain, size, task.seed, FEW if seen else MANY)

@@ -63,7 +63,7 @@ def estimates(
         )
         return {e.chain: e for e in polished(rough.values(), task, store, executor, progress)}
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
-    known: dict[Chain, Estimate] = {}
+    own_estimates: dict[Chain, Estimate] = {}
     for _, variants in groupby(wanted, key=body):
         fellows = list(variants)
         part = (
@@ -73,17 +73,19 @@ def estimates(
         )
         for _, stage in groupby(fellows, key=_stage):
             whole = list(stage)
-            known |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
-            helpful = {c: _helpful(c, known) for c in whole if c not in known}
-            progress("fit", len(known), len(wanted))
-            for found in _results(run, helpful, part, store, executor):
-                known[found.chain] = found
-                progress("fit", len(known), len(wanted))
+            own_estimates |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+            helpful = {c: _helpful(c, own_estimates) for c in whole if c not in own_estimates}
+            progress("fit", len(own_estimates), len(wanted))
+            for the_estimate in _results(run, helpful, part, store, executor):
+                own_estimates[the_estimate.chain] = the_estimate
+                progress("fit", len(own_estimates), len(wanted))
         if method is None:
-            for found in _exchanged({c: known[c] for c in fellows}, task, store, executor):
-                known[found.chain] = found
-                progress("fit", len(known), len(wanted))
-    return known
+            for the_estimate in _exchanged(
+                {c: own_estimates[c] for c in fellows}, task, store, executor
+            ):
+                own_estimates[the_estimate.chain] = the_estimate
+                progress("fit", len(own_estimates), len(wanted))
+    return own_estimates
 
 
 def polished(
@@ -96,28 +98,33 @@ def polished(
     """The estimates of a search on few lines, or by another cost, brought to the last digit of the
     task; what a candidate contains comes before it.
     """
-    own = {one.chain: one for one in rough}
-    found: dict[Chain, Estimate] = {}
+    own = {this_estimate.chain: this_estimate for this_estimate in rough}
+    the_estimates: dict[Chain, Estimate] = {}
     for _, stage in groupby(sorted(own, key=_stage), key=_stage):
         whole = list(stage)
-        found |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
-        helpful = {c: _helpful(c, found) | {c: own[c]} for c in whole if c not in found}
-        for one in _results(refined, helpful, task, store, executor):
-            found[one.chain] = one
-            progress("last digits", len(found), len(own))
-    return [found[c] for c in own]
+        the_estimates |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+        helpful = {
+            c: _helpful(c, the_estimates) | {c: own[c]} for c in whole if c not in the_estimates
+        }
+        for this_estimate in _results(refined, helpful, task, store, executor):
+            the_estimates[this_estimate.chain] = this_estimate
+            progress("last digits", len(the_estimates), len(own))
+    return [the_estimates[c] for c in own]
 
 
-def explored(known: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:
+def explored(own_estimates: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:
     """The task on few lines, on which much can be tried, and estimates of the whole one there."""
     few = task.thinned(SEARCHED)
     if few is task:
-        return task, list(known)
-    return few, [refined(one.chain, few, {one.chain: one}) for one in known]
+        return task, list(own_estimates)
+    return few, [
+        refined(this_estimate.chain, few, {this_estimate.chain: this_estimate})
+        for this_estimate in own_estimates
+    ]
 
 
 def _exchanged(
-    known: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None
+    own_estimates: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None
 ) -> Iterator[Estimate]:
     """Better estimates of variants of one chain, from the fits of neighbours that have changed,
     until none changes.
@@ -125,21 +132,23 @@ def _exchanged(
     All candidates of a round start from the estimates before it: their order and the number of
     workers do not matter.
     """
-    changed, left = set(known), ROUNDS
+    changed, left = set(own_estimates), ROUNDS
     while changed and left:
-        offers = {c: changed.intersection(neighbours(c)) for c in known if not _is_given(c, task)}
+        offers = {
+            c: changed.intersection(neighbours(c)) for c in own_estimates if not _is_given(c, task)
+        }
         helpful = {
-            c: {o: known[o] for o in known if o in near or o == c}
+            c: {o: own_estimates[o] for o in own_estimates if o in near or o == c}
             for c, near in offers.items()
             if near
         }
         left -= 1
-        after = dict(known)
-        for found in _results(improved, helpful, task, store, executor):
-            after[found.chain] = found
-            yield found
-        changed = {c for c in known if after[c].j < known[c].j}
-        known = after
+        after = dict(own_estimates)
+        for the_estimate in _results(improved, helpful, task, store, executor):
+            after[the_estimate.chain] = the_estimate
+            yield the_estimate
+        changed = {c for c in own_estimates if after[c].j < own_estimates[c].j}
+        own_estimates = after
 
 
 def _results(
@@ -155,22 +164,22 @@ def _results(
     keys = {c: _key(c, task, near, run.__name__) for c, near in helpful.items()}
     stored = store.get_many(keys.values())
     yield from (estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored)
-    for _, found in mapped(
+    for _, the_estimate in mapped(
         run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor
     ):
-        text = estimate_to_json(found)
-        store.put_many({keys[found.chain]: text})
-        yield estimate_from_json(found.chain, text)  # as it is read the next time
+        text = estimate_to_json(the_estimate)
+        store.put_many({keys[the_estimate.chain]: text})
+        yield estimate_from_json(the_estimate.chain, text)  # as it is read the next time
 
 
-def estimate_to_json(found: Estimate) -> str:
+def estimate_to_json(the_estimate: Estimate) -> str:
     """Text that `estimate_from_json` reads back bit-equal."""
     return json.dumps(
         {
-            "parameters": found.parameters,
-            "j": found.j,
-            "costs": found.costs,
-            "valleys": found.valleys,
+            "parameters": the_estimate.parameters,
+            "j": the_estimate.j,
+            "costs": the_estimate.costs,
+            "valleys": the_estimate.valleys,
         }
     )
 
@@ -216,11 +225,11 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
 
 def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:
     """The candidates and, repeatedly, those with two neighbouring masses merged."""
-    found, new = set[Chain](), set(candidates)
+    chains, new = set[Chain](), set(candidates)
     while new:
-        found |= new
-        new = {fewer for chain in new for _, fewer in merged(chain)} - found
-    return found
+        chains |= new
+        new = {fewer for chain in new for _, fewer in merged(chain)} - chains
+    return chains
 
 
 def _is_given(chain: Chain, task: Task) -> bool:
@@ -228,10 +237,10 @@ def _is_given(chain: Chain, task: Task) -> bool:
     return set(task.names(chain)) <= set(task.fixed)
 
 
-def _helpful(chain: Chain, known: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:
+def _helpful(chain: Chain, own_estimates: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:
     """What one candidate's starts come from; a worker needs no more."""
     near = {*(c for _, c in merged(chain)), *shortened(chain)}
-    return {c: known[c] for c in known if c in near}
+    return {c: own_estimates[c] for c in own_estimates if c in near}
 
 
 def body(chain: Chain) -> tuple[int, str]:

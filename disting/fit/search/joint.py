@@ -88,15 +88,15 @@ class JointPlant:
         """Each part with its own parameters, where these stand in `p`, and the motion of its
         machine, computed once a state.
         """
-        known: dict[tuple[object, ...], Motion] = {}
+        units: dict[tuple[object, ...], Motion] = {}
         found = []
         for part, at in zip(self.parts, self._places, strict=True):
             force = part.structure.ports[:2]
             lines = part.omega.tobytes(), part.window and part.window.duration
             state, own = (force, part.still, part.added, *lines), p[..., at]
-            if state not in known:
-                known[state] = part.motion(own)
-            found.append((part, own, at, known[state]))
+            if state not in units:
+                units[state] = part.motion(own)
+            found.append((part, own, at, units[state]))
         return found
 
     @cached_property
@@ -156,14 +156,14 @@ class JointCost(SquaredCost):
         each = zip(self.parts, self.by_line(response), self.by_line(gradient), strict=True)
         return np.concatenate([part.sensitivity(*own) for part, *own in each], axis=-2)
 
-    def scatter(self, known: Scatter) -> Real:
+    def scatter(self, scatter: Scatter) -> Real:
         """Standard deviation of the residuals, shape (2 n_f,), of data that scatter so."""
-        each = zip(self.parts, self._of_each(known), strict=True)
+        each = zip(self.parts, self._of_each(scatter), strict=True)
         return np.concatenate([part.scatter(own) for part, own in each])
 
-    def likely(self, known: Scatter) -> "JointCost":
+    def likely(self, scatter: Scatter) -> "JointCost":
         """The sum of those of all responses, which are independent."""
-        each = zip(self.parts, self._of_each(known), strict=True)
+        each = zip(self.parts, self._of_each(scatter), strict=True)
         return replace(self, parts=tuple(part.likely(own) for part, own in each))
 
     def windowed(self) -> "JointCost":
@@ -175,10 +175,10 @@ class JointCost(SquaredCost):
         """The cost that leads a search: of logarithms."""
         return replace(self, parts=tuple(part.leading for part in self.parts))
 
-    def _of_each(self, known: Scatter) -> Iterator[Scatter]:
+    def _of_each(self, scatter: Scatter) -> Iterator[Scatter]:
         """The scatter of each response."""
         ends = np.cumsum([0, *(len(part.measured) for part in self.parts)])
-        return (known.at(slice(*both)) for both in pairwise(ends))
+        return (scatter.at(slice(*both)) for both in pairwise(ends))
 
     def plant(self, structure: Structure, sign: int) -> JointPlant:
         """The structure under each setup at the lines of the data."""

@@ -98,9 +98,9 @@ class Plant:
         self, p: Real, motion: "Motion | None" = None
     ) -> tuple[Complex, Complex]:
         """G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
-        ports, s, known = self.structure.ports, self._s, motion or self.motion(p)
-        x = known.x
-        y = x if self._is_collocated else known.adjoint(ports, self.still)
+        ports, s, unit = self.structure.ports, self._s, motion or self.motion(p)
+        x = unit.x
+        y = x if self._is_collocated else unit.adjoint(ports, self.still)
         receptance = _difference(x, ports.meas_minus, ports.meas_plus)
         scaled = x / -receptance[..., None, :]
         gradient = np.empty((*p.shape, s.size), dtype=np.complex128)

@@ -83,10 +83,13 @@ class Setup:
 
     def moved(self, n: int, place: Callable[[int], int]) -> "Setup":
         """The same on another chain, at the masses that those of a chain of n masses become."""
-        there = self.experiment(n).moved(place)
-        changes = tuple(change.moved(str) for change in there.changes)
+        experiment = self.experiment(n).moved(place)
+        changes = tuple(change.moved(str) for change in experiment.changes)
         return replace(
-            self, sensor=_written(there.sensor), force=_written(there.force), changes=changes
+            self,
+            sensor=_written(experiment.sensor),
+            force=_written(experiment.force),
+            changes=changes,
         )
 
     def still(self, n: int) -> tuple[int, ...]:

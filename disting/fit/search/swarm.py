@@ -42,9 +42,9 @@ def search_box(chain: Chain, task: Task) -> tuple[Real, Real]:
     )
 
 
-def by_swarm(chain: Chain, task: Task, known: Mapping[Chain, Estimate]) -> Estimate:
+def by_swarm(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
     """Best parameters that a particle swarm finds; `costs` are those of the last generation,
-    other fits in `known` unused.
+    other fits in `estimates` unused.
     """
     low, high = search_box(chain, task)
     plant = task.plant(chain)

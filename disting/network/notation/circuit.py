@@ -44,19 +44,19 @@ def netlist(text: str, name: str) -> Network:
         if line.startswith("*") or line.lower().startswith(".end"):
             continue
         port, element = PORT.fullmatch(line), LINE.fullmatch(line)
-        found = port or element
-        if found is None:
+        match = port or element
+        if match is None:
             raise InputError(
                 f"{shown(line)} is no line of a netlist: write R, L, C, W or P, a number and two"
                 " nodes, as in R1 1 2, or port 1 0"
             )
         *_, a, b = (
-            numbers.setdefault(node, len(set(numbers.values()))) for node in found.groups()[-2:]
+            numbers.setdefault(node, len(set(numbers.values()))) for node in match.groups()[-2:]
         )
         if port:
             ports.append(Port(a, b))
         else:
-            elements.append(Element(found[1], found[1][0], (a, b)))
+            elements.append(Element(match[1], match[1][0], (a, b)))
     if len(set(ports)) > 1:
         raise InputError("a netlist has one port: leave the other port and the sources away")
     if not ports and "1" not in numbers:
@@ -175,11 +175,11 @@ class _Reader:
                 self.at, self.depth = self.at + 1, self.depth + 1
                 if self.depth > DEEPEST:
                     raise InputError(f"brackets are nested more than {DEEPEST} deep")
-                found = read()
+                series = read()
                 if self.next != last:
                     raise self.problem(f"{last} is missing, which closes {opening}")
                 self.at, self.depth = self.at + 1, self.depth - 1
-                return found
+                return series
         return self.element()
 
     def parallel(self) -> Part:

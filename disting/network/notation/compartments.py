@@ -41,14 +41,14 @@ def compartments(text: str, name: str) -> Network:
             ports.setdefault(port[1], []).extend(map(int, port[2].split(",")))
             continue
         for arrow in part.split(","):
-            found = ARROW.fullmatch(arrow)
-            if not found:
+            match = ARROW.fullmatch(arrow)
+            if not match:
                 raise InputError(
                     f"{shown(arrow.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
                     " 1; out 1 (out 1, 2 of two)"
                 )
-            a, b = int(found[1]), int(found[3])
-            flows += [(a, b), (b, a)] if found[2] == "<>" else [(a, b)]
+            a, b = int(match[1]), int(match[3])
+            flows += [(a, b), (b, a)] if match[2] == "<>" else [(a, b)]
     return of_flows(flows, ports.get("in", []), ports.get("out", []), name)
 
 

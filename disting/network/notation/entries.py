@@ -40,10 +40,10 @@ def network_of_entry(entry: Entry, name: str) -> Network:
     for key in ("circuit", "machine", "network"):
         if key in entry:
             text = of_type(entry[key], str, f'"{key}" is a text')
-            found = network_of(text, _notation(key, notation), name=name, quantity=quantity)
-            if key == "circuit" and found.sort is not Sort.CIRCUIT:
+            network = network_of(text, _notation(key, notation), name=name, quantity=quantity)
+            if key == "circuit" and network.sort is not Sort.CIRCUIT:
                 raise InputError(f'{shown(text)} is no circuit: write it as "network"')
-            return found
+            return network
     if "components" in entry:
         return drive_train(entry, name).network
     return _of_flows(entry, name) if "flows" in entry else _of_elements(entry, name, quantity)

@@ -96,11 +96,11 @@ def _joints(run: str) -> Iterator[Joint]:
     if not run[at:].strip():
         raise InputError(f"{shown(run.strip())} is joined with nothing: {HELP}")
     while run[at:].strip():
-        found = JOINT.match(run, at)
-        if not found:
+        match = JOINT.match(run, at)
+        if not match:
             raise InputError(f"{shown(run[at:].strip())} after mass {node} is no joint: {HELP}")
-        yield _number(node), _number(found[2]), found[1], found[3] or ""
-        at, node = found.end(), found[2]
+        yield _number(node), _number(match[2]), match[1], match[3] or ""
+        at, node = match.end(), match[2]
 
 
 def _number(node: str) -> int:
@@ -110,12 +110,12 @@ def _number(node: str) -> int:
 
 
 def _port(word: str) -> tuple[str, Port]:
-    found = PORT.fullmatch(word)
-    if not found:
+    match = PORT.fullmatch(word)
+    if not match:
         raise InputError(
             f"{shown(word)} is no force or sensor: write F1 or S4, or F1:3 between two"
         )
-    return found[1], Port(_number(found[2]), _number(found[3] or "#"))
+    return match[1], Port(_number(match[2]), _number(match[3] or "#"))
 
 
 def _joints_of_drawing(text: str) -> tuple[list[Joint], list[tuple[str, Port]]]:

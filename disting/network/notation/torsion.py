@@ -248,7 +248,7 @@ def _sizes(
     """Of all elements of the network, by letter, nodes and ratio: side by side they are one; masses
     come first.
     """
-    found = dict[Key, Fraction]()
+    numbers = dict[Key, Fraction]()
     for part in built.parts:
         (a, f), (b, g) = (factors[nodes[place]] for place in (part.start, part.end))
         damping, inertia = _number(part, "damping"), _number(part, "inertia")
@@ -264,9 +264,9 @@ def _sizes(
             ends = (i, j, abs(g / f))
             sizes = {("k", *ends): stiffness * f**2, ("d", *ends): damping * f**2}
         for key, size in sizes.items():
-            found[key] = found.get(key, Fraction(0)) + size
-    ordered = sorted(found, key=lambda key: ("mkd".index(key[0]), *key[1:]))
-    return {key: found[key] for key in ordered if found[key]}
+            numbers[key] = numbers.get(key, Fraction(0)) + size
+    ordered = sorted(numbers, key=lambda key: ("mkd".index(key[0]), *key[1:]))
+    return {key: numbers[key] for key in ordered if numbers[key]}
 
 
 def _elements(sizes: Mapping[Key, Fraction]) -> list[Element]:

@@ -229,9 +229,9 @@ def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
 
 
 def _fall_apart(small: Chain, large: Chain, small_rank: int, large_rank: int) -> bool:
-    """Whether, written out, the first one's relative degree is `here` at least, the second one's
-    always `there`, smaller; or the first one's `here`, the second one's never below `there`,
-    larger.
+    """Whether, written out, the first one's relative degree is `small_rank` at least, the second
+    one's always `large_rank`, smaller; or the first one's `small_rank`, the second one's never
+    below `large_rank`, larger.
 
     That is so if both leading coefficients are products of elements; or that of the denominator.
     """

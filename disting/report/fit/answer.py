@@ -52,18 +52,18 @@ class Row:
     remark: str = ""
 
 
-def result_row(found: Result, measured: FrequencyResponse) -> Row:
+def result_row(result: Result, measured: FrequencyResponse) -> Row:
     """A physical result in the units of the data."""
-    share = found.standard_error / abs(found.value) if found.value else 0.0
+    share = result.standard_error / abs(result.value) if result.value else 0.0
     low, high = measured.frequency[0], measured.frequency[-1]
-    outside = found.unit == "Hz" and not low <= found.value <= high
+    outside = result.unit == "Hz" and not low <= result.value <= high
     remark = "outside the measured band" if outside else ""
     # follows its mode
-    what = "its damping ratio" if found.name.startswith("damping ratio") else found.name
+    what = "its damping ratio" if result.name.startswith("damping ratio") else result.name
     return Row(
         what,
-        with_error(found.value, found.standard_error),
-        result_unit(found, measured),
+        with_error(result.value, result.standard_error),
+        result_unit(result, measured),
         error_in_percent(share),
         remark,
     )

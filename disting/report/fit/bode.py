@@ -97,7 +97,7 @@ def bode(
     """
     series = series_of(candidate, task, train, test, at)
     line = model_line(candidate, task, [s.measured for s in series], at)
-    found = marks(results, line.omega) if at == 0 else []
+    the_marks = marks(results, line.omega) if at == 0 else []
     inertias = asymptotes(candidate.chain, results, line.omega, train) if at == 0 else []
     what = name(candidate.chain) + (f", {task.cost.setups[at].text}" if at else "")
     strips = any(s.measured.coherence is not None for s in series)
@@ -118,21 +118,21 @@ def bode(
         _phase(panels[1], line, series)
         if strips:
             _coherence(panels[2], series)
-        _marks(panels[0], panels[1], line, found, figure.get_figwidth() - FRAME)
+        _marks(panels[0], panels[1], line, the_marks, figure.get_figwidth() - FRAME)
         panels[-1].set_xlabel("Frequency [Hz]")
         heading(figure, f"Measured response and model: {what}")
         columns = 2 if is_narrow(figure) else 3
         figure.legend(loc="outside lower center", ncols=columns, columnspacing=2)
 
-    title = f"Bode diagram of {what} and the data. {_in_words(found)}"
+    title = f"Bode diagram of {what} and the data. {_in_words(the_marks)}"
     size = 6.4 + 0.8 * strips + tall, 6.2 + 0.8 * strips + tall
     return drawn(f"bode-{at + 1}" if at else "bode", title, size, draw)
 
 
-def _in_words(found: Sequence[Mark]) -> str:
+def _in_words(the_marks: Sequence[Mark]) -> str:
     return ", ".join(
         f"{m.kind} {readable(m.frequency)} Hz with damping ratio {readable(m.damping, 2)}"
-        for m in found
+        for m in the_marks
     )
 
 
@@ -164,7 +164,7 @@ def marks(results: Sequence[Result], omega: Real) -> list[Mark]:
     """
     values = {r.name: r.value for r in results}
     low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
-    found = [
+    the_marks = [
         Mark(kind, value, values[f"damping ratio of {key}"])
         for key, value in values.items()
         for kind in MARKERS
@@ -172,7 +172,7 @@ def marks(results: Sequence[Result], omega: Real) -> list[Mark]:
         and low <= value <= high
         and values[f"damping ratio of {key}"] < PEAK
     ]
-    return sorted(found, key=lambda m: m.frequency)
+    return sorted(the_marks, key=lambda m: m.frequency)
 
 
 def asymptotes(
@@ -197,8 +197,8 @@ def asymptotes(
     ]
 
 
-def _inertia(found: Result, chain: Chain, omega: Real) -> Real:
-    return np.asarray(omega ** (chain.sensor.order - 2) / found.value)
+def _inertia(result: Result, chain: Chain, omega: Real) -> Real:
+    return np.asarray(omega ** (chain.sensor.order - 2) / result.value)
 
 
 def _amplitude(
@@ -256,24 +256,26 @@ def _coherence(panel: "Axes", series: Sequence[Series]) -> None:
     panel.set_ylabel("Coherence")
 
 
-def _marks(top: "Axes", below: "Axes", line: Line, found: Sequence[Mark], width: float) -> None:
+def _marks(top: "Axes", below: "Axes", line: Line, the_marks: Sequence[Mark], width: float) -> None:
     """Signs on the model's line, thin lines through both panels, and labels above that keep their
     distance.
 
     `width` of the panels [inch]; where it is scarce, the labels go without their unit.
     """
     low, high = top.get_xlim()
-    places = [log(m.frequency / low) / log(high / low) for m in found]
-    unit = " Hz" if LABEL * len(found) <= width else ""
-    labels = spread(places, min((LABEL if unit else SHORT_LABEL) / width, 1 / max(len(found), 1)))
+    places = [log(m.frequency / low) / log(high / low) for m in the_marks]
+    unit = " Hz" if LABEL * len(the_marks) <= width else ""
+    labels = spread(
+        places, min((LABEL if unit else SHORT_LABEL) / width, 1 / max(len(the_marks), 1))
+    )
     for kind, marker in MARKERS.items():
-        at = [m.frequency for m in found if m.kind == kind]
+        at = [m.frequency for m in the_marks if m.kind == kind]
         heights = np.interp(np.array(at), line.omega / (2 * pi), np.abs(line.G))
         said = f"{kind}, ζ: damping ratio" if at else ""
         top.plot(
             at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=said
         )
-    for mark, place, label in zip(found, places, labels, strict=True):
+    for mark, place, label in zip(the_marks, places, labels, strict=True):
         for panel in (top, below):
             panel.axvline(
                 mark.frequency, color=Tone.MUTED, linewidth=0.7, linestyle=(0, (1, 2)), zorder=1

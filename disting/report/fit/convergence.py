@@ -30,8 +30,8 @@ def hits(candidate: Candidate) -> int:
 
 def hits_in_words(candidate: Candidate) -> str:
     """How many starts reached the best cost."""
-    found = candidate.estimate
-    said = f"{hits(candidate)} of {len(found.costs)} starts ({percent(found.hit_rate)})"
+    estimate = candidate.estimate
+    said = f"{hits(candidate)} of {len(estimate.costs)} starts ({percent(estimate.hit_rate)})"
     return f"{said} within {percent(REACHED)} of the best cost"
 
 
@@ -93,8 +93,8 @@ def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]
         """A panel a parameter."""
         columns = NARROW_COLUMNS if is_narrow(figure) else COLUMNS
         panels = figure.subplots(rows(columns), columns, squeeze=False).ravel()
-        for place, (panel, found) in enumerate(zip(panels, profiles, strict=False)):
-            _profile(panel, candidate, task, found, unit=not is_narrow(figure))
+        for place, (panel, profile) in enumerate(zip(panels, profiles, strict=False)):
+            _profile(panel, candidate, task, profile, unit=not is_narrow(figure))
             if place + columns >= len(profiles):
                 panel.set_xlabel("Change [%]")
         for panel in panels[len(profiles) :]:
@@ -119,7 +119,7 @@ def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]
 
 
 def _profile(
-    panel: "Axes", candidate: Candidate, task: Task, found: Profile, *, unit: bool
+    panel: "Axes", candidate: Candidate, task: Task, profile: Profile, *, unit: bool
 ) -> None:
     """J(p) and J (1 + (ln p/p0)^2 / (sigma^2 (n_y - N_p))), what it would be were the model
     linear in ln p.
@@ -127,11 +127,11 @@ def _profile(
     from matplotlib.ticker import FuncFormatter
 
     best, sigma = (
-        candidate.estimate.parameters[found.name],
-        candidate.practical.relative_errors[found.name],
+        candidate.estimate.parameters[profile.name],
+        candidate.practical.relative_errors[profile.name],
     )
     freedom = task.cost.n_residuals - candidate.n_parameters
-    fine = np.geomspace(found.values[0], found.values[-1], 60)
+    fine = np.geomspace(profile.values[0], profile.values[-1], 60)
     if np.isfinite(sigma) and freedom > 0:
         parabola = candidate.j_train * (1 + (np.log(fine / best) / sigma) ** 2 / freedom)
         panel.plot(
@@ -140,11 +140,11 @@ def _profile(
         limit = candidate.j_train * (1 + LIMIT / freedom)
         panel.axhline(limit, color=Tone.MUTED, linestyle=(0, (1, 2)), linewidth=1.2)
     panel.plot(
-        _change(found.values, best), found.costs, "-o", ms=3.5, color=Tone.FIRST, linewidth=1.2
+        _change(profile.values, best), profile.costs, "-o", ms=3.5, color=Tone.FIRST, linewidth=1.2
     )
     panel.axvline(0, color=Tone.MUTED, linewidth=0.8)
-    of = f" {unit_of(found.name[0], task.cost.measured)}" if unit else ""
-    panel.set_title(f"{found.name} = {readable(best)}{of}", weight="normal")
+    of = f" {unit_of(profile.name[0], task.cost.measured)}" if unit else ""
+    panel.set_title(f"{profile.name} = {readable(best)}{of}", weight="normal")
     panel.ticklabel_format(axis="y", useOffset=False)
     panel.locator_params(axis="x", nbins=4)
     panel.xaxis.set_major_formatter(

@@ -82,8 +82,8 @@ def _panels(
             *((len(CRITERIA), 1) if narrow else (1, len(CRITERIA))), sharey=True
         )
         for panel, criterion in zip(panels, CRITERIA, strict=True):
-            found = sweep(candidates, criterion)
-            _steps(panel, found.thresholds, values(found), getattr(thresholds, criterion))
+            the_sweep = sweep(candidates, criterion)
+            _steps(panel, the_sweep.thresholds, values(the_sweep), getattr(thresholds, criterion))
             panel.set_title(TITLES[criterion], weight="normal")
         for panel in panels[-1:] if narrow else panels:
             panel.set_xlabel("Threshold")

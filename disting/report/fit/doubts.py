@@ -22,10 +22,12 @@ MOST_CLEAR = 0.7  # share of the lines that carry information, above which no ba
 HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
 
 
-def unseen(found: Selection) -> Iterator[str]:
+def unseen(selection: Selection) -> Iterator[str]:
     """Resonances of the described candidate of which the lines show flanks at most."""
-    chain, values = found.described.chain, found.described.estimate.parameters
-    for pole, zero in between_lines(chain.structure, values, found.task.cost.measured.frequency):
+    chain, values = selection.described.chain, selection.described.estimate.parameters
+    for pole, zero in between_lines(
+        chain.structure, values, selection.task.cost.measured.frequency
+    ):
         yield (
             f"{reference(chain)} has a resonance at {pole:.5g} Hz and an antiresonance at"
             f" {zero:.5g} Hz. Both lie between two measured lines and are narrower than the"
@@ -45,38 +47,38 @@ def suspicious_data(cost: AnyCost) -> Iterator[str]:
         yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
 
 
-def doubled(found: Selection) -> Iterator[str]:
+def doubled(selection: Selection) -> Iterator[str]:
     """Test data that are the training data once more."""
-    train = found.task.cost.measured
-    if found.test is not train and found.test == train:
+    train = selection.task.cost.measured
+    if selection.test is not train and selection.test == train:
         yield (
             "training and test data are the same numbers: nothing is validated; measure again, or"
             " leave --test away"
         )
 
 
-def bad(found: Selection) -> tuple[str, ...]:
+def bad(selection: Selection) -> tuple[str, ...]:
     """Single lines that make most of a misfit."""
-    if found.explanation.explains and not found.better:
+    if selection.explanation.explains and not selection.better:
         return ()
-    said = bad_lines(found.candidates, found.described, found.task)
+    said = bad_lines(selection.candidates, selection.described, selection.task)
     return () if said is None else (said,)
 
 
-def doubtful_deviations(found: Selection) -> Iterator[str]:
+def doubtful_deviations(selection: Selection) -> Iterator[str]:
     """What contradicts the standard deviations of the data."""
-    if found.explanation.scatter.doubt:
-        yield found.explanation.scatter.doubt
+    if selection.explanation.scatter.doubt:
+        yield selection.explanation.scatter.doubt
 
 
-def clear_band(found: Selection) -> Iterator[str]:
+def clear_band(selection: Selection) -> Iterator[str]:
     """The frequencies that carry information, where many others do not."""
-    data = found.judging.parts[0].measured
-    rho = found.explanation.scatter.rho[: len(data)]
+    data = selection.judging.parts[0].measured
+    rho = selection.explanation.scatter.rho[: len(data)]
     clear = np.flatnonzero(median_filter(rho, SMOOTHED, mode="nearest") < CLEAR)
     runs = np.split(clear, np.flatnonzero(np.diff(clear) > 1) + 1)
     longest = max(runs, key=len)
-    if len(longest) >= FEWEST and found.explanation.scatter.clear < MOST_CLEAR:
+    if len(longest) >= FEWEST and selection.explanation.scatter.clear < MOST_CLEAR:
         low, high = (data.frequency[i] for i in (longest[0], longest[-1]))
         yield (
             f"from {low:.4g} to {high:.4g} Hz the lines scatter by less than {100 * CLEAR:.0f} %:"
@@ -84,15 +86,15 @@ def clear_band(found: Selection) -> Iterator[str]:
         )
 
 
-def better(found: Selection) -> Iterator[str]:
+def better(selection: Selection) -> Iterator[str]:
     """The excluded candidate that fits better than the selected one."""
-    if found.selected is None or not found.better:
+    if selection.selected is None or not selection.better:
         return
-    best, more = found.better[0], len(found.better) - 1
+    best, more = selection.better[0], len(selection.better) - 1
     others = f" ({more} more)" if more else ""
     yield (
         f"{reference(best.chain)}{others} fits better, J = {best.j_test:.3g} instead of"
-        f" {found.selected.j_test:.3g}, but is not admissible: {'; '.join(best.reasons)}"
+        f" {selection.selected.j_test:.3g}, but is not admissible: {'; '.join(best.reasons)}"
     )
 
 
@@ -108,18 +110,22 @@ def disagreeing(both: tuple[Disagreement, ...]) -> str:
     )
 
 
-def changing(found: Selection) -> Iterator[str]:
+def changing(selection: Selection) -> Iterator[str]:
     """A machine that is not the same in both measurements."""
-    setups = found.task.cost.setups
-    tests = zip(partners(found.task.cost, found.judging), found.judging.parts, strict=True)
+    setups = selection.task.cost.setups
+    tests = zip(
+        partners(selection.task.cost, selection.judging), selection.judging.parts, strict=True
+    )
     for k, (train, judged) in enumerate(tests):
-        test, at = judged.measured, setups.index(found.judging.setups[k])
-        of = _of_each(found.judging)[k]
-        fitted = [response_of(found.described, found.task, d.omega, at) for d in (train, test)]
-        known = [scatter(d, [own]) for d, own in zip((train, test), fitted, strict=True)]
-        tau = changed(train, test, *known)
+        test, at = judged.measured, setups.index(selection.judging.setups[k])
+        of = _of_each(selection.judging)[k]
+        fitted = [
+            response_of(selection.described, selection.task, d.omega, at) for d in (train, test)
+        ]
+        scatters = [scatter(d, [own]) for d, own in zip((train, test), fitted, strict=True)]
+        tau = changed(train, test, *scatters)
         if tau:
-            own = max(one.typical for one in known)
+            own = max(this_scatter.typical for this_scatter in scatters)
             yield (
                 f"training and test data{of} differ by {100 * tau:.2g} % a line beyond their"
                 f" scatter of {100 * own:.2g} %: the machine changed between them, for example its"
@@ -127,25 +133,27 @@ def changing(found: Selection) -> Iterator[str]:
             )
 
 
-def hanging(found: Selection) -> Iterator[str]:
+def hanging(selection: Selection) -> Iterator[str]:
     """Residuals that hang together: what is left is not noise."""
-    candidate, cost = found.described, found.task.cost
-    there = found.task.plant(candidate.chain)
-    values = [candidate.estimate.parameters[n] for n in found.task.names(candidate.chain)]
-    size = correlations(cost, cost.residual(there.response(np.array(values))))
-    if size > HANGING and found.explanation.explains:
+    candidate, cost = selection.described, selection.task.cost
+    plant = selection.task.plant(candidate.chain)
+    values = [candidate.estimate.parameters[n] for n in selection.task.names(candidate.chain)]
+    size = correlations(cost, cost.residual(plant.response(np.array(values))))
+    if size > HANGING and selection.explanation.explains:
         yield (
             f"residuals of neighbouring lines are correlated by {size:.2f} on the training data:"
             " the model misses something small; the standard errors allow for it"
         )
 
 
-def weak(found: Selection) -> Iterator[str]:
+def weak(selection: Selection) -> Iterator[str]:
     """Parameters of the selected candidate that are known badly."""
-    if found.selected is None:
+    if selection.selected is None:
         return
-    wide = found.members[0].intervals if found.members else {}
-    loose = {n: e for n, e in found.selected.practical.relative_errors.items() if not e <= KNOWN}
+    wide = selection.members[0].intervals if selection.members else {}
+    loose = {
+        n: e for n, e in selection.selected.practical.relative_errors.items() if not e <= KNOWN
+    }
     said = [
         f"{n} {limits_in_words(*wide[n])}" if n in wide and not e <= FROM_ZERO else _loose(n, e)
         for n, e in loose.items()

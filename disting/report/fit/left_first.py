@@ -28,22 +28,22 @@ class Reach:
     left: tuple[tuple[int, float], ...]
 
 
-def again(found: Onward) -> str:
+def again(lead: Onward) -> str:
     """The command that fits what the first sentence advises together with the data of the fit, NEW
     its file; "" where the file of the fit does not tell its command, or leaves one structure.
     """
-    if not found.named.command or len(found.left) < 2:
+    if not lead.named.command or len(lead.left) < 2:
         return ""
-    best = _best(found, found.seen, _others(found)) if found.seen else None
+    best = _best(lead, lead.seen, _others(lead)) if lead.seen else None
     what = "sensor=MASS"
     if best is not None:
         kind, size = best.item.kind, ":SIZE" if best.item.kind.takes_size else ""
         what = f"{kind.name}={best.item.at}{size}"
-    given = f"--left {shlex.quote(found.source)} --experiment NEW:{what}"
-    return f"{found.named.command} {given}"
+    given = f"--left {shlex.quote(lead.source)} --experiment NEW:{what}"
+    return f"{lead.named.command} {given}"
 
 
-def first_sentence(found: Onward) -> str:
+def first_sentence(lead: Onward) -> str:
     """The experiment that parts the selected structure from most of the others, of equals the
     cheapest, and what it leaves; "" where the lines of the data are not known.
 
@@ -52,26 +52,26 @@ def first_sentence(found: Onward) -> str:
     of which the selected structure is a limit, such as one with more masses, can follow it. Where
     one structure is left the sentence says so, and what would narrow its worst parameter.
     """
-    if len(found.left) == 1:
-        return "; ".join(_alone(found.named, found.source))
-    if found.seen is None:
+    if len(lead.left) == 1:
+        return "; ".join(_alone(lead.named, lead.source))
+    if lead.seen is None:
         return ""
-    selected = found.left[0]
-    others = _others(found)
-    larger = [k for k in range(1, len(found.left)) if k not in others]
-    best = _best(found, found.seen, others)
+    selected = lead.left[0]
+    others = _others(lead)
+    larger = [k for k in range(1, len(lead.left)) if k not in others]
+    best = _best(lead, lead.seen, others)
     said = (
         f"if the machine is {selected.name}, no experiment on the menu excludes another structure"
         f" with power {percent(POWER)}"
     )
     if best is not None:
         said = (
-            f"measure next: {best.item.text} (cost {found.costs.cost(best.item.kind):g}); if the"
-            f" machine is {selected.name}, it shows a difference from {_of(found, best, others)}"
+            f"measure next: {best.item.text} (cost {lead.costs.cost(best.item.kind):g}); if the"
+            f" machine is {selected.name}, it shows a difference from {_of(lead, best, others)}"
         )
-        left = [f"{found.left[k].name} (power {chance(power)})" for k, power in best.left]
+        left = [f"{lead.left[k].name} (power {chance(power)})" for k, power in best.left]
         said += f"; not {listed(left)}" * bool(left)
-    contain = listed([found.left[k].name for k in larger])
+    contain = listed([lead.left[k].name for k in larger])
     return said + f"; no data exclude {contain}, which {_contain(larger)} it" * bool(larger)
 
 
@@ -115,38 +115,38 @@ def _contain(names: Sequence[object]) -> str:
     return "contains" if len(names) == 1 else "contain"
 
 
-def _others(found: Onward) -> list[int]:
+def _others(lead: Onward) -> list[int]:
     """The structures that do not contain the selected one."""
-    chain = found.left[0].chain
-    return [k for k, o in enumerate(found.left) if k and joined(chain, o.chain) != o.chain]
+    chain = lead.left[0].chain
+    return [k for k, o in enumerate(lead.left) if k and joined(chain, o.chain) != o.chain]
 
 
-def _best(found: Onward, seen: Foretold, others: list[int]) -> Reach | None:
-    reaches = [_reach(found, seen, item, others) for item in cheapest_first(found, seen, 0)]
+def _best(lead: Onward, seen: Foretold, others: list[int]) -> Reach | None:
+    reaches = [_reach(lead, seen, item, others) for item in cheapest_first(lead, seen, 0)]
     best = max(reaches, key=lambda reach: len(reach.parted), default=None)
     return best if best and best.parted else None
 
 
-def _reach(found: Onward, seen: Foretold, item: Item, others: list[int]) -> Reach:
-    powers = {k: _power(found, seen, item, k) for k in others}
+def _reach(lead: Onward, seen: Foretold, item: Item, others: list[int]) -> Reach:
+    powers = {k: _power(lead, seen, item, k) for k in others}
     parted = tuple(k for k, power in powers.items() if power >= POWER)
     return Reach(item, parted, tuple((k, p) for k, p in powers.items() if k not in parted))
 
 
-def _power(found: Onward, seen: Foretold, item: Item, other: int) -> float:
+def _power(lead: Onward, seen: Foretold, item: Item, other: int) -> float:
     """Of parting another structure; 0 where it may be that nothing differs."""
     nearest = seen.least(0, item, other)
-    if nearest is None or not found.sure(0, item, other):
+    if nearest is None or not lead.sure(0, item, other):
         return 0.0
     return seen.power(0, other, nearest[0])
 
 
-def _of(found: Onward, best: Reach, others: list[int]) -> str:
+def _of(lead: Onward, best: Reach, others: list[int]) -> str:
     if len(best.parted) <= 2:
-        which = listed([found.left[k].name for k in best.parted])
+        which = listed([lead.left[k].name for k in best.parted])
     else:
         which = f"{len(best.parted)} of the {len(others)} others"
     return (
         f"{which} (power {percent(POWER)} or more for the values fitted now; a rival that is fitted"
-        f" again comes closer, and one of which {found.left[0].name} is a limit can follow it)"
+        f" again comes closer, and one of which {lead.left[0].name} is a limit can follow it)"
     )

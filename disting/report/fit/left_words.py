@@ -53,8 +53,8 @@ class Onward:
         fitted, and each that was fitted with what behaves as it does.
         """
         for a, b in combinations(range(len(self.left)), 2):
-            one, other = self.left[a], self.left[b]
-            if (a == 0 and other.fitted) or one.chain in other.like:
+            survivor, other = self.left[a], self.left[b]
+            if (a == 0 and other.fitted) or survivor.chain in other.like:
                 yield a, b
 
     def sure(self, a: int, item: Item, b: int) -> bool:
@@ -69,61 +69,61 @@ class Onward:
         return self.stood.standing(a, b) is not Standing.EQUAL
 
 
-def set_in_words(found: Onward) -> Iterator[str]:
+def set_in_words(lead: Onward) -> Iterator[str]:
     """The structures with their drawings, which of them are groups, and what is not asked."""
-    yield f"{len(found.left)} structures that the fit left:"
-    width = max(len(one.name) for one in found.left)
-    for one in found.left:
-        yield f"  {one.name:{width}}  {text_drawing(one.chain)}  {_origin(one)}"
+    yield f"{len(lead.left)} structures that the fit left:"
+    width = max(len(survivor.name) for survivor in lead.left)
+    for survivor in lead.left:
+        yield f"  {survivor.name:{width}}  {text_drawing(survivor.chain)}  {_origin(survivor)}"
     yield ""
     yield LEGEND
-    moved = ", ".join(x.name for x in found.left if as_listed(x.chain).chain != x.chain)
+    moved = ", ".join(x.name for x in lead.left if as_listed(x.chain).chain != x.chain)
     if moved:
         yield f"masses of {moved} have the numbers of these drawings"
-    left = {one.chain for one in found.left}
-    out = ", ".join(reference(chain) for chain in found.named.rivals if chain not in left)
+    left = {survivor.chain for survivor in lead.left}
+    out = ", ".join(reference(chain) for chain in lead.named.rivals if chain not in left)
     if out:
         yield f"left out, because it is not known whether they behave the same: {out}"
 
 
-def measured_in_words(found: Onward) -> Iterator[str]:
+def measured_in_words(lead: Onward) -> Iterator[str]:
     """What numbers rest on, a sentence for each pair, then the menu of the selected structure in
     numbers.
     """
-    if (seen := found.seen) is None:
-        yield f"{found.source} does not name the lines of its data: fit again to get powers"
-        yield from (sentence(found, a, b) for a, b in found.pairs())
+    if (seen := lead.seen) is None:
+        yield f"{lead.source} does not name the lines of its data: fit again to get powers"
+        yield from (sentence(lead, a, b) for a, b in lead.pairs())
         return
     yield (
         f"differences and powers are {BEFORE}: fitted again it comes closer; one that contains the"
         " true structure fits it exactly"
     )
     yield bench_in_words(seen)
-    yield f"how much more of the same measurement tells them apart: disting plan {found.source}"
-    yield from ("", *(sentence(found, a, b) for a, b in found.pairs()))
-    items = [(item, _nearest(found, seen, item)) for item in cheapest_first(found, seen, 0)]
+    yield f"how much more of the same measurement tells them apart: disting plan {lead.source}"
+    yield from ("", *(sentence(lead, a, b) for a, b in lead.pairs()))
+    items = [(item, _nearest(lead, seen, item)) for item in cheapest_first(lead, seen, 0)]
     yield ""
-    yield f"if the machine is {found.left[0].name}: each experiment, and the rival it shows least:"
+    yield f"if the machine is {lead.left[0].name}: each experiment, and the rival it shows least:"
     head = "".join(f"{title:>10}" for title in ("largest", "at [Hz]", "lambda", "power"))
-    width = max(len("rival"), *(len(one.name) for one in found.left))
+    width = max(len("rival"), *(len(survivor.name) for survivor in lead.left))
     yield f"  {'':33}{'rival':{width}}{head}"
-    yield from (f"  {item.text:33}{_row(found, seen, width, *row)}" for item, row in items if row)
+    yield from (f"  {item.text:33}{_row(lead, seen, width, *row)}" for item, row in items if row)
     yield (
         "largest: the largest difference at a line, in units of its scatter; lambda and power: of"
         f" the further response alone, level {percent(LEVEL)}"
     )
 
 
-def sentence(found: Onward, a: int, b: int) -> str:
+def sentence(lead: Onward, a: int, b: int) -> str:
     """How structure b stands to a, and the cheapest experiment that shows it."""
-    one, other = found.left[a], found.left[b]
-    standing = found.stood.standing(a, b)
-    said = f"{other.name}: {SAYS[standing].format(one.name)}"
+    survivor, other = lead.left[a], lead.left[b]
+    standing = lead.stood.standing(a, b)
+    said = f"{other.name}: {SAYS[standing].format(survivor.name)}"
     if standing is Standing.NOISE:
-        if joined(one.chain, other.chain) == other.chain:
-            said += f", which it contains: only {one.name} can be excluded"
-        said += f" (disting plan {found.source})"
-    shown = _shown(found, found.seen, a, b) if found.seen else ""
+        if joined(survivor.chain, other.chain) == other.chain:
+            said += f", which it contains: only {survivor.name} can be excluded"
+        said += f" (disting plan {lead.source})"
+    shown = _shown(lead, lead.seen, a, b) if lead.seen else ""
     return f"{said}; {shown}" if shown else said
 
 
@@ -139,47 +139,47 @@ def bench_in_words(seen: Foretold) -> str:
     )
 
 
-def left_rows(found: Onward) -> Iterator[tuple[str, ...]]:
+def left_rows(lead: Onward) -> Iterator[tuple[str, ...]]:
     """Yield a row for each kind of experiment and each pair of places of each pair of structures,
     of CSV_COLUMNS and MEASURED_COLUMNS.
     """
-    index = {one.name: k for k, one in enumerate(found.left)}
-    for row in (*(r for group in found.groups for r in rows(group)), *_apart(found)):
+    index = {own_survivor.name: k for k, own_survivor in enumerate(lead.left)}
+    for row in (*(r for group in lead.groups for r in rows(group)), *_apart(lead)):
         plain = dict(zip(CSV_COLUMNS, row, strict=True))
         here = index[plain["left"]], int(plain["at_left"])
         there = index[plain["right"]], int(plain["at_right"])
-        kind = next(k for k in found.costs.cheapest_first if k.name == plain["experiment"])
-        step = found.seen.at(kind, here, there) if found.seen else None
-        yield (*row, *_numbers(found, here[0], there[0], step))
+        kind = next(k for k in lead.costs.cheapest_first if k.name == plain["experiment"])
+        step = lead.seen.at(kind, here, there) if lead.seen else None
+        yield (*row, *_numbers(lead, here[0], there[0], step))
 
 
-def left_to_dict(found: Onward) -> dict[str, Any]:
+def left_to_dict(lead: Onward) -> dict[str, Any]:
     """Plain data, ready for JSON; null where a number is not known or not finite."""
     return {
         "format": Format.NEXT_OF_FIT.value,
         "structures": [
             {
-                "name": one.name,
-                "fitted": one.fitted,
-                "behaves_as": [reference(chain) for chain in one.like],
-                "free_choices": one.free,
-                "parameters": list(one.values),
+                "name": survivor.name,
+                "fitted": survivor.fitted,
+                "behaves_as": [reference(chain) for chain in survivor.like],
+                "free_choices": survivor.free,
+                "parameters": list(survivor.values),
             }
-            for one in found.left
+            for survivor in lead.left
         ],
-        "groups": [to_dict(group) for group in found.groups],
-        "pairs": [_pair(found, a, b) for a, b in combinations(range(len(found.left)), 2)],
-        "sentences": [sentence(found, a, b) for a, b in found.pairs()],
-        "measured": _measured(found, found.seen) if found.seen else None,
+        "groups": [to_dict(group) for group in lead.groups],
+        "pairs": [_pair(lead, a, b) for a, b in combinations(range(len(lead.left)), 2)],
+        "sentences": [sentence(lead, a, b) for a, b in lead.pairs()],
+        "measured": _measured(lead, lead.seen) if lead.seen else None,
     }
 
 
-def _pair(found: Onward, a: int, b: int) -> dict[str, str]:
-    names = {"left": found.left[a].name, "right": found.left[b].name}
-    return names | {"standing": found.stood.standing(a, b).value}
+def _pair(lead: Onward, a: int, b: int) -> dict[str, str]:
+    names = {"left": lead.left[a].name, "right": lead.left[b].name}
+    return names | {"standing": lead.stood.standing(a, b).value}
 
 
-def _measured(found: Onward, seen: Foretold) -> dict[str, Any]:
+def _measured(lead: Onward, seen: Foretold) -> dict[str, Any]:
     hertz = seen.bench.hertz.tolist()
     return {
         "what": BEFORE,
@@ -189,64 +189,64 @@ def _measured(found: Onward, seen: Foretold) -> dict[str, Any]:
         "scatter": float(seen.bench.rho[0]),
         **seen.sizes,
         "level": LEVEL,
-        "least": list(_least(found, seen)),
+        "least": list(_least(lead, seen)),
     }
 
 
-def _least(found: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
+def _least(lead: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
     """What tells a structure least from another one, for each item of its menu."""
-    for a, b in permutations(range(len(found.left)), 2):
-        for item in cheapest_first(found, seen, a):
+    for a, b in permutations(range(len(lead.left)), 2):
+        for item in cheapest_first(lead, seen, a):
             nearest = seen.least(a, item, b)
             if nearest is not None:
                 step, at = nearest
                 yield {
-                    "structure": found.left[a].name,
+                    "structure": lead.left[a].name,
                     "experiment": item.kind.name,
                     "mass": item.at,
-                    "other": found.left[b].name,
+                    "other": lead.left[b].name,
                     "at": at,
                     "moves_in_one_only": step.is_motion,
                     **_measures(seen, a, b, step),
                 }
 
 
-def _origin(one: Left) -> str:
-    if one.fitted:
+def _origin(survivor: Left) -> str:
+    if survivor.fitted:
         return "fitted"
-    family = f", one of many sets of values, {one.free} free" * bool(one.free)
-    like = ", ".join(reference(chain) for chain in one.like)
+    family = f", one of many sets of values, {survivor.free} free" * bool(survivor.free)
+    like = ", ".join(reference(chain) for chain in survivor.like)
     return f"with the fitted response of {like}{family}"
 
 
-def _apart(found: Onward) -> Iterator[tuple[str, ...]]:
+def _apart(lead: Onward) -> Iterator[tuple[str, ...]]:
     """Rows of pairs of different classes: what is told apart now stays so."""
-    for a, b in combinations(range(len(found.left)), 2):
-        if found.stood.standing(a, b) is Standing.EQUAL:
+    for a, b in combinations(range(len(lead.left)), 2):
+        if lead.stood.standing(a, b) is Standing.EQUAL:
             continue
-        rule = found.stood.rule(a, b)
+        rule = lead.stood.rule(a, b)
         relation = Relation.DISTINGUISHABLE if rule else Relation.UNDECIDED
-        places = product(*(range(1, found.left[k].chain.n_masses + 1) for k in (a, b)))
-        for kind, (i, j) in product(found.costs.cheapest_first, places):
-            names = found.left[a].name, str(i), found.left[b].name, str(j)
+        places = product(*(range(1, lead.left[k].chain.n_masses + 1) for k in (a, b)))
+        for kind, (i, j) in product(lead.costs.cheapest_first, places):
+            names = lead.left[a].name, str(i), lead.left[b].name, str(j)
             yield kind.name, *names, relation.value, rule, "", ""
 
 
-def cheapest_first(found: Onward, seen: Foretold, structure: int) -> list[Item]:
+def cheapest_first(lead: Onward, seen: Foretold, structure: int) -> list[Item]:
     """The menu of a structure in the order of cost, then of masses."""
-    order = found.costs.cheapest_first
+    order = lead.costs.cheapest_first
     return sorted(seen.items(structure), key=lambda i: (order.index(i.kind), i.at))
 
 
-def _nearest(found: Onward, seen: Foretold, item: Item) -> tuple[int, Step] | None:
+def _nearest(lead: Onward, seen: Foretold, item: Item) -> tuple[int, Step] | None:
     """Of all structures the one that an item tells least from the selected one."""
-    steps = [(k, seen.least(0, item, k)) for k in range(1, len(found.left))]
+    steps = [(k, seen.least(0, item, k)) for k in range(1, len(lead.left))]
     nearest = [(k, least[0]) for k, least in steps if least is not None]
     return min(nearest, key=lambda both: both[1], default=None)
 
 
-def _row(found: Onward, seen: Foretold, width: int, other: int, step: Step) -> str:
-    name = found.left[other].name
+def _row(lead: Onward, seen: Foretold, width: int, other: int, step: Step) -> str:
+    name = lead.left[other].name
     if step.is_motion:
         return f"{name:{width}}  the sensor moves in one of the two only"
     sizes = (step.largest, step.frequency, step.noncentrality)
@@ -254,21 +254,21 @@ def _row(found: Onward, seen: Foretold, width: int, other: int, step: Step) -> s
     return f"{name:{width}}{''.join(f'{readable(size):>10}' for size in sizes)}{reached:>10}"
 
 
-def _shown(found: Onward, seen: Foretold, a: int, b: int) -> str:
+def _shown(lead: Onward, seen: Foretold, a: int, b: int) -> str:
     """The cheapest item that is enough at the fitted values, else the one that shows most."""
     best: tuple[float, str] | None = None
     unsure = False
-    for item in cheapest_first(found, seen, a):
+    for item in cheapest_first(lead, seen, a):
         nearest = seen.least(a, item, b)
         if nearest is None:
             return "its values are not known"
-        if not found.sure(a, item, b):
+        if not lead.sure(a, item, b):
             unsure = True
             continue
         reached = seen.power(a, b, nearest[0])
-        said = f"{item.text} (cost {found.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
+        said = f"{item.text} (cost {lead.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
         if reached >= POWER:
-            free = found.left[b].free > 0
+            free = lead.left[b].free > 0
             return said + ", for one of its values, the others were not looked at" * free
         if best is None or reached > best[0]:
             best = reached, said
@@ -286,10 +286,10 @@ def _size(step: Step, reached: float) -> str:
     )
 
 
-def _numbers(found: Onward, a: int, b: int, step: Step | None) -> tuple[str, ...]:
-    if step is None or found.seen is None:
+def _numbers(lead: Onward, a: int, b: int, step: Step | None) -> tuple[str, ...]:
+    if step is None or lead.seen is None:
         return ("", "", "", "")
-    measures = _measures(found.seen, a, b, step).values()
+    measures = _measures(lead.seen, a, b, step).values()
     return tuple("" if x is None else repr(x) for x in measures)
 
 

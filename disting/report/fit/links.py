@@ -101,28 +101,28 @@ def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
     yield name, f"models/{catalog_name(*kind).removeprefix('chains-')}/{number}.html", ""
 
 
-def renamed(found: Selection) -> str:
+def renamed(selection: Selection) -> str:
     """What the parameters of the described candidate are called in the structure that it is
     named after; "" for the same.
     """
-    form = as_listed(found.described.chain)
+    form = as_listed(selection.described.chain)
     other = ", ".join(f"{old} is {new} there" for old, new in form.renaming.items() if old != new)
     exchanged = "" if other else "force and sensor are exchanged there"
     said = (
-        f"{reference(found.described.chain)} is the structure of the catalogue that behaves the"
+        f"{reference(selection.described.chain)} is the structure of the catalogue that behaves the"
         " same"
     )
-    return "" if form.chain == found.described.chain else f"{said}: {other or exchanged}"
+    return "" if form.chain == selection.described.chain else f"{said}: {other or exchanged}"
 
 
-def commands(found: Selection) -> tuple[str, ...]:
+def commands(selection: Selection) -> tuple[str, ...]:
     """Ready command lines for the next steps; none from a structure that does not explain the data,
     whose values mean nothing.
     """
-    if not found.explanation.explains:
+    if not selection.explanation.explains:
         return ()
-    first = found.described
-    rest = [m.name for m in found.members[1:]]
+    first = selection.described
+    rest = [m.name for m in selection.members[1:]]
     damped = damping_option(first.chain.damped)
     steps = [f"disting compare {reference(first.chain)} {rest[0]} {damped}"] if rest else []
     chain, fitted = _without_zeros(first.chain, first.estimate.parameters)
@@ -137,12 +137,12 @@ def _without_zeros(chain: Chain, values: Mapping[str, float]) -> tuple[Chain, di
     of several springs a damper that is as good as zero.
     """
     springs = [name for name in chain.parameters if name[0] == "d"]
-    there = replace(
+    other_chain = replace(
         chain,
         damped=chain.damped and (not springs or any(values[name] for name in springs)),
         ground_dampers=tuple(i for i in chain.ground_dampers if values[f"b{i}"]),
     )
-    return there, {name: max(values[name], NOTHING) for name in there.parameters}
+    return other_chain, {name: max(values[name], NOTHING) for name in other_chain.parameters}
 
 
 def next_steps(selection: Selection) -> list[Step]:
@@ -168,14 +168,14 @@ def step_to(member: Member, twin: Twin) -> Step:
     return Step(SAME, f"disting compare {member.name} {twin.name}{damped}")
 
 
-def next_command(found: Plan) -> str:
+def next_command(plan: Plan) -> str:
     """The command that tells which other experiment tells two structures apart."""
-    return f"disting next {named(found.model, found.other)}"
+    return f"disting next {named(plan.model, plan.other)}"
 
 
 def named(model: AnyStructure, *others: AnyStructure) -> str:
     """Structures as a command names them."""
-    names = " ".join(shlex.quote(name_of(one)) for one in (model, *others))
+    names = " ".join(shlex.quote(name_of(chain)) for chain in (model, *others))
     return f"{names} {damping_option(model.damped)}" if isinstance(model, Chain) else names
 
 
@@ -190,13 +190,13 @@ def named_with_values(
     return f"{named(model, *others)} --set {text}"
 
 
-def plan_command(found: Plan) -> str:
+def plan_command(plan: Plan) -> str:
     """The command for one pair."""
-    size = typical(found.rival.rho) if found.rival else 0.02
+    size = typical(plan.rival.rho) if plan.rival else 0.02
     lines = ""
-    if found.rival:
-        hertz = found.rival.hertz
+    if plan.rival:
+        hertz = plan.rival.hertz
         lines = f" --band {hertz[0]:.6g}..{hertz[-1]:.6g} --lines {len(hertz)}"
-    call = named_with_values(found.model, found.values, found.other)
-    repeats = f" --repeats {found.repeats}" if (found.repeats or 1) > 1 else ""
+    call = named_with_values(plan.model, plan.values, plan.other)
+    repeats = f" --repeats {plan.repeats}" if (plan.repeats or 1) > 1 else ""
     return f"disting plan {call} --noise {size:.3g}{lines}{repeats}"

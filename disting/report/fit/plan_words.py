@@ -41,30 +41,30 @@ def chance(probability: float) -> str:
     return f"{floor(1000 * probability) / 10:.1f} %" if probability > 0.99 else percent(probability)
 
 
-def plan_in_words(found: Plan, best: Designed | None, source: str) -> Iterator[str]:
+def plan_in_words(plan: Plan, best: Designed | None, source: str) -> Iterator[str]:
     """The lines of the answer for one pair."""
-    yield _answer(found)
-    if found.verdict is not None:
-        yield f"verdict: {found.verdict.sentence}"
+    yield _answer(plan)
+    if plan.verdict is not None:
+        yield f"verdict: {plan.verdict.sentence}"
     yield ""
-    model, name = found.names
+    model, name = plan.names
     width = max(len(model), len(name))
-    yield f"  {model:{width}}  {_drawn(found.model)}true: {_values(found.values)}"
-    rival = found.rival
+    yield f"  {model:{width}}  {_drawn(plan.model)}true: {_values(plan.values)}"
+    rival = plan.rival
     if rival is None:
-        yield f"  {name:{width}}  {_drawn(found.other)}".rstrip()
+        yield f"  {name:{width}}  {_drawn(plan.other)}".rstrip()
         return
-    yield f"  {name:{width}}  {_drawn(found.other)}best fit: {_values(rival.parameters)}"
+    yield f"  {name:{width}}  {_drawn(plan.other)}best fit: {_values(rival.parameters)}"
     yield ""
-    yield from _figures(found, rival, source)
+    yield from _figures(plan, rival, source)
     if best is not None:
         yield ""
-        yield from _spectra(found, best)
+        yield from _spectra(plan, best)
 
 
 def rivals_in_words(
     named: Named | NamedNetworks,
-    found: Sequence[tuple[Plan, Plan | None]],
+    plans: Sequence[tuple[Plan, Plan | None]],
     source: str,
     file: str,
 ) -> Iterator[str]:
@@ -78,12 +78,12 @@ def rivals_in_words(
         yield f"impossible: {same}: {why}"
     if named.same:
         yield f"for another experiment: disting next {shlex.quote(file)}"
-    if not found:
+    if not plans:
         yield "" if named.same else "the fit left no rival: there is nothing to tell apart"
         return
     yield ""
-    yield from _rows([there for there, _ in found])
-    back = [reverse for _, reverse in found if reverse is not None]
+    yield from _rows([plan for plan, _ in plans])
+    back = [reverse for _, reverse in plans if reverse is not None]
     if back:
         yield ""
         yield f"the reverse: can data exclude {name} if a structure that contains it is true?"
@@ -94,20 +94,20 @@ def rivals_in_words(
         f" {percent(LEVEL)}, if all lines scatter alike; --noise FRF.csv takes the scatter of each"
         " line"
     )
-    every = [p for p in (*(there for there, _ in found), *back) if p.noncentrality > 0]
+    every = [p for p in (*(plan for plan, _ in plans), *back) if p.noncentrality > 0]
     if any(p.answer is Answer.ENOUGH for p in every):
         yield "enough: disting fit excludes structures by the same test"
     if every:
         yield f"one pair in full: {plan_command(max(every, key=lambda p: p.factor))}"
 
 
-def _rows(found: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
+def _rows(plans: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
     """A row a plan, named by the rival, or by what is true."""
-    names = [p.names[0 if true else 1] for p in found]
+    names = [p.names[0 if true else 1] for p in plans]
     head = "true" if true else "rival"
     width = max(len(head), *map(len, names))
     yield f"{head:{width}}  {'lambda':>8}  {'power':>8}  {'periods':>8}  answer"
-    for name, p in zip(names, found, strict=True):
+    for name, p in zip(names, plans, strict=True):
         periods = f"{readable(p.factor)}x" if p.noncentrality > 0 else "–"
         row = f"{readable(p.noncentrality):>8}  {chance(p.power):>8}  {periods:>8}  {_short(p)}"
         yield f"{name:{width}}  {row}"
@@ -118,27 +118,27 @@ def _drawn(structure: AnyStructure) -> str:
     return f"{text_drawing(structure)}  " if isinstance(structure, Chain) else ""
 
 
-def _answer(found: Plan) -> str:
-    model, name = found.names
-    if found.rival is None:
-        other = next_command(found)
+def _answer(plan: Plan) -> str:
+    model, name = plan.names
+    if plan.rival is None:
+        other = next_command(plan)
         return (
-            f"impossible: however long you measure {_words(found.model)[1]}, {model} and {name}"
+            f"impossible: however long you measure {_words(plan.model)[1]}, {model} and {name}"
             f" cannot be told apart; for another experiment: {other}"
         )
-    if found.answer is Answer.SAME:
-        return _same(found, found.rival)
+    if plan.answer is Answer.SAME:
+        return _same(plan, plan.rival)
     said = (
-        f"if the {_words(found.model)[0]} is {model}, the data exclude {name} with a probability of"
-        f" {chance(found.power)} (level {percent(LEVEL)})"
+        f"if the {_words(plan.model)[0]} is {model}, the data exclude {name} with a probability of"
+        f" {chance(plan.power)} (level {percent(LEVEL)})"
     )
     more = (
         f"enough: {said}"
-        if found.answer is Answer.ENOUGH
-        else f"not enough: {said}; for {percent(POWER)} measure {readable(found.factor)} times as"
+        if plan.answer is Answer.ENOUGH
+        else f"not enough: {said}; for {percent(POWER)} measure {readable(plan.factor)} times as"
         " many periods"
     )
-    return more if is_trusted(found) else f"{more}. {_doubt(found.rival)}"
+    return more if is_trusted(plan) else f"{more}. {_doubt(plan.rival)}"
 
 
 def _words(model: AnyStructure) -> tuple[str, str]:
@@ -154,11 +154,11 @@ def _doubt(rival: Rival) -> str:
     )
 
 
-def _same(found: Plan, rival: Rival) -> str:
+def _same(plan: Plan, rival: Rival) -> str:
     """Why a rival that fits within rounding does so, although the verdict does not say so."""
-    model, name = found.names
-    thing, where = _words(found.model)
-    if found.is_contained:
+    model, name = plan.names
+    thing, where = _words(plan.model)
+    if plan.is_contained:
         does = f" and gives the same response {_limits(rival)}" if rival.limits else ""
         return (
             f"impossible: {name} contains {model}{does}. No measurement of this {thing} {where} can"
@@ -170,7 +170,7 @@ def _same(found: Plan, rival: Rival) -> str:
             f" {_limits(rival)}; if the structures differ, other frequencies show it: choose a"
             " wider range"
         )
-    relation = found.verdict.relation if found.verdict is not None else Relation.UNDECIDED
+    relation = plan.verdict.relation if plan.verdict is not None else Relation.UNDECIDED
     why = {
         Relation.SOMETIMES: "the verdict says that some values have an equivalent, and these are"
         " such values",
@@ -179,7 +179,7 @@ def _same(found: Plan, rival: Rival) -> str:
     }.get(relation, "whether that holds for other values too is not decided")
     more = "another sensor, or the force elsewhere, may tell them apart"
     if relation is Relation.SOMETIMES:
-        other = next_command(found)
+        other = next_command(plan)
         more = f"for another experiment: {other}"
     return f"impossible for these values: {name} fits them up to rounding ({why}); {more}"
 
@@ -196,22 +196,22 @@ def _limits(rival: Rival) -> str:
     return " and ".join([*said, *([f"with {', '.join(idle)} without effect"] if idle else [])])
 
 
-def _short(found: Plan) -> str:
+def _short(plan: Plan) -> str:
     """The answer in a table."""
-    if found.rival is None:
-        return f"impossible: {next_command(found)}"
-    if found.answer is Answer.SAME:
-        ends = f" ({', '.join(found.rival.limits)} without effect)" * bool(found.rival.limits)
-        does = "contains the model" if found.is_contained else "gives the same on these lines"
+    if plan.rival is None:
+        return f"impossible: {next_command(plan)}"
+    if plan.answer is Answer.SAME:
+        ends = f" ({', '.join(plan.rival.limits)} without effect)" * bool(plan.rival.limits)
+        does = "contains the model" if plan.is_contained else "gives the same on these lines"
         return f"impossible: it {does}{ends}"
-    return found.answer.value + ("" if is_trusted(found) else ", doubtful: few starts agree")
+    return plan.answer.value + ("" if is_trusted(plan) else ", doubtful: few starts agree")
 
 
-def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
+def _figures(plan: Plan, rival: Rival, source: str) -> Iterator[str]:
     """Numbers behind the answer."""
-    hertz, both = rival.hertz, found.joint
-    larger = f" ({reference(both)} contains both)" if both and both != found.model else ""
-    plural = "s" * (found.surplus > 1)
+    hertz, both = rival.hertz, plan.joint
+    larger = f" ({reference(both)} contains both)" if both and both != plan.model else ""
+    plural = "s" * (plan.surplus > 1)
     yield (
         f"lines           {len(hertz)} from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, noise of a line"
         f" {percent(typical(rival.rho))} ({source})"
@@ -220,7 +220,7 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f"search          {rival.best.reached} of {len(rival.best.costs)} starting points led to"
         f" the rival's best fit: {rival.trust}"
     )
-    if found.answer is Answer.SAME:
+    if plan.answer is Answer.SAME:
         return
     at = int(rival.apart.argmax())
     yield (
@@ -228,35 +228,35 @@ def _figures(found: Plan, rival: Rival, source: str) -> Iterator[str]:
         f" squares over the lines {readable(float(np.sum(rival.apart**2)))}"
     )
     yield (
-        f"test            {found.surplus} degree{plural} of freedom{larger}, level"
-        f" {percent(LEVEL)}{_estimated(found)}"
+        f"test            {plan.surplus} degree{plural} of freedom{larger}, level"
+        f" {percent(LEVEL)}{_estimated(plan)}"
     )
     yield (
-        f"noncentrality   {readable(found.noncentrality)} squared units of noise between both"
-        f" (lambda); power {percent(POWER)} needs {readable(found.needed)}"
+        f"noncentrality   {readable(plan.noncentrality)} squared units of noise between both"
+        f" (lambda); power {percent(POWER)} needs {readable(plan.needed)}"
     )
-    yield f"power           {chance(found.power)}"
-    lines = max(FEWEST, ceil(found.factor * len(hertz)))
+    yield f"power           {chance(plan.power)}"
+    lines = max(FEWEST, ceil(plan.factor * len(hertz)))
     yield f"needed for power {percent(POWER)}, one of:"
-    yield f"  noise of a line at most {percent(typical(rival.rho) / sqrt(found.factor))}"
-    yield f"  {readable(found.factor)} times the periods"
-    yield f"  {readable(sqrt(found.factor))} times the amplitude"
+    yield f"  noise of a line at most {percent(typical(rival.rho) / sqrt(plan.factor))}"
+    yield f"  {readable(plan.factor)} times the periods"
+    yield f"  {readable(sqrt(plan.factor))} times the amplitude"
     yield f"  {lines} lines in the same range"
 
 
-def _estimated(found: Plan) -> str:
+def _estimated(plan: Plan) -> str:
     """From what a fit finds the scatter."""
-    if found.repeats is None:
+    if plan.repeats is None:
         return ""
-    own = "one measurement" if found.repeats == 1 else f"{found.repeats} repeats"
+    own = "one measurement" if plan.repeats == 1 else f"{plan.repeats} repeats"
     return f", with the scatter that a fit finds in {own}"
 
 
-def _spectra(found: Plan, best: Designed) -> Iterator[str]:
+def _spectra(plan: Plan, best: Designed) -> Iterator[str]:
     """Band and spectra of the same power, and the lines of the optimal one."""
     before, after = best.crests
     rows = [
-        ("equal power on all lines", found.noncentrality),
+        ("equal power on all lines", plan.noncentrality),
         (f"best band, {best.band.low:.3g} to {best.band.high:.3g} Hz", best.band.noncentrality),
         (f"optimal, {best.optimum.lines} lines", best.optimum.noncentrality),
         ("to be run: 90 % of the optimal, 10 % on all lines", best.run.noncentrality),
@@ -265,8 +265,8 @@ def _spectra(found: Plan, best: Designed) -> Iterator[str]:
     width = max(len(name) for name, _ in rows)
     yield f"{'excitation of the same power':{width}}  {'lambda':>8}  {'power':>8}  {'periods':>8}"
     for name, size in rows:
-        periods = f"{readable(found.needed / size)}x"
-        reached = chance(found.power_at(size))
+        periods = f"{readable(plan.needed / size)}x"
+        reached = chance(plan.power_at(size))
         yield f"{name:{width}}  {readable(size):>8}  {reached:>8}  {periods:>8}"
     gap = best.optimum.bound / best.optimum.noncentrality - 1
     above = f"{percent(gap)} above the optimal one"

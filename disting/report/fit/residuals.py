@@ -61,13 +61,13 @@ def missed(
     is judged by; `at` = which one of several responses.
     """
     candidate, task, judged = selection.described, selection.task, _judged(selection, at)
-    found = []
+    misses = []
     for s in series_of(candidate, task, train, test, at):
         ratio = s.measured.G / response_of(candidate, task, s.measured.omega, at)
         is_judged = s.measured is test and judged and len(judged.rho) == len(s.measured)
-        known = judged if judged and is_judged else s.scatter
-        found.append(Missed(replace(s, scatter=known), np.log(np.abs(ratio)), np.angle(ratio)))
-    return found
+        scatter = judged if judged and is_judged else s.scatter
+        misses.append(Missed(replace(s, scatter=scatter), np.log(np.abs(ratio)), np.angle(ratio)))
+    return misses
 
 
 def _judged(selection: Selection, at: int) -> Scatter | None:
@@ -100,22 +100,22 @@ def residuals(
     """Amplitude above, phase below; each measurement's scatter and the model's confidence as
     bands about zero; `at` = which one of several responses.
     """
-    found = missed(selection, train, test, at)
+    misses = missed(selection, train, test, at)
     model = name(selection.described.chain)
     model += f", {selection.task.cost.setups[at].text}" if at else ""
     low, high = (
-        end(m.series.measured.frequency[i] for m in found) for end, i in ((min, 0), (max, -1))
+        end(m.series.measured.frequency[i] for m in misses) for end, i in ((min, 0), (max, -1))
     )
     omega = 2 * np.pi * np.geomspace(low, high, LINES)
     sure = confidence(selection.described, selection.task, omega, at)
-    unit, scaled = _amplitude_unit(found)
+    unit, scaled = _amplitude_unit(misses)
 
     def draw(figure: "Figure") -> None:
         """Two panels over one axis of frequencies."""
         panels = figure.subplots(2, 1, sharex=True)
         over_frequency(panels, low / EDGE, high * EDGE)
-        _panel(panels[0], found, "amplitude", scaled, omega, sure)
-        _panel(panels[1], found, "phase", np.degrees, omega, sure)
+        _panel(panels[0], misses, "amplitude", scaled, omega, sure)
+        _panel(panels[1], misses, "phase", np.degrees, omega, sure)
         _missed_ranges(panels, misses_of(selection, at))
         panels[0].set_ylabel(f"Amplitude [{unit}]")
         panels[1].set_ylabel("Phase [degree]")
@@ -127,7 +127,7 @@ def residuals(
 
     return drawn(
         f"residuals-{at + 1}" if at else "residuals",
-        f"Residuals of {model} over frequency. {_outside(found)}",
+        f"Residuals of {model} over frequency. {_outside(misses)}",
         (4.6, 5.4),
         draw,
     )
@@ -142,7 +142,7 @@ def bands_in_words(
     """What bars and bands are, with their sizes: sentences for below the Bode diagram, and for
     below the residuals; `at` = which one of several responses.
     """
-    candidate, task, found, omega = (
+    candidate, task, misses, omega = (
         selection.described,
         selection.task,
         missed(selection, train, test, at),
@@ -155,11 +155,11 @@ def bands_in_words(
     said = [
         f"Scatter of the {m.series.label}: {_interval(m.series.scatter.typical)} (95 %), from"
         f" {m.series.scatter.source}."
-        for m in found
+        for m in misses
         if told.get(m.series.label) != m.series.scatter.source
     ]
     under = [beneath_in_words(s) for s in own if s.measured.distortion is not None]
-    return [*bars, _model_band(sure, omega), *under[:1]], [*said, _outside(found)]
+    return [*bars, _model_band(sure, omega), *under[:1]], [*said, _outside(misses)]
 
 
 def _bars(s: Series) -> str:
@@ -196,21 +196,21 @@ def _interval(error: float) -> str:
     return f"± {percent(wide)}".replace(" ", "\N{NO-BREAK SPACE}")
 
 
-def _outside(found: Sequence[Missed]) -> str:
-    each = " and ".join(f"{percent(m.outside)} of those of the {m.series.label}" for m in found)
+def _outside(misses: Sequence[Missed]) -> str:
+    each = " and ".join(f"{percent(m.outside)} of those of the {m.series.label}" for m in misses)
     return f"Residuals outside the scatter: {each}; noise alone leaves 5 % there."
 
 
-def _amplitude_unit(found: Sequence[Missed]) -> tuple[str, Callable[[Real], Real]]:
+def _amplitude_unit(misses: Sequence[Missed]) -> tuple[str, Callable[[Real], Real]]:
     """Percent, or decibels where amplitudes differ by factors."""
-    if max(float(np.quantile(np.abs(m.amplitude), MOST)) for m in found) < LARGE:
+    if max(float(np.quantile(np.abs(m.amplitude), MOST)) for m in misses) < LARGE:
         return "%", lambda ratio: np.asarray(100 * np.expm1(ratio))
     return "dB", lambda ratio: np.asarray(DECIBEL * ratio)
 
 
 def _panel(
     panel: "Axes",
-    found: Sequence[Missed],
+    misses: Sequence[Missed],
     what: str,
     scaled: Callable[[Real], Real],
     omega: Real,
@@ -220,16 +220,16 @@ def _panel(
     the axis at its edge.
     """
     first = what == "amplitude"
-    for m in found:
+    for m in misses:
         _scatter(panel, m, scaled, f"scatter of the {m.series.label}, 95 %" * first)
     wide = QUANTILE * getattr(sure, what)
     wide = np.where(np.isfinite(wide), wide, np.nan)
     band(panel, omega / (2 * np.pi), scaled(-wide), scaled(wide), label="model, 95 %" * first)
     panel.axhline(0.0, color=Tone.INK, linewidth=1.0, zorder=1.9)
     limit = _limit(
-        [(scaled(getattr(m, what)), scaled(QUANTILE * m.series.scatter.rho)) for m in found]
+        [(scaled(getattr(m, what)), scaled(QUANTILE * m.series.scatter.rho)) for m in misses]
     )
-    for m in found:
+    for m in misses:
         values = scaled(getattr(m, what))
         points(
             panel,

@@ -68,21 +68,21 @@ def shown_responses(
     figures: Sequence[Drawn],
 ) -> list[ShownResponse]:
     """Each response with its figures; `figures`: Bode diagram and residuals of each come first."""
-    found = []
-    for one in responses(selection, train, test):
-        own = figures[PANELS * one.at : PANELS * (one.at + 1)]
-        words = bands_in_words(selection, one.train, one.test, one.at)
-        scene = seen_alone(selection.described.chain, selection, one)
-        found.append(
+    the_shown_responses = []
+    for response in responses(selection, train, test):
+        own = figures[PANELS * response.at : PANELS * (response.at + 1)]
+        words = bands_in_words(selection, response.train, response.test, response.at)
+        scene = seen_alone(selection.described.chain, selection, response)
+        the_shown_responses.append(
             ShownResponse(
-                one.setup.text,
-                drawing(scene) if _is_changed(one.setup) else Markup(""),
+                response.setup.text,
+                drawing(scene) if _is_changed(response.setup) else Markup(""),
                 scene.title,
-                fit_in_words(selection, one.train, one.test, one.at),
+                fit_in_words(selection, response.train, response.test, response.at),
                 [*zip(own, words, strict=False)],
             )
         )
-    return found
+    return the_shown_responses
 
 
 def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]:
@@ -109,14 +109,14 @@ def seen_together(chain: Chain, selection: Selection) -> Scene:
     return replace(state(chain, read), title=f"{draw(chain).title.removesuffix('.')}{also}.")
 
 
-def seen_alone(chain: Chain, selection: Selection, one: Response) -> Scene:
+def seen_alone(chain: Chain, selection: Selection, response: Response) -> Scene:
     """A chain as it is in one response."""
-    setup = _setups(chain, selection)[one.at]
+    setup = _setups(chain, selection)[response.at]
     n, place = chain.n_masses, _port(chain, setup)
     read = {sign: at for sign, at in _signs(chain, selection).items() if at == place}
     measured = setup.experiment(n)
     scene = state(chain, read, measured.changes, measured.force)
-    said = f"{draw(chain).title.removesuffix('.')}; measured here: {one.setup.text}."
+    said = f"{draw(chain).title.removesuffix('.')}; measured here: {response.setup.text}."
     return replace(scene, title=said)
 
 

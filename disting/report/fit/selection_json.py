@@ -19,53 +19,59 @@ from disting.model.chain import Chain
 from disting.report.fit.sentences import places, suspicions
 
 
-def selection_to_dict(found: Selection) -> dict[str, Any]:
+def selection_to_dict(selection: Selection) -> dict[str, Any]:
     """Plain data of a selection: `selected` (null if none), whether it explains the data, what
     else is not excluded.
     """
     return {
         "format": Format.FIT.value,
-        "selected": candidate_to_dict(found.selected) if found.selected else None,
-        "candidates": [candidate_to_dict(c) for c in found.candidates],
+        "selected": candidate_to_dict(selection.selected) if selection.selected else None,
+        "candidates": [candidate_to_dict(c) for c in selection.candidates],
         "alternatives": [
             {**_named(a.chain), "relation": a.relation.value, "reason": a.sentence}
-            for a in found.alternatives
+            for a in selection.alternatives
         ],
         "not_fitted": [
-            {**_named(c), "same_as": _named(other)} for c, other in found.same_as.items()
+            {**_named(c), "same_as": _named(other)} for c, other in selection.same_as.items()
         ],
-        "explained": found.explanation.explains,
-        "chi2_per_line": found.explanation.chi2,
-        "scatter": found.explanation.scatter.typical,
-        "scatter_source": found.explanation.scatter.source,
-        "frequencies": _frequencies(found),
-        "residual_correlation": found.explanation.correlation,
-        "fit_percent": _fit_percent(found),
-        "not_excluded": [member_to_dict(m) for m in (*found.members, *found.containing)],
-        "relied_on": [_statement_to_dict(s) for s in found.relied_on],
-        "suspicions": list(suspicions(found)),
-        "data": [_data(one) for one in _measured(found)],
-        "rule": found.rule.value,
-        "validation": found.validation,
-        "sign": found.task.sign,
-        "command": found.command,
-    } | (_joint_to_dict(found) if len(found.task.cost.parts) > 1 or found.silent else {})
+        "explained": selection.explanation.explains,
+        "chi2_per_line": selection.explanation.chi2,
+        "scatter": selection.explanation.scatter.typical,
+        "scatter_source": selection.explanation.scatter.source,
+        "frequencies": _frequencies(selection),
+        "residual_correlation": selection.explanation.correlation,
+        "fit_percent": _fit_percent(selection),
+        "not_excluded": [member_to_dict(m) for m in (*selection.members, *selection.containing)],
+        "relied_on": [_statement_to_dict(s) for s in selection.relied_on],
+        "suspicions": list(suspicions(selection)),
+        "data": [_data(response) for response in _measured(selection)],
+        "rule": selection.rule.value,
+        "validation": selection.validation,
+        "sign": selection.task.sign,
+        "command": selection.command,
+    } | (
+        _joint_to_dict(selection) if len(selection.task.cost.parts) > 1 or selection.silent else {}
+    )
 
 
-def _statement_to_dict(found: Statement) -> dict[str, Any]:
+def _statement_to_dict(statement: Statement) -> dict[str, Any]:
     """A statement; an end that is not finite is null."""
-    ends = {n: x if isfinite(x) else None for n, x in (("low", found.low), ("high", found.high))}
-    return asdict(found) | ends | {"kind": found.kind.value, "text": found.text}
+    ends = {
+        n: x if isfinite(x) else None for n, x in (("low", statement.low), ("high", statement.high))
+    }
+    return asdict(statement) | ends | {"kind": statement.kind.value, "text": statement.text}
 
 
-def _joint_to_dict(found: Selection) -> dict[str, Any]:
+def _joint_to_dict(selection: Selection) -> dict[str, Any]:
     """Each response with what is said of it alone, and those from which nothing is learned."""
-    judging, described = found.judging, found.described
-    each = explanations(judging, described.residual, described.missed, found.explanation.scatter)
+    judging, described = selection.judging, selection.described
+    each = explanations(
+        judging, described.residual, described.missed, selection.explanation.scatter
+    )
     said = dict(zip(judging.setups, each, strict=True))
-    cost, p = found.task.cost, described.estimate.parameters
-    names = found.task.names(described.chain)
-    response = found.task.plant(described.chain).response(np.array([p[n] for n in names]))
+    cost, p = selection.task.cost, described.estimate.parameters
+    names = selection.task.names(described.chain)
+    response = selection.task.plant(described.chain).response(np.array([p[n] for n in names]))
     residuals = cost.by_residual(cost.residual(response))
     rows = zip(cost.parts, cost.setups, residuals, strict=True)
     return {
@@ -75,16 +81,16 @@ def _joint_to_dict(found: Selection) -> dict[str, Any]:
                 "origin": part.measured.origin,
                 "quantity": part.measured.sensor.value,
                 "lines": len(part.measured),
-                "sign": found.task.sign * setup.sign,
+                "sign": selection.task.sign * setup.sign,
                 "dead_time": setup.delay or "Td",
                 "j_train": float(residual @ residual),
-                "fit_percent": _finite(fit_percent(described, found.task, part.measured, at)),
+                "fit_percent": _finite(fit_percent(described, selection.task, part.measured, at)),
             }
             | (_explained(said[setup]) if setup in said else {})
             for at, (part, setup, residual) in enumerate(rows)
         ],
-        "nothing_learned": list(found.silent),
-        "places": [{"name": name, "measured": there} for name, there in places(found)],
+        "nothing_learned": list(selection.silent),
+        "places": [{"name": name, "measured": there} for name, there in places(selection)],
     }
 
 
@@ -97,11 +103,14 @@ def _explained(said: Explanation) -> dict[str, Any]:
     }
 
 
-def _measured(found: Selection) -> list[FrequencyResponse]:
+def _measured(selection: Selection) -> list[FrequencyResponse]:
     """All responses: those that are fitted, then those that they are tested on."""
-    train = [part.measured for part in found.task.cost.parts]
-    tests = [part.measured for part in found.judging.parts]
-    return [*train, *(one for one in tests if all(one is not other for other in train))]
+    train = [part.measured for part in selection.task.cost.parts]
+    tests = [part.measured for part in selection.judging.parts]
+    return [
+        *train,
+        *(response for response in tests if all(response is not other for other in train)),
+    ]
 
 
 def _data(measured: FrequencyResponse) -> dict[str, Any]:
@@ -115,20 +124,22 @@ def _data(measured: FrequencyResponse) -> dict[str, Any]:
     }
 
 
-def _frequencies(found: Selection) -> dict[str, float]:
+def _frequencies(selection: Selection) -> dict[str, float]:
     """Range [Hz] and number of the lines of the training data."""
-    hertz = found.task.cost.measured.frequency
+    hertz = selection.task.cost.measured.frequency
     return {"low": float(hertz[0]), "high": float(hertz[-1]), "lines": len(hertz)}
 
 
-def _fit_percent(found: Selection) -> dict[str, float | None]:
+def _fit_percent(selection: Selection) -> dict[str, float | None]:
     """Of the described candidate on training and test data; null where there are none or where
     it is not defined.
     """
-    train = found.task.cost.measured
-    sizes = {"train": train, "test": None if found.test is train else found.test}
+    train = selection.task.cost.measured
+    sizes = {"train": train, "test": None if selection.test is train else selection.test}
     return {
-        key: None if data is None else _finite(fit_percent(found.described, found.task, data))
+        key: None
+        if data is None
+        else _finite(fit_percent(selection.described, selection.task, data))
         for key, data in sizes.items()
     }
 

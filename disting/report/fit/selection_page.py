@@ -88,7 +88,7 @@ def fit_page(
         results=rows,
         parameters=parameter_rows(candidate, selection.task, train),
         responses=shown,
-        figures=figures[sum(len(one.panels) for one in shown) :],
+        figures=figures[sum(len(shown_response.panels) for shown_response in shown) :],
         limits=limits(candidate, selection.thresholds),
         columns=columns(selection.thresholds),
         limits_of=lambda c: limits(c, selection.thresholds),
@@ -172,11 +172,11 @@ def alternatives(selection: Selection) -> list[tuple[str, list[tuple[str, str]]]
     ]
 
 
-def _reason(found: Alternative, selection: Selection) -> str:
+def _reason(alternative: Alternative, selection: Selection) -> str:
     """The verdict's sentence with short names; the longer one first, of which the other may be
     the beginning.
     """
-    sentence, chains = found.sentence, [found.chain, selection.described.chain]
+    sentence, chains = alternative.sentence, [alternative.chain, selection.described.chain]
     for chain in sorted(chains, key=lambda c: -len(str(c))):
         sentence = sentence.replace(str(chain), name(chain))
     return sentence

@@ -28,63 +28,70 @@ from disting.report.fit.doubts import (
 FEW = 8  # names in one line
 
 
-def first_lines(found: Selection) -> tuple[str, ...]:
+def first_lines(selection: Selection) -> tuple[str, ...]:
     """At most five lines: does anything explain the data, what is selected, what else may it
     be, what is suspicious.
     """
     return (
-        _verdict(found),
-        *doubled(found),
-        *found.quantities,
-        *(_explained(found) if found.explanation.explains else _unexplained(found)),
+        _verdict(selection),
+        *doubled(selection),
+        *selection.quantities,
+        *(_explained(selection) if selection.explanation.explains else _unexplained(selection)),
     )[:5]
 
 
-def suspicions(found: Selection) -> tuple[str, ...]:
+def suspicions(selection: Selection) -> tuple[str, ...]:
     """Sentences on what looks wrong, each with what it means; the gravest first, empty where
     nothing does.
     """
     said = [
-        *found.quantities,
-        *([] if found.explanation.explains else [_verdict(found), *_unexplained(found)]),
-        *better(found),
-        *(disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements),
-        *changing(found),
-        *hanging(found),
-        *weak(found),
-        *outside(found.described, found.task.cost.measured),
-        *unseen(found),
-        *doubled(found),
-        *bad(found),
-        *doubtful_deviations(found),
-        *suspicious_data(found.task.cost),
-        *learned(found),
+        *selection.quantities,
+        *(
+            []
+            if selection.explanation.explains
+            else [_verdict(selection), *_unexplained(selection)]
+        ),
+        *better(selection),
+        *(disagreeing(m.disagreements) for m in selection.members[:1] if m.disagreements),
+        *changing(selection),
+        *hanging(selection),
+        *weak(selection),
+        *outside(selection.described, selection.task.cost.measured),
+        *unseen(selection),
+        *doubled(selection),
+        *bad(selection),
+        *doubtful_deviations(selection),
+        *suspicious_data(selection.task.cost),
+        *learned(selection),
     ]
     return tuple(dict.fromkeys(said))
 
 
-def learned(found: Selection) -> tuple[str, ...]:
+def learned(selection: Selection) -> tuple[str, ...]:
     """Responses from which nothing is learned, in sentences."""
     return tuple(
         f"{what}: that response is zero whatever the parameters, so nothing is learned from it"
-        for what in found.silent
+        for what in selection.silent
     )
 
 
-def which_mass(found: Selection) -> tuple[str, ...]:
+def which_mass(selection: Selection) -> tuple[str, ...]:
     """Where further responses are in structures that have other places, in sentences."""
     return tuple(
         f"in {name} this is {there}: of all its masses these fit best"
-        for name, there in places(found)
+        for name, there in places(selection)
     )
 
 
-def places(found: Selection) -> tuple[tuple[str, str], ...]:
+def places(selection: Selection) -> tuple[tuple[str, str], ...]:
     """Names of the structures that are left, or best, in which further responses have other places
     than they are named by, and these places.
     """
-    cost, shown = found.task.cost, [m.candidate for m in (*found.members, *found.containing)]
-    chains = dict.fromkeys(c.chain for c in (found.described, *shown))
+    cost, shown = (
+        selection.task.cost,
+        [m.candidate for m in (*selection.members, *selection.containing)],
+    )
+    chains = dict.fromkeys(c.chain for c in (selection.described, *shown))
     each = ((reference(chain), cost.setups_of(chain.structure)) for chain in chains)
     return tuple(
         (name, " and ".join(setup.text for setup in setups[1:]))
@@ -93,13 +100,13 @@ def places(found: Selection) -> tuple[tuple[str, str], ...]:
     )
 
 
-def _is_joint(found: Selection) -> bool:
-    return len(found.task.cost.parts) > 1
+def _is_joint(selection: Selection) -> bool:
+    return len(selection.task.cost.parts) > 1
 
 
-def _verdict(found: Selection) -> str:
+def _verdict(selection: Selection) -> str:
     """The first line."""
-    said, best = found.explanation, reference(found.described.chain)
+    said, best = selection.explanation, reference(selection.described.chain)
     scattered = (
         f"the lines scatter by {100 * said.scatter.typical:.2g} %, known from {said.scatter.source}"
     )
@@ -113,63 +120,68 @@ def _verdict(found: Selection) -> str:
             f" ({said.scatter.source}); the best one is {best}"
         )
     which = "none of the candidates"
-    if any(c.chi2 <= allowed(said.scatter) for c in found.candidates):
+    if any(c.chi2 <= allowed(said.scatter) for c in selection.candidates):
         which = "none of the candidates that may be selected"
     return f"{which} explains this data; the best one is {best} ({size})"
 
 
-def _explained(found: Selection) -> Iterator[str]:
-    yield from better(found)
-    if found.selected is None:
+def _explained(selection: Selection) -> Iterator[str]:
+    yield from better(selection)
+    if selection.selected is None:
         yield (
             "no candidate is selected: by the criteria that you asked for, this data leaves some"
             " parameters of each candidate undetermined; all values are printed"
         )
-    others, more = [m.name for m in found.members[1:]], len(found.containing)
+    others, more = [m.name for m in selection.members[1:]], len(selection.containing)
     larger = (
         f"{more} more that contain{'s' * (more == 1)} one of these, with elements that this data"
         " does not determine"
     )
     if others:
         yield f"not excluded by this data either: {_listed(others)}" + f"; {larger}" * bool(more)
-    elif found.members:
+    elif selection.members:
         beside = f", but {larger.replace('one of these', 'it')}" * bool(more)
         yield f"this data excludes every other candidate{beside}"
-    for m in [m for m in found.members if m.twins][:1]:
+    for m in [m for m in selection.members if m.twins][:1]:
         same = list(dict.fromkeys(t.name for t in m.twins))
         yield (
             f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force"
-            f" and {'these sensors and states' if _is_joint(found) else 'sensor'} can tell"
+            f" and {'these sensors and states' if _is_joint(selection) else 'sensor'} can tell"
         )
-    yield from (disagreeing(m.disagreements) for m in found.members[:1] if m.disagreements)
-    yield from (*changing(found), *hanging(found), *weak(found), *doubtful_deviations(found))
+    yield from (disagreeing(m.disagreements) for m in selection.members[:1] if m.disagreements)
+    yield from (
+        *changing(selection),
+        *hanging(selection),
+        *weak(selection),
+        *doubtful_deviations(selection),
+    )
 
 
-def _unexplained(found: Selection) -> Iterator[str]:
-    if found.explanation.misses:
-        yield f"missed most at {', at '.join(m.sentence for m in found.explanation.misses)}"
-    if bad(found):
-        yield from bad(found)
-    elif found.readings:
-        yield f"what would fit better: {'; '.join(r.sentence for r in found.readings)}"
-    elif _is_joint(found):
+def _unexplained(selection: Selection) -> Iterator[str]:
+    if selection.explanation.misses:
+        yield f"missed most at {', at '.join(m.sentence for m in selection.explanation.misses)}"
+    if bad(selection):
+        yield from bad(selection)
+    elif selection.readings:
+        yield f"what would fit better: {'; '.join(r.sentence for r in selection.readings)}"
+    elif _is_joint(selection):
         yield (
             "fit each response alone: where a structure explains one but not all, a place or a sign"
             " is wrong, or the machine changed between the measurements"
         )
-    elif not found.explanation.noisy and not found.quantities:
-        loop = "is the loop closed, " * any(FOLLOWS in said for said in _said(found))
+    elif not selection.explanation.noisy and not selection.quantities:
+        loop = "is the loop closed, " * any(FOLLOWS in said for said in _said(selection))
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
             f" mass explains it: {loop}is the machine a chain, are other forces at work?"
         )
-    yield from clear_band(found)
-    yield from better(found)
+    yield from clear_band(selection)
+    yield from better(selection)
 
 
-def _said(found: Selection) -> tuple[str, ...]:
+def _said(selection: Selection) -> tuple[str, ...]:
     """What the reader says of the data."""
-    data = found.task.cost.measured
+    data = selection.task.cost.measured
     return (*data.notes, *data.suspicions)
 
 

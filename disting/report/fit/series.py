@@ -159,13 +159,13 @@ def beneath(panel: "Axes", s: Series, smallest: float) -> None:
     """The levels on the axis of the amplitude, which grows downwards to hold them; `smallest`
     amplitude of the model.
     """
-    found = s.measured.distortion
-    if found is None:
+    distortion = s.measured.distortion
+    if distortion is None:
         return
     low, high = panel.get_xlim()
     shown = []
-    for kind, levels, chosen in found.kinds:
-        hertz = found.omega / (2 * np.pi)
+    for kind, levels, chosen in distortion.kinds:
+        hertz = distortion.omega / (2 * np.pi)
         kept = chosen & (hertz >= low) & (hertz <= high) & (levels > DEEPEST * smallest)
         if not kept.any():
             continue

@@ -162,11 +162,11 @@ def unit_of(kind: str, measured: FrequencyResponse) -> str:
     return SIMPLE.get(quotient, quotient)
 
 
-def result_unit(found: Result, measured: FrequencyResponse) -> str:
+def result_unit(result: Result, measured: FrequencyResponse) -> str:
     """Unit of a physical result."""
-    if found.name.endswith("inertia"):
+    if result.name.endswith("inertia"):
         return unit_of("m", measured)
-    return unit_of("k", measured) if found.name.startswith("stiffness") else found.unit
+    return unit_of("k", measured) if result.name.startswith("stiffness") else result.unit
 
 
 def response_unit(measured: FrequencyResponse) -> str:

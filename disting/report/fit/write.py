@@ -44,49 +44,49 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def write_plan(found: Plan, best: Designed, folder: Path) -> str:
+def write_plan(plan: Plan, best: Designed, folder: Path) -> str:
     """Write plan.svg, .png, .pdf, plan.json, lines.csv and spectrum.csv; the command that simulates
     the spectrum. The same plan gives the same bytes.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    figure = plan_figure(found, best)
-    text = json.dumps(designed_to_dict(found, best), indent=1, ensure_ascii=False, allow_nan=False)
+    figure = plan_figure(plan, best)
+    text = json.dumps(designed_to_dict(plan, best), indent=1, ensure_ascii=False, allow_nan=False)
     for file, content in (
         ("plan.svg", figure.svg),
         ("plan.png", figure.png),
         ("plan.pdf", figure.pdf),
         ("plan.json", [text, "\n"]),
-        ("lines.csv", [_lines(found, best)]),
+        ("lines.csv", [_lines(plan, best)]),
         ("spectrum.csv", [best.excitation(best.run.shares).spectrum_csv]),
     ):
         write_whole(folder / file, content)
-    return simulation(found, best, folder / "spectrum.csv")
+    return simulation(plan, best, folder / "spectrum.csv")
 
 
-def simulation(found: Plan, best: Designed, path: Path) -> str:
+def simulation(plan: Plan, best: Designed, path: Path) -> str:
     """The command that runs a spectrum on the model."""
     return (
-        f"disting simulate {named_with_values(found.model, found.values)}"
+        f"disting simulate {named_with_values(plan.model, plan.values)}"
         f" --spectrum {path} --rate {best.rate:g} --samples {best.samples}"
     )
 
 
-def _lines(found: Plan, best: Designed) -> str:
+def _lines(plan: Plan, best: Designed) -> str:
     """A row a line: frequency, difference, noise, shares of the power."""
     rows = ["frequency_hz,difference,noise,share_optimal,share_run\n"]
-    rival = found.rival
+    rival = plan.rival
     if rival is not None:
         columns = (best.hertz, rival.apart, rival.rho, best.optimum.shares, best.run.shares)
         rows += [",".join(f"{v:.9g}" for v in row) + "\n" for row in zip(*columns, strict=True)]
     return "".join(rows)
 
 
-def plan_figure(found: Plan, best: Designed) -> Drawn:
+def plan_figure(plan: Plan, best: Designed) -> Drawn:
     """Difference of the two structures over frequency beside the noise, and the shares of the power
     of the optimal spectrum below.
     """
-    model, name = found.names
-    rival = found.rival
+    model, name = plan.names
+    rival = plan.rival
     title = f"Where {name}, fitted to {model}, differs from it, and where the power has to go"
     size = rival.apart if rival is not None else np.zeros(len(best.hertz))
     noise = rival.rho if rival is not None else np.ones(len(best.hertz))
@@ -164,9 +164,9 @@ def write_fit_report(
     parameter that the described candidate does not have.
     """
     candidate = selection.described
-    found = [profile(candidate, selection.task, n) for n in profiles]
+    the_profiles = [profile(candidate, selection.task, n) for n in profiles]
     results = physical(candidate, selection.task)
-    figures = fit_figures(selection, results, train, test, found)
+    figures = fit_figures(selection, results, train, test, the_profiles)
     folder.mkdir(parents=True, exist_ok=True)
     page = fit_page(selection, results, figures, train, test, Site(site or beside(folder), folder))
     return [
@@ -188,10 +188,10 @@ def fit_figures(
     drawn = [
         *(
             figure
-            for one in responses(selection, train, test)
+            for response in responses(selection, train, test)
             for figure in (
-                bode(candidate, task, results, one.train, one.test, one.at),
-                residuals(selection, one.train, one.test, one.at),
+                bode(candidate, task, results, response.train, response.test, response.at),
+                residuals(selection, response.train, response.test, response.at),
             )
         ),
         left_figure(selection, train),
@@ -237,13 +237,13 @@ def exported(selection: Selection, measured: FrequencyResponse) -> list[Exported
     ]
     models += [(t.name, t.chain, t.parameters) for m in selection.members for t in m.twins]
     counted = Counter[str]()
-    found = []
+    exporteds = []
     for called, chain, values in models:
         counted[called] += 1
         number = f" ({counted[called]})" if counted[called] > 1 else ""
         units = {n: unit_of(n[0], measured) for n in values}
-        found.append(Exported(called + number, chain, values, units))
-    return found
+        exporteds.append(Exported(called + number, chain, values, units))
+    return exporteds
 
 
 def candidates_csv(selection: Selection) -> str:

@@ -92,10 +92,10 @@ def more(total: int, what: str, hint: str) -> Markup:
 def _field(i: int, j: int, relation: Callable[[int, int], Relation]) -> Markup:
     if i == j:
         return Markup("<td></td>")
-    found = relation(i, j)
-    ground, letter, sign = FILLS[found]
+    the_relation = relation(i, j)
+    ground, letter, sign = FILLS[the_relation]
     style = f"text-align:center;background:{FILE_PALETTE[ground]};color:{FILE_PALETTE[letter]}"
-    return Markup('<td style="{}" title="{}">{}</td>').format(style, SAID[found], sign)
+    return Markup('<td style="{}" title="{}">{}</td>').format(style, SAID[the_relation], sign)
 
 
 def _cell(value: object) -> Markup:

@@ -14,7 +14,7 @@ from disting.verdict.model_equivalents import ModelEquivalent
 @table_of.register
 def _gate(shown: Gate) -> str:
     groups = [(group[0], ", ".join(group[1:])) for group in shown.groups]
-    known = [(name, found.sentence) for name, found in shown.parameters.items()]
+    known = [(name, identifiability.sentence) for name, identifiability in shown.parameters.items()]
     return block(
         line(f"{plural(len(known), 'model')} to be fitted", bold=True),
         table(["model", "what data determine"], known[:LONGEST]),

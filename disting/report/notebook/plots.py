@@ -84,8 +84,8 @@ def _catalog(shown: Catalog, ax: Any, style: Style) -> "Axes":
         axes.set_xticks(list(numbers))
         axes.set_yticks(list(numbers))
     axes.set_title(f"{title(shown)}: positive parameters")
-    there = [r for r in order if (fields == order.index(r)).any()]
-    entries = [Patch(color=colours[r], label=SAID[r]) for r in there]
+    relations = [r for r in order if (fields == order.index(r)).any()]
+    entries = [Patch(color=colours[r], label=SAID[r]) for r in relations]
     axes.legend(handles=entries, loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2)
     return axes
 

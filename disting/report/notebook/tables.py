@@ -62,18 +62,18 @@ def _verdict(shown: Verdict) -> str:
     return block(line(shown.sentence, bold=True), line(measured(shown)), facts(rows))
 
 
-def _inclusion(shown: Verdict, found: Inclusion) -> str:
+def _inclusion(shown: Verdict, inclusion: Inclusion) -> str:
     """Whose generic models have an equivalent, or are a limit, on the other side."""
     return {
         Inclusion.EQUAL: "of both, over complex parameters",
         Inclusion.LEFT_IN_RIGHT: f"of {shown.left} in {shown.right}, over complex parameters",
         Inclusion.RIGHT_IN_LEFT: f"of {shown.right} in {shown.left}, over complex parameters",
         Inclusion.NEITHER: "of neither",
-    }.get(found, "")
+    }.get(inclusion, "")
 
 
-def _share(found: PositiveFinding | None, other: str) -> str:
-    return "" if found is None else f"{found.share} with a positive equivalent {other}"
+def _share(finding: PositiveFinding | None, other: str) -> str:
+    return "" if finding is None else f"{finding.share} with a positive equivalent {other}"
 
 
 @table_of.register
@@ -201,12 +201,13 @@ def _selected(shown: Selection) -> str:
 
 
 def _explained(shown: Selection) -> str:
-    found = shown.explanation
+    explanation = shown.explanation
     which = reference(shown.described.chain)
-    if found.noisy:
+    if explanation.noisy:
         return "The data are mostly noise."
-    says = "explains" if found.explains else "does not explain"
-    return f"{which} {says} the data: χ² per line {readable(found.chi2)}, from {shown.validation}."
+    says = "explains" if explanation.explains else "does not explain"
+    chi2 = readable(explanation.chi2)
+    return f"{which} {says} the data: χ² per line {chi2}, from {shown.validation}."
 
 
 def _candidate(shown: Candidate, chosen: bool) -> tuple[object, ...]:

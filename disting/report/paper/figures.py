@@ -46,11 +46,11 @@ class Panel:
     fields: dict[tuple[int, int], tuple[Relation, str]]
 
 
-def of_decisions(title: str, found: Decisions, names: Sequence[str] = ()) -> Panel:
+def of_decisions(title: str, decisions: Decisions, names: Sequence[str] = ()) -> Panel:
     """Every pair of a list of models; the sign is the condition's number."""
-    pairs = combinations(range(len(found.subjects)), 2)
-    fields = {(i, j): (found.relation(i, j), sign(found.rule(i, j))) for i, j in pairs}
-    return Panel(title, tuple(names or (s.name for s in found.subjects)), fields)
+    pairs = combinations(range(len(decisions.subjects)), 2)
+    fields = {(i, j): (decisions.relation(i, j), sign(decisions.rule(i, j))) for i, j in pairs}
+    return Panel(title, tuple(names or (s.name for s in decisions.subjects)), fields)
 
 
 def of_catalog(title: str, catalog: Catalog, view: View) -> Panel:
@@ -147,10 +147,14 @@ def paper_figures(findings: Findings) -> tuple[Picture, ...]:
 
 
 def _of_the_fit(findings: Findings) -> Iterator[Picture]:
-    found = findings.selection
-    candidate, fitted = found.described, len(found.candidates)
+    selection = findings.selection
+    candidate, fitted = selection.described, len(selection.candidates)
     plot = bode(
-        candidate, found.task, physical(candidate, found.task), findings.train, findings.test
+        candidate,
+        selection.task,
+        physical(candidate, selection.task),
+        findings.train,
+        findings.test,
     )
     yield of_plot(
         "figures-3-4",
@@ -163,13 +167,13 @@ def _of_the_fit(findings: Findings) -> Iterator[Picture]:
         "Figs. 5 and 6",
         "Number of parameters of the best model when one criterion is applied alone, by its"
         " threshold; dashed: in use.",
-        parameters_by_threshold(found.candidates, found.thresholds),
+        parameters_by_threshold(selection.candidates, selection.thresholds),
     )
     yield of_plot(
         "figures-7-8",
         "Figs. 7 and 8",
         f"Number of models that fulfil one criterion alone, out of all {fitted}, by its threshold.",
-        models_by_threshold(found.candidates, found.thresholds),
+        models_by_threshold(selection.candidates, selection.thresholds),
     )
 
 

@@ -94,11 +94,11 @@ def parts(findings: Findings, beside: Container[str] = ()) -> tuple[Part, ...]:
 
 
 def _line(claim: Claim, findings: Findings, beside: Container[str]) -> Line:
-    found = claim.check(findings) if claim.check else None
-    seen = found.seen if found else ()
+    the_found = claim.check(findings) if claim.check else None
+    seen = the_found.seen if the_found else ()
     return Line(
         claim,
-        found,
+        the_found,
         tuple((in_words(s), address(s)) for s in seen if page_of(s) in beside),
         tuple(command(s) for s in seen if not page_of(s)),
     )

@@ -43,9 +43,9 @@ class Command:
 
 def command_page(parser: argparse.ArgumentParser) -> GuidePage:
     """The page of all commands of a parser."""
-    found = list(commands(parser))
-    body = Markup(render("commands.html", commands=found))
-    return GuidePage(NAME, TITLE, (Section("", TITLE, 1), *_sections(found)), body, True)
+    the_commands = list(commands(parser))
+    body = Markup(render("commands.html", commands=the_commands))
+    return GuidePage(NAME, TITLE, (Section("", TITLE, 1), *_sections(the_commands)), body, True)
 
 
 def commands(parser: argparse.ArgumentParser, words: str = "disting") -> Iterator[Command]:
@@ -59,8 +59,8 @@ def commands(parser: argparse.ArgumentParser, words: str = "disting") -> Iterato
     ('add [--by N]', 'add--by', '2')
     """
     inner = [a for a in parser._actions if isinstance(a, argparse._SubParsersAction)]
-    told = [a for a in parser._actions if a.help != argparse.SUPPRESS]
-    own = [a for a in told if a not in inner and not isinstance(a, argparse._HelpAction)]
+    actions = [a for a in parser._actions if a.help != argparse.SUPPRESS]
+    own = [a for a in actions if a not in inner and not isinstance(a, argparse._HelpAction)]
     usage = " ".join(
         [words, *(_place(a) for a in own if _kept(a)), *(str(a.metavar) for a in inner)]
     )
@@ -131,8 +131,8 @@ def _place(action: argparse.Action) -> str:
     return written if action.required else f"[{written}]"
 
 
-def _sections(found: list[Command]) -> Iterator[Section]:
-    for command in found:
+def _sections(the_commands: list[Command]) -> Iterator[Section]:
+    for command in the_commands:
         yield Section(command.anchor, command.words, 2, command.text)
         for option in command.options:
             title = f"{command.words} {', '.join(option.written)}"

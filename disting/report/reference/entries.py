@@ -65,10 +65,10 @@ def entries(name: str) -> Iterator[Entry]:
     'Verdict'
     """
     for key in public(name):
-        found = defined(Place(name, key))
-        if found is not None:
-            source = parsed(found.module)
-            yield _entry(key, found, source.definitions[found.name], source.texts.get(key, ""))
+        place = defined(Place(name, key))
+        if place is not None:
+            source = parsed(place.module)
+            yield _entry(key, place, source.definitions[place.name], source.texts.get(key, ""))
 
 
 def _entry(name: str, place: Place, node: Definition, text: str) -> Entry:
@@ -112,10 +112,10 @@ def _is_record(node: ast.ClassDef) -> bool:
 def _fields(place: Place, node: ast.ClassDef) -> Iterator[Entry]:
     """The fields of a record, those of records that it extends first."""
     for base in node.bases:
-        found = defined(Place(place.module, base.id)) if isinstance(base, ast.Name) else None
-        extended = parsed(found.module).definitions[found.name] if found else None
-        if found and isinstance(extended, ast.ClassDef):
-            yield from _fields(found, extended)
+        the_place = defined(Place(place.module, base.id)) if isinstance(base, ast.Name) else None
+        extended = parsed(the_place.module).definitions[the_place.name] if the_place else None
+        if the_place and isinstance(extended, ast.ClassDef):
+            yield from _fields(the_place, extended)
     if _is_record(node):
         members = (m for part in node.body for m in _members(part, place, ()))
         yield from (m for m in members if m.kind is Kind.FIELD)
@@ -123,10 +123,10 @@ def _fields(place: Place, node: ast.ClassDef) -> Iterator[Entry]:
 
 def _fields_as_arguments(fields: Sequence[Entry], node: ast.ClassDef) -> tuple[Argument, ...]:
     """How a record is made: its fields, by keyword only where its decorator says so."""
-    found = [Argument(m.name, m.returns, m.value) for m in fields]
+    arguments = [Argument(m.name, m.returns, m.value) for m in fields]
     if any("kw_only=True" in ast.unparse(d) for d in node.decorator_list):
-        return (Argument("", star="*"), *found)
-    return tuple(found)
+        return (Argument("", star="*"), *arguments)
+    return tuple(arguments)
 
 
 def _members(node: ast.stmt, place: Place, bases: Sequence[str]) -> Iterator[Entry]:
@@ -184,17 +184,19 @@ def _arguments(of: ast.arguments, module: str) -> tuple[Argument, ...]:
     """All arguments in their order, "/" and "*" among them as in the source."""
     plain = [*of.posonlyargs, *of.args]
     defaults = [None] * (len(plain) - len(of.defaults)) + [*of.defaults]
-    found = [_argument(*pair, module) for pair in zip(plain, defaults, strict=True)]
+    arguments = [_argument(*pair, module) for pair in zip(plain, defaults, strict=True)]
     if of.posonlyargs:
-        found.insert(len(of.posonlyargs), Argument("", star="/"))
+        arguments.insert(len(of.posonlyargs), Argument("", star="/"))
     if of.vararg:
-        found.append(_argument(of.vararg, None, module, "*"))
+        arguments.append(_argument(of.vararg, None, module, "*"))
     elif of.kwonlyargs:
-        found.append(Argument("", star="*"))
-    found += [_argument(*pair, module) for pair in zip(of.kwonlyargs, of.kw_defaults, strict=True)]
+        arguments.append(Argument("", star="*"))
+    arguments += [
+        _argument(*pair, module) for pair in zip(of.kwonlyargs, of.kw_defaults, strict=True)
+    ]
     if of.kwarg:
-        found.append(_argument(of.kwarg, None, module, "**"))
-    return tuple(found)
+        arguments.append(_argument(of.kwarg, None, module, "**"))
+    return tuple(arguments)
 
 
 def _argument(of: ast.arg, default: ast.expr | None, module: str, star: str = "") -> Argument:
@@ -218,12 +220,12 @@ def _written(value: ast.expr, module: str) -> str:
     "'provenance.json'"
     """
     if isinstance(value, ast.Call) and ast.unparse(value.func) == "field":
-        given = {keyword.arg: keyword.value for keyword in value.keywords}
-        made = given.get("default_factory")
+        exprs = {keyword.arg: keyword.value for keyword in value.keywords}
+        made = exprs.get("default_factory")
         if isinstance(made, ast.Lambda):
             return ast.unparse(made.body)
-        found = given.get("default")
-        return f"{ast.unparse(made)}()" if made else ast.unparse(found) if found else ""
+        expr = exprs.get("default")
+        return f"{ast.unparse(made)}()" if made else ast.unparse(expr) if expr else ""
     at = defined(Place(module, value.id)) if isinstance(value, ast.Name) else None
     node = parsed(at.module).definitions[at.name] if at else None
     constant = isinstance(node, ast.Assign | ast.AnnAssign) and isinstance(node.value, ast.Constant)

@@ -81,10 +81,10 @@ def public(name: str) -> tuple[str, ...]:
     >>> "Chain" in public("disting"), "build" in public("disting.catalogs.build")
     (True, True)
     """
-    found = parsed(name)
-    return found.handed_on or tuple(
+    module = parsed(name)
+    return module.handed_on or tuple(
         key
-        for key, node in found.definitions.items()
+        for key, node in module.definitions.items()
         if isinstance(node, ast.FunctionDef | ast.ClassDef) and not key.startswith("_")
     )
 
@@ -98,10 +98,10 @@ def defined(at: Place) -> Place | None:
     """
     if at.module.split(".")[0] != PACKAGE or not _exists(at.module):
         return None
-    found = parsed(at.module)
-    if at.name in found.definitions:
+    module = parsed(at.module)
+    if at.name in module.definitions:
         return at
-    return defined(found.imports[at.name]) if at.name in found.imports else None
+    return defined(module.imports[at.name]) if at.name in module.imports else None
 
 
 def _source(name: str) -> str:

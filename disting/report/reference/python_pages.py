@@ -70,13 +70,13 @@ def linked(source: str, leads: Leads) -> Markup:
     >>> linked("tuple[Chain, ...]", {"Chain": "#Chain"}.get)
     Markup('tuple[<a href="#Chain">Chain</a>, ...]')
     """
-    found, done = Markup(), 0
+    markup, done = Markup(), 0
     for match in NAME.finditer(source):
         address = leads(match[0])
         if address:
             link = Markup('<a href="{}">{}</a>').format(address, match[0])
-            found, done = found + source[done : match.start()] + link, match.end()
-    return found + source[done:]
+            markup, done = markup + source[done : match.start()] + link, match.end()
+    return markup + source[done:]
 
 
 def _block(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
@@ -122,10 +122,10 @@ def python_pages() -> tuple[GuidePage, ...]:
     """A page for every public module; a name that two of them hand on is explained in the first."""
     offered = {name: sorted(entries(name), key=lambda e: e.name.lower()) for name in MODULES}
     addresses: dict[Place, str] = {}
-    for name, found in offered.items():
-        for entry in found:
+    for name, the_entries in offered.items():
+        for entry in the_entries:
             addresses.setdefault(entry.place, f"{page_name(name)}.html#{entry.name}")
-    pages = tuple(_page(name, found, addresses) for name, found in offered.items())
+    pages = tuple(_page(name, the_entries, addresses) for name, the_entries in offered.items())
     parsed.cache_clear()  # nobody asks for a tree again
     return pages
 
@@ -139,21 +139,21 @@ def page_name(module: str) -> str:
     return f"python-{module.split('.')[-1]}"
 
 
-def _page(name: str, found: list[Entry], addresses: Mapping[Place, str]) -> GuidePage:
-    shown = [_shown(name, entry, addresses) for entry in found]
+def _page(name: str, the_entries: list[Entry], addresses: Mapping[Place, str]) -> GuidePage:
+    shown = [_shown(name, entry, addresses) for entry in the_entries]
     text = rendered(parsed(name).text, partial(_address, name, addresses))
     body = Markup(render("reference.html", module=name, text=text, entries=shown))
     sections = [Section("", f"Python: {name}", 1, parsed(name).text)]
-    for one in shown:
-        sections += _sections(one) if not one.elsewhere else []
+    for item in shown:
+        sections += _sections(item) if not item.elsewhere else []
     return GuidePage(page_name(name), f"Python: {name}", tuple(sections), body, True)
 
 
-def _sections(one: Shown, level: int = 2) -> Iterator[Section]:
+def _sections(item: Shown, level: int = 2) -> Iterator[Section]:
     """What the search finds: an entry and its members, by what their docstrings say first."""
-    text = one.entry.text.split("\n\n")[0]
-    yield Section(one.anchor, one.anchor, level, text)
-    for member in one.members:
+    text = item.entry.text.split("\n\n")[0]
+    yield Section(item.anchor, item.anchor, level, text)
+    for member in item.members:
         yield from _sections(member, level + 1)
 
 
@@ -210,10 +210,10 @@ def _valued(entry: Entry, leads: Leads) -> Markup:
 
 
 def _written(argument: Argument, leads: Leads) -> Markup:
-    found = Markup("{}{}").format(argument.star, argument.name)
+    markup = Markup("{}{}").format(argument.star, argument.name)
     if argument.annotation:
-        found += Markup(": ") + linked(argument.annotation, leads)
+        markup += Markup(": ") + linked(argument.annotation, leads)
     if argument.default:
         space = " " if argument.annotation else ""
-        found += Markup("{0}={0}").format(space) + linked(argument.default, leads)
-    return found
+        markup += Markup("{0}={0}").format(space) + linked(argument.default, leads)
+    return markup
