@@ -11,7 +11,6 @@ from typing import Any, Generic, TypeVar, get_args
 from disting.evidence.across_sizes import AcrossSizes
 from disting.evidence.conditions import ByConditions, Counts
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
-from disting.evidence.general import OfGeneralModels
 from disting.evidence.ideals import ByRows, FullRows, Refuted, Shared, Solved
 from disting.evidence.kind import read
 from disting.evidence.limits import (
@@ -24,6 +23,7 @@ from disting.evidence.limits import (
     RowsInside,
 )
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
+from disting.evidence.substitutes import OfGeneralModels
 from disting.model.question import Membership
 
 E = TypeVar("E", bound=FibreAt | Solved | Refuted | ByRows, covariant=True)

@@ -18,7 +18,7 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import BOTH, Explicit, Inequality, NoEquivalent, Witnesses
+from disting.evidence.general import Explicit, Inequality, NoEquivalent, Witnesses
 from disting.evidence.kind import PointText
 from disting.general import fibre_lists, newton
 from disting.general.combination import excludes, is_tried
@@ -37,6 +37,7 @@ from disting.model.question import Domain
 
 FIRST = 3  # of either model, whose equivalents are all listed or excluded
 SMALL = 5  # parameters: formulas for so few come before searches in rounded numbers
+MANY = 9  # parameters: elimination of more unknowns seldom ends, so inequalities come before
 GUARDS = 4  # of either model, where no equivalents are to be found
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
 TOO_LARGE = "the search for all equivalents grew too large"
@@ -53,11 +54,12 @@ def admissible_finding(
     equivalents of points cost milliseconds, so a few come first.
     """
     if domain is Domain.POSITIVE:
+        size = max(len(m.parameters) for m in (left, right))
+        by_signs = _by_inequalities(left, right) if size > MANY else None
+        if by_signs is not None:
+            return by_signs
         witnesses = _by_lists(left, right, seed, FIRST)
-        if witnesses is None and max(len(m.parameters) for m in (left, right)) > SMALL:
-            apart = _by_inequality(left, right)
-            if apart is not None:
-                return apart
+        if witnesses is None and size > SMALL:
             witnesses = _by_numbers(left, right, seed, FIRST, effort.degree)
         if witnesses:
             return _sometimes(witnesses)
@@ -104,6 +106,9 @@ def of_ways(
         )
         if witnesses:
             return _sometimes(witnesses)
+        by_signs = _by_inequalities(left, right)
+        if by_signs is not None:
+            return by_signs
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
@@ -222,15 +227,24 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
     return None
 
 
-def _by_inequality(left: AnyModel, right: AnyModel) -> Finding | None:
-    """That no values of one of them satisfy an inequality that all of the other one do."""
+def _by_inequalities(left: AnyModel, right: AnyModel) -> Finding | None:
+    """What inequalities that all values of one of them satisfy tell: no values of the other one do,
+    or some do not and some have an equivalent.
+    """
     if not (isinstance(left, Model) and isinstance(right, Model)):
         return None
-    for left_given in BOTH:
-        form = contradiction(*((left, right) if left_given else (right, left)))
+    ways = [(True, left, right), (False, right, left)]
+    for left_given, given, other in ways:
+        form = contradiction(given, other)
         if form:
             evidence = Inequality(Domain.POSITIVE.value, left_given, form)
             return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
+    for left_given, given, other in ways:
+        values = next(points_against(given, other), None)
+        having = values and _common(left, right)
+        if values and having:
+            lacking = left_given, _written(values), ()
+            return _sometimes(_witnesses(left, right, having, lacking, Domain.POSITIVE))
     return None
 
 
@@ -251,12 +265,6 @@ def _by_numbers(
     having = having or _common(left, right)
     if having is None:
         return None
-    for left_given in BOTH:
-        model, other = (left, right) if left_given else (right, left)
-        values = next(points_against(model, other), None)
-        if values:
-            lacking = left_given, _written(values), ()
-            return _witnesses(left, right, having, lacking, Domain.POSITIVE)
     drawn = [
         zip(repeat(side), islice(points(this_model, Domain.POSITIVE, seed), count))
         for side, this_model in ((True, left), (False, right))

@@ -20,19 +20,10 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import (
-    BOTH,
-    AtInverse,
-    Explicit,
-    Inequality,
-    NoEquivalent,
-    OfNetworks,
-    OfPart,
-    Replaced,
-    Witnesses,
-)
+from disting.evidence.general import BOTH, Explicit, Inequality, NoEquivalent, Witnesses
 from disting.evidence.kind import Labels
 from disting.evidence.model_samples import seen
+from disting.evidence.substitutes import AtInverse, OfNetworks, OfPart, OfSubstitutes, Replaced
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, unnamed, with_names
 from disting.general.matrix_model import AnyModel
@@ -165,7 +156,7 @@ def _with_network(model: AnyModel, network: Network) -> AnyModel:
 
 
 def confirms_forms(
-    evidence: Replaced | AtInverse | OfPart, left: AnyModel, right: AnyModel, representation: str
+    evidence: OfSubstitutes, left: AnyModel, right: AnyModel, representation: str
 ) -> bool:
     """Whether these networks stand for both, and what is said of them is true."""
     inner = evidence.inner
@@ -176,12 +167,13 @@ def confirms_forms(
         pair = (part or left, right) if evidence.left_is_part else (left, part or right)
         models = pair if part else None
     else:
+        assert isinstance(evidence, AtInverse)
         models = inverse_of(left, right)
         if models and (evidence.left, evidence.right) != tuple(m.name for m in models):
             return False
     if models is None:
         return False
-    if isinstance(inner, Replaced | AtInverse | OfPart):
+    if isinstance(inner, OfSubstitutes):
         return confirms_forms(inner, *models, representation)
     return confirms_models(inner, *models, representation)
 

@@ -20,10 +20,11 @@ from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import AtInverse, Constants, OfPart, OverDomain, Replaced
+from disting.evidence.general import Constants, OverDomain
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
+from disting.evidence.substitutes import OfSubstitutes
 from disting.general import model_evidence
 from disting.general.any_model import (
     LEFT,
@@ -194,7 +195,7 @@ class ComparedModel(Side[AnyModel]):
             return False
         if isinstance(evidence, Theorem) and evidence.name in ON_NETWORKS:
             return _applies(evidence.name, self, other)
-        if isinstance(evidence, Replaced | AtInverse | OfPart):
+        if isinstance(evidence, OfSubstitutes):
             return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = self.subject, other.subject
         if isinstance(evidence, OverDomain):

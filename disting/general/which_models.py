@@ -102,7 +102,7 @@ def way(model: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THORO
     the fewest other cases is kept. After a few orders one equation in one unknown is good enough.
     """
     sizes = len(model.parameters), len(other.parameters)
-    if effort.unknowns is not None and sizes[1] > effort.unknowns:
+    if effort.unknowns is not None and max(sizes) > effort.unknowns:
         return None
     ring, best = Orthant(*sizes, domain, effort=effort), list[Parted]()
     for count, order in enumerate(islice(orders(ring.unknowns), effort.orders)):

@@ -10,8 +10,6 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from markupsafe import Markup
-
 from disting.experiments.changes import Change
 from disting.experiments.menu import Item
 from disting.model.chain import Chain
@@ -68,10 +66,10 @@ def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
     return Sketch((below.width, below.height), parts, f"A{model}: {text}")
 
 
-def definitions(used: Iterable[tuple[Chain, Item]]) -> list[Markup]:
+def additions(used: Iterable[tuple[Chain, Item]]) -> list[Part]:
     """What sketches are made of beside the drawings of the chains, each once."""
-    layers = {layer.name: layer for layer in (added(*parts) for parts in used)}
-    return [Part(f"more-{name}", layer).definition for name, layer in sorted(layers.items())]
+    layers = {layer.name: layer for layer in (added(*pair) for pair in used)}
+    return [Part(f"more-{name}", layer) for name, layer in sorted(layers.items())]
 
 
 def state(

@@ -185,7 +185,7 @@ def _typed(text: str) -> str:
         return f"<mi>{text.replace('infinity', '∞')}</mi>"
     if root := ROOT.fullmatch(text):
         first, inside, below = map(_typed, root.groups())
-        return f"<mfrac><mrow>{first}<mo>+</mo><msqrt>{inside}</msqrt></mrow>{below}</mfrac>"
+        return fraction(f"{first}<mo>+</mo><msqrt>{inside}</msqrt>", below)
     number = tree(text)
     ring = symbols(sorted({*symbols_of(number)}) or ["s"])
     return expression(Expansion(ring, next(iter(ring.values())) ** 0).value(number))

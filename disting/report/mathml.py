@@ -97,11 +97,11 @@ def equation(left: str, right: str) -> Markup:
 
 def factorised(polynomial: Polynomial) -> list[str]:
     """The factors of a polynomial, the number and single symbols as one, sums in parentheses."""
-    content, pairs = factors(polynomial)
-    number = f"<mn>{abs(content)}</mn>" if abs(content) != 1 or not pairs else ""
-    alone = not number and len(pairs) == 1
-    single = "".join(_factor(p, e, alone) for p, e in pairs if len(p) == 1)
-    sums = [_factor(p, e, alone) for p, e in pairs if len(p) > 1]
+    content, powers = factors(polynomial)
+    number = f"<mn>{abs(content)}</mn>" if abs(content) != 1 or not powers else ""
+    alone = not number and content > 0 and len(powers) == 1
+    single = "".join(_factor(p, e, alone) for p, e in powers if len(p) == 1)
+    sums = [_factor(p, e, alone) for p, e in powers if len(p) > 1]
     head = ("<mo>−</mo>" if content < 0 else "") + number + single
     return [head, *sums] if head else sums
 

@@ -18,7 +18,7 @@ from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Level
 from disting.report.drawing import draw
 from disting.report.environment import render
-from disting.report.experiment_drawing import definitions
+from disting.report.experiment_drawing import additions
 from disting.report.formulas import Correspondence, combinations, correspondence, written
 from disting.report.next_steps import advice, drawn, found_for, page_of
 from disting.report.page_drawing import Drawing, held
@@ -157,7 +157,10 @@ def model_page(catalog: Catalog, number: int) -> str:
         open=[t for t in twins if t.relation is Relation.UNDECIDED],
         complex_same=_over_complex(catalog, number, Relation.INDISTINGUISHABLE),
         complex_open=_over_complex(catalog, number, Relation.UNDECIDED),
-        held=held(model_of(catalog, n).drawing for n in shown),
+        held=held(
+            (model_of(catalog, n).drawing for n in shown),
+            additions(drawn([own_advice] if own_advice else [])),
+        ),
         transfer=written(model.row.chain),
         free=catalog.record(number)["free"],
         basis=combinations(model.row.identifiability.basis),
@@ -166,7 +169,6 @@ def model_page(catalog: Catalog, number: int) -> str:
         ),
         limits=limits(number, verdicts),
         advice=own_advice,
-        additions=definitions(drawn([own_advice] if own_advice else [])),
         next_name=page_of(catalog),
         motion=motion_of(catalog),
         last=len(catalog.family),

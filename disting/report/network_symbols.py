@@ -48,10 +48,10 @@ class Track:
         (x, y), (ux, uy) = self.start, self.direction
         return x + along * ux - aside * uy, y + along * uy + aside * ux
 
-    def path(self, places: Iterable[Point], ink: Ink = Ink.LINE, line: float = 1.5) -> Path:
+    def path(self, places: Iterable[Point], line: float = 1.5) -> Path:
         """A line through places (along, aside), counted from the middle."""
         middle = self.length / 2
-        return Path(tuple(self.at(middle + a, b) for a, b in places), ink, line=line)
+        return Path(tuple(self.at(middle + a, b) for a, b in places), line=line)
 
     def shifted(self, aside: float, short: float) -> "Track":
         """Beside it, shorter at both ends."""

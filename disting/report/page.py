@@ -22,7 +22,7 @@ from disting.model.chain import Chain
 from disting.report.domains import VIEWS, Over, over
 from disting.report.drawing import draw
 from disting.report.environment import render
-from disting.report.experiment_drawing import definitions
+from disting.report.experiment_drawing import additions
 from disting.report.matrix import has_slides, slide_name
 from disting.report.model import folder_of, model_of, motion_of
 from disting.report.motion import start_values
@@ -80,8 +80,7 @@ def next_page(catalog: Catalog, the_catalog: NextCatalog) -> str:
         family=short_title(catalog),
         folder=folder_of(catalog),
         groups=groups,
-        held=held(drawing for group in groups for drawing in group.drawings),
-        additions=definitions(menu_of(the_catalog)),
+        held=held((d for group in groups for d in group.drawings), additions(menu_of(the_catalog))),
         plural=plural,
     )
 
@@ -149,11 +148,10 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         still_open=domains[1].totals[Relation.UNDECIDED],
         listed_pairs=LISTED_PAIRS,
         models=models,
-        held=held([*(m.drawing for m in models), sample]),
+        held=held([*(m.drawing for m in models), sample], additions(menu_of(further))),
         sample=sample,
         dampers=dampers,
         across=across,
-        additions=definitions(menu_of(further)),
         motion=motion_of(catalog),
         next_name=page_of(catalog) if further else "",
         slides=_slides(catalog) if has_slides(catalog) else [],

@@ -16,7 +16,6 @@ from disting.report.scene import (
     Anchor,
     Circle,
     Ink,
-    Palette,
     Path,
     Rect,
     Scene,
@@ -32,24 +31,23 @@ ANCHORS = {Anchor.START: "ls", Anchor.MIDDLE: "ms", Anchor.END: "rs"}
 
 def png(
     scene: Scene,
-    palette: Palette = FILE_PALETTE,
     *,
     scale: float = 2,
     oversample: int = 3,
     colours: int = 0,
 ) -> bytes:
-    """PNG bytes, `scale` pixels a unit, on a ground of the palette's paper colour; `colours`: at
+    """PNG bytes, `scale` pixels a unit, on paper of its colour; `colours`: at
     most so many, a file of a third of the size, 0 as many as there are. Raises InputError for a
     scale that is no positive number.
     """
     if not 0 < scale < inf:
         raise InputError(f"the scale of a picture is a positive number, not {shown(scale)}")
     width, height = (max(1, round(side * scale)) for side in (scene.width, scene.height))
-    image = Image.new("RGB", (width, height), palette[Ink.PAPER])
+    image = Image.new("RGB", (width, height), FILE_PALETTE[Ink.PAPER])
     # band by band: drawn larger as a whole, the widest figures take 100 MB
     for top, shapes in zip(range(0, height, BAND), _by_band(scene, scale, height), strict=True):
         rows = top, min(top + BAND, height)
-        image.paste(_band(shapes, palette, width, rows, scale, oversample), (0, top))
+        image.paste(_band(shapes, width, rows, scale, oversample), (0, top))
     out = BytesIO()
     # 6: a twentieth larger than at 9, which takes half of the time of all figures
     if colours:
@@ -72,7 +70,6 @@ def _by_band(scene: Scene, scale: float, height: int) -> list[list[Shape]]:
 
 def _band(
     shapes: list[Shape],
-    palette: Palette,
     width: int,
     rows: tuple[int, int],
     scale: float,
@@ -83,16 +80,16 @@ def _band(
     """
     first = max(0, rows[0] - SLACK)
     size = width * oversample, (rows[1] - first) * oversample
-    canvas = Image.new("RGB", size, palette[Ink.PAPER])
+    canvas = Image.new("RGB", size, FILE_PALETTE[Ink.PAPER])
     pen = ImageDraw.Draw(canvas)
     for shape in shapes:
-        _draw(pen, shape, palette, scale * oversample, first * oversample)
+        _draw(pen, shape, scale * oversample, first * oversample)
     return canvas.reduce(oversample).crop((0, rows[0] - first, width, rows[1] - first))
 
 
-def _draw(pen: ImageDraw.ImageDraw, shape: Shape, palette: Palette, k: float, top: int) -> None:
+def _draw(pen: ImageDraw.ImageDraw, shape: Shape, k: float, top: int) -> None:
     """Draw a shape, k pixels a unit, on a canvas that begins so many pixels below the scene's."""
-    fill = _colour(palette, shape.fill)
+    fill = _colour(shape.fill)
     match shape:
         case Text(x, _, text):
             bold = round(0.03 * shape.size * k) if shape.bold else 0
@@ -107,30 +104,29 @@ def _draw(pen: ImageDraw.ImageDraw, shape: Shape, palette: Palette, k: float, to
                 (y + height) * k - 1 + half - top,
             )
             pen.rounded_rectangle(
-                box, shape.radius * k + half, fill, _colour(palette, shape.stroke), round(2 * half)
+                box, shape.radius * k + half, fill, _colour(shape.stroke), round(2 * half)
             )
         case Circle(x, y, radius):
             reach = radius * k + _half(shape, k)
             middle = y * k - top
             box = (x * k - reach, middle - reach, x * k + reach, middle + reach)
-            pen.ellipse(box, fill, _colour(palette, shape.stroke), round(2 * _half(shape, k)))
+            pen.ellipse(box, fill, _colour(shape.stroke), round(2 * _half(shape, k)))
         case Path(points):
-            _draw_path(pen, shape, [(x * k, y * k - top) for x, y in points], palette, k)
+            _draw_path(pen, shape, [(x * k, y * k - top) for x, y in points], k)
 
 
 def _draw_path(
     pen: ImageDraw.ImageDraw,
     path: Path,
     points: list[tuple[float, float]],
-    palette: Palette,
     k: float,
 ) -> None:
     if path.fill != Ink.NONE:
-        pen.polygon(points, _colour(palette, path.fill))
+        pen.polygon(points, _colour(path.fill))
         points = [*points, points[0]]
     if path.stroke == Ink.NONE:
         return
-    colour, half = palette[path.stroke], path.line * k / 2
+    colour, half = FILE_PALETTE[path.stroke], path.line * k / 2
     pen.line(points, colour, max(1, round(2 * half)), joint="curve")
     for x, y in (points[0], points[-1]):  # round ends
         pen.ellipse((x - half, y - half, x + half, y + half), colour)
@@ -140,8 +136,8 @@ def _half(shape: Rect | Circle, k: float) -> float:
     return shape.line * k / 2 if shape.stroke != Ink.NONE else 0
 
 
-def _colour(palette: Palette, ink: Ink) -> str | None:
-    return None if ink == Ink.NONE else palette[ink]
+def _colour(ink: Ink) -> str | None:
+    return None if ink == Ink.NONE else FILE_PALETTE[ink]
 
 
 @cache

@@ -151,16 +151,17 @@ class Scene:
         return (shape for layer in self.layers for shape in layer.shapes)
 
 
-def arrow(
-    start: Point, end: Point, ink: Ink, *, line: float = 2, head: float = 8
-) -> tuple[Path, ...]:
+HEAD = 8.0  # length of an arrow's head
+
+
+def arrow(start: Point, end: Point, ink: Ink) -> tuple[Path, ...]:
     """A straight shaft and a filled head whose tip is `end`."""
     length = hypot(end[0] - start[0], end[1] - start[1])
     ux, uy = (end[0] - start[0]) / length, (end[1] - start[1]) / length
-    neck = (end[0] - head * ux, end[1] - head * uy)
-    half = 0.45 * head
+    neck = (end[0] - HEAD * ux, end[1] - HEAD * uy)
+    half = 0.45 * HEAD
     wings = ((neck[0] - half * uy, neck[1] + half * ux), (neck[0] + half * uy, neck[1] - half * ux))
-    return Path((start, neck), ink, line=line), Path((end, *wings), Ink.NONE, ink)
+    return Path((start, neck), ink, line=2), Path((end, *wings), Ink.NONE, ink)
 
 
 def extent(shape: Shape) -> tuple[float, float, float, float]:
@@ -181,12 +182,15 @@ def extent(shape: Shape) -> tuple[float, float, float, float]:
             return left, y - size / 2, left + width, y + size / 2
 
 
-def framed(layers: Iterable[Layer], title: str, margin: float = 8) -> Scene:
+MARGIN = 8.0  # around shapes that stand anywhere
+
+
+def framed(layers: Iterable[Layer], title: str) -> Scene:
     """A scene of shapes that stand anywhere: moved so that all lie in it, with a margin."""
     drawn = tuple(layers)
     boxes = [extent(shape) for layer in drawn for shape in layer.shapes]
-    left, top = (min(box[i] for box in boxes) - margin for i in (0, 1))
-    right, bottom = (max(box[i] for box in boxes) + margin for i in (2, 3))
+    left, top = (min(box[i] for box in boxes) - MARGIN for i in (0, 1))
+    right, bottom = (max(box[i] for box in boxes) + MARGIN for i in (2, 3))
     moved = (
         Layer(layer.name, tuple(_moved(shape, -left, -top) for shape in layer.shapes))
         for layer in drawn

@@ -24,13 +24,13 @@ NAMESPACE = "http://www.w3.org/2000/svg"
 FONT = "system-ui, 'Segoe UI', Roboto, 'Liberation Sans', 'DejaVu Sans', Arial, sans-serif"
 
 
-def svg(scene: Scene, palette: Palette = FILE_PALETTE) -> str:
-    """A stand-alone SVG document on a ground of the palette's paper colour."""
+def svg(scene: Scene) -> str:
+    """A stand-alone SVG document on paper of its colour."""
     size = f'width="{number(scene.width)}" height="{number(scene.height)}"'
     return (
         f'<svg xmlns="{NAMESPACE}" {size} viewBox="0 0 {number(scene.width)}'
         f' {number(scene.height)}" role="img"><title>{escape(scene.title)}</title><rect {size}'
-        f' fill="{palette[Ink.PAPER]}"/>{body(scene, palette)}</svg>\n'
+        f' fill="{FILE_PALETTE[Ink.PAPER]}"/>{body(scene, FILE_PALETTE)}</svg>\n'
     )
 
 

@@ -19,8 +19,8 @@ from disting.catalogs.network_files import (
 )
 from disting.cli.run import main
 from disting.errors import CatalogError
-from disting.evidence.general import OfPart
 from disting.evidence.kinds import evidence_from
+from disting.evidence.substitutes import OfPart
 from disting.files import shipped_folder
 from disting.general.any_model import of_network
 from disting.general.forms import BRIEFLY, WAS_BRIEF

@@ -13,7 +13,7 @@ from disting.model.family import Family
 from disting.model.kinds import FORCE, KINDS, LOCK, SENSOR
 from disting.report import model_page
 from disting.report.drawing import draw
-from disting.report.experiment_drawing import added, definitions, sketch, state
+from disting.report.experiment_drawing import added, additions, sketch, state
 from disting.report.next_steps import advice, found_for, sketches_for_pairs
 from disting.report.page import next_page
 from disting.report.scene import Text, extent
@@ -134,4 +134,4 @@ def test_a_pair_shows_the_sets_that_are_enough():
 
 def test_definitions_are_in_one_order():
     used = [(Chain(2, damped=False), Item(LOCK, 2)), (Chain(2, damped=False), Item(FORCE, 2))]
-    assert definitions(used) == definitions(used[::-1]) == definitions(used * 2)
+    assert additions(used) == additions(used[::-1]) == additions(used * 2)

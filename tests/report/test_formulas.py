@@ -8,13 +8,17 @@ from xml.etree import ElementTree
 
 import pytest
 import sympy
+from hypothesis import given, settings
 
+from disting.algebra.symbols import RationalFunction, variables
 from disting.behaviour.expansion import expand
 from disting.catalogs import catalog
+from disting.equivalence.duplicates import Assignment
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.report.formulas import correspondence, written
-from disting.report.mathml import primed, summands, symbol
+from disting.report.formulas import correspondence, written, written_values
+from disting.report.mathml import expression, primed, summands, symbol
+from tests.algebra.test_rational_function import trees as rational_functions
 
 FAMILIES = [Family(n, damped) for n, damped in product((1, 2, 3, 4), (False, True))]
 
@@ -33,6 +37,8 @@ def value(element: ElementTree.Element) -> sympy.Expr:
             return value(parts[0]) ** value(parts[1])
         case "msubsup":
             return sympy.Symbol(str(parts[0].text) + str(parts[1].text)) ** value(parts[2])
+        case "msqrt":
+            return sympy.sqrt(row(parts))
         case "mfrac":
             return value(parts[0]) / value(parts[1])
         case _:
@@ -57,6 +63,37 @@ def read(texts: tuple[str, ...]) -> sympy.Expr:
             f"<mrow>{''.join(texts)}</mrow>".replace("<math>", "").replace("</math>", "")
         )
     )
+
+
+@settings(max_examples=60, deadline=None)
+@given(rational_functions)
+def test_a_typeset_function_is_the_function(function: RationalFunction) -> None:
+    names = {name: sympy.Symbol(name) for name in ("m1", "m2", "k12")}
+    num, den = (
+        sympy.sympify(str(p).replace("^", "**"), locals=names) for p in (function.num, function.den)
+    )
+    assert sympy.cancel(read((expression(function),)) - num / den) == 0
+
+
+def test_a_minus_before_a_sum_leaves_its_brackets() -> None:
+    a, b = variables(["a", "b"]).values()
+    inside = '<mrow><mo stretchy="false">(</mo><mi>a</mi><mo>−</mo><mi>b</mi><mo stretchy="false">)</mo></mrow>'
+    assert expression(b - a) == f"<mo>−</mo>{inside}"
+    assert (
+        expression((b - a) / b)
+        == f"<mfrac><mrow><mo>−</mo>{inside}</mrow><mrow><mi>b</mi></mrow></mfrac>"
+    )
+    assert expression(a - b) == "<mi>a</mi><mo>−</mo><mi>b</mi>"
+
+
+def test_a_root_is_a_fraction_of_two() -> None:
+    """Of a product below too; -(a + b) + sqrt(c) above keeps its brackets."""
+    found = Assignment(True, (), (("x", "(-(a + b) + sqrt(a*b))/(2*a)"),), ())
+    (line,) = written_values(found).equations
+    (root,) = ElementTree.fromstring(line).iter("mfrac")
+    above, below = root
+    a, b = sympy.symbols("a b")
+    assert sympy.expand(value(above) + a + b - sympy.sqrt(a * b)) == 0 == value(below) - 2 * a
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import pytest
 from disting import Domain, Engine, Network, compare, network_of
 from disting.catalogs.network_files import recall
 from disting.cli.verdicts import list_of
-from disting.evidence.general import Replaced
+from disting.evidence.substitutes import Replaced
 from disting.general.any_model import of_network
 from disting.general.identifiability import local_identifiability
 from disting.network.exact import within
