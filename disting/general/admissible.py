@@ -234,13 +234,13 @@ def _by_inequalities(left: AnyModel, right: AnyModel) -> Finding | None:
     if not (isinstance(left, Model) and isinstance(right, Model)):
         return None
     ways = [(True, left, right), (False, right, left)]
-    for left_given, given, other in ways:
-        form = contradiction(given, other)
+    for left_given, model, other in ways:
+        form = contradiction(model, other)
         if form:
             evidence = Inequality(Domain.POSITIVE.value, left_given, form)
             return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
-    for left_given, given, other in ways:
-        values = next(points_against(given, other), None)
+    for left_given, model, other in ways:
+        values = next(points_against(model, other), None)
         having = values and _common(left, right)
         if values and having:
             lacking = left_given, _written(values), ()

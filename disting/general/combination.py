@@ -137,9 +137,9 @@ def _numbers(
     entries = [(places[e], at, float(c)) for at, p in enumerate(products) for e, c in p.items()]
     rows, columns, coefficients = zip(*entries, strict=True)
     matrix = coo_matrix((coefficients, (rows, columns)), shape=(len(places), len(products)))
-    value = linprog(
+    result = linprog(
         np.zeros(len(products)), A_ub=-matrix, b_ub=-np.ones(len(places)), bounds=(None, None)
     )
-    if not value.success:
+    if not result.success:
         return None
-    return tuple(Fraction(float(x)).limit_denominator(ROUNDED) for x in value.x)
+    return tuple(Fraction(float(x)).limit_denominator(ROUNDED) for x in result.x)

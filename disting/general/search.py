@@ -97,7 +97,7 @@ def _search(
     with np.errstate(all="ignore"):
         if not np.all(np.isfinite(errors(start)[0])):
             return None
-        value = least_squares(
+        result = least_squares(
             lambda x: errors(x)[0],
             start,
             lambda x: errors(x)[1],
@@ -105,6 +105,6 @@ def _search(
             ftol=1e-15,
             gtol=1e-15,
         )
-    if np.max(np.abs(value.fun)) > CLOSE or np.max(np.abs(value.x)) > FARTHEST:
+    if np.max(np.abs(result.fun)) > CLOSE or np.max(np.abs(result.x)) > FARTHEST:
         return None
-    return tuple(map(float, np.exp(value.x)))
+    return tuple(map(float, np.exp(result.x)))

@@ -155,7 +155,7 @@ def _programme(cuts: Real) -> tuple[Real, float]:
     scale = float(cuts.mean())
     scaled = np.maximum(cuts / scale, TINY)  # raised, so that the bound stays one
     for method in ("highs", "highs-ipm"):
-        value = linprog(
+        result = linprog(
             np.append(np.zeros(n_f), -1.0),
             A_ub=np.hstack([-scaled, np.ones((n_c, 1))]),
             b_ub=np.zeros(n_c),
@@ -164,8 +164,8 @@ def _programme(cuts: Real) -> tuple[Real, float]:
             bounds=(0, None),
             method=method,
         )
-        if value.x is not None:
-            return np.maximum(value.x[:-1], 0.0), float(-value.fun) * scale
+        if result.x is not None:
+            return np.maximum(result.x[:-1], 0.0), float(-result.fun) * scale
     return _loose(cuts)
 
 

@@ -153,7 +153,7 @@ def fine(
             for edge in (box.low, box.high)
         ]
     inside = np.clip(np.zeros(int(free.sum())), bounds[0] + 1e-12, bounds[1] - 1e-12)
-    value = least_squares(
+    result = least_squares(
         residual,
         inside,
         sensitivity,
@@ -163,6 +163,6 @@ def fine(
         gtol=1e-12,
         max_nfev=300,
     )
-    best, before = 2.0 * float(value.cost), float(cost.total(plant.response(origin)))
-    reached = np.where(free, np.maximum(at(value.x), SMALLEST), origin)
+    best, before = 2.0 * float(result.cost), float(cost.total(plant.response(origin)))
+    reached = np.where(free, np.maximum(at(result.x), SMALLEST), origin)
     return (reached, best) if best < before else (origin, before)
