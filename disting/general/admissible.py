@@ -10,6 +10,7 @@ drawn to be looked at only; what is said of them is said of all points around th
 
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from itertools import islice, repeat
 
 from disting.algebra.certainty import Certainty, residues
@@ -39,6 +40,7 @@ SMALL = 5  # parameters: formulas for so few come before searches in rounded num
 MANY = 9  # parameters: elimination of more unknowns seldom ends, so inequalities come before
 GUARDS = 4  # of either model, where no equivalents are to be found
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
+REMEMBERED = 64  # pairs of which a common point was looked for: several searches ask
 TOO_LARGE = "the search for all equivalents grew too large"
 
 Ways = tuple[Way | None, Way | None]
@@ -105,6 +107,9 @@ def of_ways(
         )
         if found:
             return _sometimes(found)
+        by_signs = _by_inequalities(left, right)
+        if by_signs is not None:
+            return by_signs
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
@@ -258,6 +263,8 @@ def _by_numbers(
     """
     if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
         return None
+    if not any(map(is_tried, (left, right))):
+        return None
     having = having or _common(left, right)
     if having is None:
         return None
@@ -275,6 +282,7 @@ def _by_numbers(
     return None
 
 
+@lru_cache(maxsize=REMEMBERED)
 def _common(left: AnyModel, right: AnyModel) -> Found | None:
     """A point with a positive equivalent, where a search finds one."""
     if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
