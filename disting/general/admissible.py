@@ -30,7 +30,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
 from disting.general.orthant import THOROUGH, Effort
-from disting.general.search import common_points
+from disting.general.search import STARTS, common_points
 from disting.general.target import fibre_equations, rational_values, target
 from disting.general.which_models import Way, way
 from disting.model.question import Domain
@@ -38,6 +38,7 @@ from disting.model.question import Domain
 FIRST = 3  # of either model, whose equivalents are all listed or excluded
 SMALL = 5  # parameters: formulas for so few come before searches in rounded numbers
 MANY = 9  # parameters: elimination of more unknowns seldom ends, so inequalities come before
+FEW = 3  # starts of searches for a common point of so many: most find one at once
 GUARDS = 4  # of either model, where no equivalents are to be found
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
 REMEMBERED = 64  # pairs of which a common point was looked for: several searches ask
@@ -54,9 +55,9 @@ def admissible_finding(
     """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen. Lists of all
     equivalents of points cost milliseconds, so a few come first.
     """
+    size = max(len(m.parameters) for m in (left, right))
     if domain is Domain.POSITIVE:
-        size = max(len(m.parameters) for m in (left, right))
-        by_signs = _by_inequalities(left, right) if size > MANY else None
+        by_signs = _by_inequalities(left, right, FEW) if size > MANY else None
         if by_signs is not None:
             return by_signs
         found = _by_lists(left, right, seed, FIRST)
@@ -66,7 +67,12 @@ def admissible_finding(
             return _sometimes(found)
     first = way(left, right, domain, effort)
     second = None if first and first.never else way(right, left, domain, effort)
-    return of_ways(left, right, (first, second), domain, seed, effort)
+    finding = of_ways(left, right, (first, second), domain, seed, effort)
+    if domain is not Domain.POSITIVE or finding.outcome is not Outcome.ABANDONED:
+        return finding
+    was_brief = effort.unknowns is not None and size > effort.unknowns
+    by_signs = None if was_brief else _by_inequalities(left, right)
+    return finding if by_signs is None else by_signs
 
 
 def of_ways(
@@ -107,9 +113,6 @@ def of_ways(
         )
         if found:
             return _sometimes(found)
-        by_signs = _by_inequalities(left, right)
-        if by_signs is not None:
-            return by_signs
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
@@ -228,7 +231,7 @@ def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witness
     return None
 
 
-def _by_inequalities(left: AnyModel, right: AnyModel) -> Finding | None:
+def _by_inequalities(left: AnyModel, right: AnyModel, starts: int = STARTS) -> Finding | None:
     """What inequalities that all values of one of them satisfy tell: no values of the other one do,
     or some do not and some have an equivalent.
     """
@@ -242,7 +245,7 @@ def _by_inequalities(left: AnyModel, right: AnyModel) -> Finding | None:
             return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
     for left_given, given, other in ways:
         values = next(points_against(given, other), None)
-        having = values and _common(left, right)
+        having = values and _common(left, right, starts)
         if values and having:
             lacking = left_given, _written(values), ()
             return _sometimes(_witnesses(left, right, having, lacking, Domain.POSITIVE))
@@ -283,11 +286,11 @@ def _by_numbers(
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _common(left: AnyModel, right: AnyModel) -> Found | None:
+def _common(left: AnyModel, right: AnyModel, starts: int = STARTS) -> Found | None:
     """A point with a positive equivalent, where a search finds one."""
     if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
         return None
-    for left_given, values, near in common_points(left, right):
+    for left_given, values, near in common_points(left, right, starts):
         given, other = (left, right) if left_given else (right, left)
         found = newton.having(given, values, other, near)
         if found:
