@@ -37,6 +37,7 @@ from disting.model.question import Domain
 FIRST = 3  # of either model, whose equivalents are all listed or excluded
 SMALL = 5  # parameters: formulas for so few come before searches in rounded numbers
 MANY = 9  # parameters: elimination of more unknowns seldom ends, so inequalities come before
+FEW = 3  # starts of searches for a common point of so many: most find one at once
 GUARDS = 4  # of either model, where no equivalents are to be found
 TOO_LARGE = "the search for all equivalents grew too large"
 
@@ -49,9 +50,9 @@ def admissible_finding(
     """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen. Lists of all
     equivalents of points cost milliseconds, so a few come first.
     """
+    size = max(len(m.parameters) for m in (left, right))
     if domain is Domain.POSITIVE:
-        size = max(len(m.parameters) for m in (left, right))
-        evidence = by_inequalities(left, right) if size > MANY else None
+        evidence = by_inequalities(left, right, FEW) if size > MANY else None
         evidence = evidence or by_lists(left, right, seed, FIRST)
         if evidence is None and size > SMALL:
             evidence = by_numbers(left, right, seed, FIRST, effort.degree)
@@ -59,7 +60,13 @@ def admissible_finding(
             return _shown(evidence)
     first = way(left, right, domain, effort)
     second = None if first and first.never else way(right, left, domain, effort)
-    return of_ways(left, right, (first, second), domain, seed, effort)
+    finding = of_ways(left, right, (first, second), domain, seed, effort)
+    if domain is not Domain.POSITIVE or finding.outcome is not Outcome.ABANDONED:
+        return finding
+    # a brief search of many values has asked for them first, and asks no longer
+    was_brief = effort.unknowns is not None and size > effort.unknowns
+    evidence = None if was_brief else by_inequalities(left, right)
+    return _shown(evidence) if evidence else finding
 
 
 def of_ways(
@@ -95,10 +102,8 @@ def of_ways(
     if not lacking and (formulas := explicit(ways, left, right, domain, effort)):
         return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
-        evidence = (
-            by_lists(left, right, seed, effort.listed)
-            or by_numbers(left, right, seed, effort.listed, effort.degree, having)
-            or by_inequalities(left, right)
+        evidence = by_lists(left, right, seed, effort.listed) or by_numbers(
+            left, right, seed, effort.listed, effort.degree, having
         )
         if evidence:
             return _shown(evidence)

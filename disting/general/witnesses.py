@@ -8,6 +8,7 @@ between coefficients (see `inequalities`) less; searches in rounded numbers find
 
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from itertools import islice
 from typing import TypeVar
 
@@ -22,12 +23,13 @@ from disting.general.fibre import Extent, solved
 from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
-from disting.general.search import common_points
+from disting.general.search import STARTS, common_points
 from disting.general.target import fibre_equations, rational_values, target
 from disting.model.question import Domain
 
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
 
+REMEMBERED = 64  # pairs of which a common point was looked for: several searches ask
 M = TypeVar("M", bound=AnyModel)
 Example = tuple[bool, PointText, PointText]
 """Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
@@ -80,7 +82,9 @@ def by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesse
     return None
 
 
-def by_inequalities(left: AnyModel, right: AnyModel) -> Inequality | Witnesses | None:
+def by_inequalities(
+    left: AnyModel, right: AnyModel, starts: int = STARTS
+) -> Inequality | Witnesses | None:
     """What inequalities that all values of one of them satisfy tell: no values of the other one do,
     or some do not and some have an equivalent.
     """
@@ -93,7 +97,7 @@ def by_inequalities(left: AnyModel, right: AnyModel) -> Inequality | Witnesses |
             return Inequality(Domain.POSITIVE.value, left_given, form)
     for left_given, model, other in ways:
         values = next(points_against(model, other), None)
-        having = values and common_point(left, right)
+        having = values and common_point(left, right, starts)
         if values and having:
             lacking = example(left_given, values)
             return witnesses_of(left, right, having, lacking, Domain.POSITIVE)
@@ -126,11 +130,12 @@ def by_numbers(
     return None
 
 
-def common_point(left: AnyModel, right: AnyModel) -> Example | None:
+@lru_cache(maxsize=REMEMBERED)
+def common_point(left: AnyModel, right: AnyModel, starts: int = STARTS) -> Example | None:
     """A point with a positive equivalent, where a search finds one."""
     if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
         return None
-    for left_given, values, near in common_points(left, right):
+    for left_given, values, near in common_points(left, right, starts):
         model, other = (left, right) if left_given else (right, left)
         the_values = newton.having(model, values, other, near)
         if the_values:
