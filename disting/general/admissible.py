@@ -4,47 +4,44 @@ never or for some.
 What is known each way (see `ways`) is put together: INDISTINGUISHABLE if all generic parameters of
 either model have an equivalent in the other one; DISTINGUISHABLE if those of one have none, and so
 no admissible parameters agree, but for thin sets; SOMETIMES if in an open set there is an
-equivalent, and in another one, of either model, there is none. All of it is proven. Points are
-drawn to be looked at only; what is said of them is said of all points around them (see `robust`).
+equivalent, and in another one, of either model, there is none (see `witnesses`). All of it is
+proven.
 """
 
-from collections.abc import Iterator
-from fractions import Fraction
-from itertools import islice, repeat
+from itertools import islice
 
-from disting.algebra.certainty import Certainty, residues
-from disting.algebra.groebner.rational import Bounds, TooLarge
+from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Explicit, Inequality, NoEquivalent, Witnesses
-from disting.evidence.kind import PointText
-from disting.general import fibre_lists, newton
-from disting.general.combination import excludes, is_tried
-from disting.general.equivalent import spelled
-from disting.general.fibre import Extent, solved
 from disting.general.formulas import explicit, fit
-from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
 from disting.general.orthant import THOROUGH, Effort
-from disting.general.search import common_points
-from disting.general.target import fibre_equations, rational_values, target
 from disting.general.which_models import Way, way
+from disting.general.witnesses import (
+    Example,
+    by_inequalities,
+    by_lists,
+    by_numbers,
+    common_point,
+    example,
+    points,
+    witnesses_of,
+)
 from disting.model.question import Domain
 
 FIRST = 3  # of either model, whose equivalents are all listed or excluded
 SMALL = 5  # parameters: formulas for so few come before searches in rounded numbers
 MANY = 9  # parameters: elimination of more unknowns seldom ends, so inequalities come before
+FEW = 3  # starts of searches for a common point of so many: most find one at once
 GUARDS = 4  # of either model, where no equivalents are to be found
-SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
 TOO_LARGE = "the search for all equivalents grew too large"
 
 Ways = tuple[Way | None, Way | None]
-Found = tuple[bool, PointText, PointText]
-"""Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
 
 
 def admissible_finding(
@@ -53,19 +50,23 @@ def admissible_finding(
     """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen. Lists of all
     equivalents of points cost milliseconds, so a few come first.
     """
+    size = max(len(m.parameters) for m in (left, right))
     if domain is Domain.POSITIVE:
-        size = max(len(m.parameters) for m in (left, right))
-        by_signs = _by_inequalities(left, right) if size > MANY else None
-        if by_signs is not None:
-            return by_signs
-        witnesses = _by_lists(left, right, seed, FIRST)
-        if witnesses is None and size > SMALL:
-            witnesses = _by_numbers(left, right, seed, FIRST, effort.degree)
-        if witnesses:
-            return _sometimes(witnesses)
+        evidence = by_inequalities(left, right, FEW) if size > MANY else None
+        evidence = evidence or by_lists(left, right, seed, FIRST)
+        if evidence is None and size > SMALL:
+            evidence = by_numbers(left, right, seed, FIRST, effort.degree)
+        if evidence:
+            return _shown(evidence)
     first = way(left, right, domain, effort)
     second = None if first and first.never else way(right, left, domain, effort)
-    return of_ways(left, right, (first, second), domain, seed, effort)
+    finding = of_ways(left, right, (first, second), domain, seed, effort)
+    if domain is not Domain.POSITIVE or finding.outcome is not Outcome.ABANDONED:
+        return finding
+    # a brief search of many values has asked for them first, and asks no longer
+    was_brief = effort.unknowns is not None and size > effort.unknowns
+    evidence = None if was_brief else by_inequalities(left, right)
+    return _shown(evidence) if evidence else finding
 
 
 def of_ways(
@@ -91,24 +92,21 @@ def of_ways(
         )
     having, lacking, shares = _seen(ways, domain, seed, effort.points)
     if lacking and not having and domain is Domain.POSITIVE:
-        having = _common(left, right)
+        having = common_point(left, right)
     if lacking and (side := ways[0 if lacking[0] else 1]) and side.path():
         raise ContradictionError(
             f"a root gives equivalents of all {side.given.name}, and {dict(lacking[1])} has none"
         )
     if having and lacking:
-        return _sometimes(_witnesses(left, right, having, lacking, domain))
+        return _shown(witnesses_of(left, right, having, lacking, domain))
     if not lacking and (formulas := explicit(ways, left, right, domain, effort)):
         return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
-        witnesses = _by_lists(left, right, seed, effort.listed) or _by_numbers(
+        evidence = by_lists(left, right, seed, effort.listed) or by_numbers(
             left, right, seed, effort.listed, effort.degree, having
         )
-        if witnesses:
-            return _sometimes(witnesses)
-        by_signs = _by_inequalities(left, right)
-        if by_signs is not None:
-            return by_signs
+        if evidence:
+            return _shown(evidence)
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
@@ -123,27 +121,6 @@ def are_one_ports(left: AnyModel, right: AnyModel) -> bool:
     if isinstance(left, Model) and isinstance(right, Model):
         return same_one_ports(left, right)
     return False
-
-
-def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
-    """Yield random rational parameters of a domain, without end, determined by the seed and the
-    model.
-    """
-    label = ":".join(map(str, (seed, *model.content)))
-    n, k = len(model.parameters), 0
-    while True:
-        spread = SPREADS[k % len(SPREADS)]
-        tops, bottoms, signs = (
-            residues(f"{what}:{label}:{k}", n, below)
-            for what, below in (("p", spread + 1), ("q", spread + 1), ("sign", 3))
-        )
-        values = (Fraction(p, q) for p, q in zip(tops, bottoms, strict=True))
-        signed = (
-            x if s == 1 or domain is Domain.POSITIVE else -x
-            for x, s in zip(values, signs, strict=True)
-        )
-        yield dict(zip(model.parameters, signed, strict=True))
-        k += 1
 
 
 def _never(ways: Ways, at: int, domain: Domain) -> Finding:
@@ -179,11 +156,11 @@ def _always(evidence: Explicit | None, left: AnyModel, right: AnyModel) -> Findi
 
 def _seen(
     ways: Ways, domain: Domain, seed: str, count_of: int
-) -> tuple[Found | None, Found | None, str]:
+) -> tuple[Example | None, Example | None, str]:
     """A point with and one without an equivalent, of either model, and the shares of those with
     one.
     """
-    having, lacking, shares = list[Found](), list[Found](), list[str]()
+    having, lacking, shares = list[Example](), list[Example](), list[str]()
     for left_given, this_way in zip((True, False), ways, strict=True):
         if this_way is None:
             shares.append(
@@ -195,9 +172,9 @@ def _seen(
             the_values = this_way.having(values)
             count += bool(the_values)
             if the_values:
-                having.append((left_given, _written(values), _rounded(this_way.other, the_values)))
+                having.append(example(left_given, values, this_way.other, the_values))
             elif not always and this_way.lacking(values):
-                lacking.append((left_given, _written(values), ()))
+                lacking.append(example(left_given, values))
             if having and lacking:
                 return having[0], lacking[0], ""
         share = f"{count} of {count_of} random" if this_way.looked_at else "no"
@@ -206,119 +183,6 @@ def _seen(
     return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
 
 
-def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesses | None:
-    """A point with and one without a positive equivalent, among so many of either model, by lists
-    of all.
-    """
-    having, lacking = list[Found](), list[Found]()
-    drawn = [
-        zip(repeat(side), islice(points(this_model, Domain.POSITIVE, seed), count))
-        for side, this_model in ((True, left), (False, right))
-    ]
-    for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
-        model, other = (left, right) if left_given else (right, left)
-        the_values = fibre_lists.having(model, values, other)
-        if the_values:
-            having.append((left_given, _written(values), _rounded(other, the_values)))
-        elif fibre_lists.lacking(model, values, other):
-            lacking.append((left_given, _written(values), ()))
-        if having and lacking:
-            return _witnesses(left, right, having[0], lacking[0], Domain.POSITIVE)
-    return None
-
-
-def _by_inequalities(left: AnyModel, right: AnyModel) -> Finding | None:
-    """What inequalities that all values of one of them satisfy tell: no values of the other one do,
-    or some do not and some have an equivalent.
-    """
-    if not (isinstance(left, Model) and isinstance(right, Model)):
-        return None
-    ways = [(True, left, right), (False, right, left)]
-    for left_given, model, other in ways:
-        form = contradiction(model, other)
-        if form:
-            evidence = Inequality(Domain.POSITIVE.value, left_given, form)
-            return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
-    for left_given, model, other in ways:
-        values = next(points_against(model, other), None)
-        having = values and _common(left, right)
-        if values and having:
-            lacking = left_given, _written(values), ()
-            return _sometimes(_witnesses(left, right, having, lacking, Domain.POSITIVE))
-    return None
-
-
-def _by_numbers(
-    left: AnyModel,
-    right: AnyModel,
-    seed: str,
-    count: int,
-    degree: int,
-    having: Found | None = None,
-) -> Witnesses | None:
-    """A point that has a positive equivalent, found by a search in rounded numbers and shown by
-    intervals, and one, among so many of either model, that has none by a combination of the
-    equations.
-    """
-    if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
-        return None
-    having = having or _common(left, right)
-    if having is None:
-        return None
-    drawn = [
-        zip(repeat(side), islice(points(this_model, Domain.POSITIVE, seed), count))
-        for side, this_model in ((True, left), (False, right))
-    ]
-    for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
-        model, other = (left, right) if left_given else (right, left)
-        if not is_tried(other) or newton.having(model, values, other):
-            continue
-        if excludes(model, values, other, degree):
-            lacking = left_given, _written(values), ()
-            return _witnesses(left, right, having, lacking, Domain.POSITIVE)
-    return None
-
-
-def _common(left: AnyModel, right: AnyModel) -> Found | None:
-    """A point with a positive equivalent, where a search finds one."""
-    if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
-        return None
-    for left_given, values, near in common_points(left, right):
-        model, other = (left, right) if left_given else (right, left)
-        the_values = newton.having(model, values, other, near)
-        if the_values:
-            return left_given, _written(values), _rounded(other, the_values)
-    return None
-
-
-def _sometimes(evidence: Witnesses) -> Finding:
-    return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=evidence)
-
-
-def _witnesses(
-    left: AnyModel, right: AnyModel, having: Found, lacking: Found, domain: Domain
-) -> Witnesses:
-    sides = (left, right) if lacking[0] else (right, left)
-    return Witnesses(domain.value, *having, *lacking[:2], _count(*sides, lacking[1]))
-
-
-def _count(model: AnyModel, other: AnyModel, point: PointText) -> int:
-    """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
-    at once.
-    """
-    if not (isinstance(model, Model) and isinstance(other, Model)):
-        return -2
-    goal = target(model, rational_values(model, dict(point)))
-    try:
-        fibre = solved(fibre_equations(goal, other), other.parameters, "count", Bounds())
-    except TooLarge:
-        return -2
-    return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(fibre.extent, len(fibre.equivalents))
-
-
-def _written(values: dict[str, Fraction]) -> PointText:
-    return tuple((name, str(x)) for name, x in values.items())
-
-
-def _rounded(model: AnyModel, values: tuple[float, ...]) -> PointText:
-    return tuple((name, spelled(x)) for name, x in zip(model.parameters, values, strict=True))
+def _shown(evidence: Inequality | Witnesses) -> Finding:
+    outcome = Outcome.FAILS if isinstance(evidence, Inequality) else Outcome.SOMETIMES
+    return Finding(ADMISSIBLE, outcome, Certainty.PROVEN, evidence=evidence)

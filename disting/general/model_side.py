@@ -2,9 +2,8 @@
 
 Condition 8 applies where both are networks, condition 9 never; which of its models are limits of
 another one of larger rank is told where elements or profiles show it. Verdicts are over complex
-parameters first; over real or positive ones a pair that is distinguishable stays so, one that a
-renaming makes identical stays identical, and points with and without an admissible equivalent are
-looked for otherwise (see `admissible`).
+parameters first; over real or positive ones a pair that is distinguishable, or identical by a
+renaming, stays so, and points with and without an admissible equivalent are looked for otherwise.
 """
 
 from collections.abc import Sequence

@@ -36,7 +36,9 @@ def values_near(
             yield values
 
 
-def common_points(left: Model, right: Model) -> Iterator[tuple[bool, Values, tuple[float, ...]]]:
+def common_points(
+    left: Model, right: Model, starts: int = STARTS
+) -> Iterator[tuple[bool, Values, tuple[float, ...]]]:
     """Yield rounded values of one model with those of the other one that have nearly the same
     transfer function, and whether they are of the left one: where to look for equivalents.
     """
@@ -55,7 +57,7 @@ def common_points(left: Model, right: Model) -> Iterator[tuple[bool, Values, tup
         both = [slopes / other[:, None], -along * (value / other)[:, None]]
         return value - 1, np.hstack(both)
 
-    for k in range(STARTS):
+    for k in range(starts):
         value = _search(errors, f"common:{k}", count + len(right.parameters))
         if value is None:
             continue

@@ -1,8 +1,9 @@
 """The page that leads to the catalogues, and from the description of a machine to its model."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from operator import itemgetter
 
 from markupsafe import Markup
 
@@ -12,32 +13,55 @@ from disting.catalogs.sizes_files import SizesCatalog
 from disting.report.damper_page import family_title
 from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
-from disting.report.matrix import thumbnail
+from disting.report.matrix import FILLS
 from disting.report.model import model_of, motion_of
 from disting.report.page_drawing import Drawing, held
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene
 from disting.report.search import families
 from disting.report.svg import body, number
-from disting.report.words import plural, short_title, totals
+from disting.report.words import headline, plural, short_title, title, totals
 from disting.verdict.result import Relation
 
+THUMBNAIL = 168.0  # pixels
+Run = tuple[Ink, int, int, int]
+"""Fields of one colour beside each other: their first column, row, number."""
 INKS = {Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE, Relation.UNDECIDED: Ink.OPEN}
 
 
-def damper_thumbnail(family: DamperFamily, side: float = 168) -> Scene:
-    """A triangle with its diagonal, `side` pixels wide: a field that is not blue holds pairs
-    that are not told apart.
+def thumbnail(catalog: Catalog) -> Scene:
+    """The combined triangle without numbers: a blue staircase with the other fields on it."""
+    size = len(catalog.family)
+    runs = (run for high in range(2, size + 1) for run in _runs(catalog, high))
+    said = f"{title(catalog)}: {headline(catalog)}"
+    return staircase(size - 1, sorted(runs, key=itemgetter(0)), said)
+
+
+def staircase(count: int, others: Iterable[Run], said: str = "") -> Scene:
+    """So many steps, as wide as a thumbnail, and fields of other colours on them."""
+    cell = THUMBNAIL / max(count, 1)
+    steps = [(x * cell, y * cell) for i in range(count) for x, y in ((i, i), (i + 1, i))]
+    corners = (*steps, (THUMBNAIL, THUMBNAIL), (0.0, THUMBNAIL))
+    stairs = Path(corners, Ink.NONE, Ink.DISTINGUISHABLE)
+    fields = tuple(Rect(x * cell, y * cell, n * cell, cell, ink) for ink, x, y, n in others)
+    layers = Layer("distinguishable", (stairs,)), Layer("others", fields)
+    return Scene(THUMBNAIL, THUMBNAIL, layers, said)
+
+
+def _runs(catalog: Catalog, high: int) -> Iterator[Run]:
+    """Neighbours of one relation in a row; the distinguishable ones are left out."""
+    for relation, run in groupby(range(1, high), key=lambda low: catalog.relation(low, high)):
+        lows = list(run)
+        if relation is not Relation.DISTINGUISHABLE:
+            yield FILLS.get(relation, Ink.OPEN), lows[0] - 1, high - 2, len(lows)
+
+
+def damper_thumbnail(family: DamperFamily) -> Scene:
+    """A triangle with its diagonal: a field that is not blue holds pairs that are not told
+    apart.
     """
-    size = len(family.family)
-    cell = side / size
-    steps = [(x * cell, y * cell) for i in range(size) for x, y in ((i, i), (i + 1, i))]
-    stairs = Path((*steps, (side, side), (0, side)), Ink.NONE, Ink.DISTINGUISHABLE)
-    fields = tuple(
-        Rect(x * cell, y * cell, count * cell, cell, INKS[relation])
-        for relation, x, y, count in sorted(runs(family))
-    )
-    return Scene(side, side, (Layer("distinguishable", (stairs,)), Layer("others", fields)))
+    fields = ((INKS[relation], x, y, n) for relation, x, y, n in sorted(runs(family)))
+    return staircase(len(family.family), fields)
 
 
 def runs(family: DamperFamily) -> Iterator[tuple[Relation, int, int, int]]:

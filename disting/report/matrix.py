@@ -1,5 +1,5 @@
 """The verdicts of a family as a triangle of fields, as in Figs. 10, 11 and 13 of the paper, one
-view a slide, and as a thumbnail.
+view a slide.
 
 Row and column of a field are the two models; the number is the condition that decided. Relations
 differ in colour and in shape, here as in every figure: distinguishable is a plain field,
@@ -9,7 +9,6 @@ undecided is crossed out and has no sign.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import groupby
 
 from disting.catalogs import Catalog
 from disting.report.png import png
@@ -206,22 +205,6 @@ def slide_png(catalog: Catalog, view: View) -> bytes:
     return png(slide(catalog, view), scale=1, oversample=2, colours=64)
 
 
-def thumbnail(catalog: Catalog, side: float = 168) -> Scene:
-    """The combined triangle without numbers, `side` pixels wide: a blue staircase with the
-    other fields on it.
-    """
-    size = len(catalog.family)
-    cell = side / max(size - 1, 1)
-    steps = [(x * cell, y * cell) for i in range(size - 1) for x, y in ((i, i), (i + 1, i))]
-    stairs = Path((*steps, (side, side), (0, side)), Ink.NONE, Ink.DISTINGUISHABLE)
-    runs = (run for high in range(2, size + 1) for run in _runs(catalog, high, cell))
-    layers = (
-        Layer("distinguishable", (stairs,)),
-        Layer("others", tuple(sorted(runs, key=lambda run: run.fill))),
-    )
-    return Scene(side, side, layers, f"{title(catalog)}: {headline(catalog)}")
-
-
 def _cell(size: int) -> float:
     """Side of a field: the smaller, the more there are."""
     return 24.0 if size <= 11 else 17.0 if size <= 30 else 12.0
@@ -286,14 +269,3 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
         max(grid.letters, 0.62 * grid.cell),
         LETTERS.get(verdict.relation, Ink.LINE),
     )
-
-
-def _runs(catalog: Catalog, high: int, cell: float) -> Iterator[Rect]:
-    """Neighbours of one relation in a row, as one rectangle; the distinguishable ones are left
-    out.
-    """
-    for relation, run in groupby(range(1, high), key=lambda low: catalog.relation(low, high)):
-        lows = list(run)
-        if relation is not Relation.DISTINGUISHABLE:
-            fill = FILLS.get(relation, Ink.OPEN)
-            yield Rect((lows[0] - 1) * cell, (high - 2) * cell, len(lows) * cell, cell, fill)
