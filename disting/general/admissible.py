@@ -8,31 +8,32 @@ equivalent, and in another one, of either model, there is none. All of it is pro
 drawn to be looked at only; what is said of them is said of all points around them (see `robust`).
 """
 
-from collections.abc import Iterator
-from fractions import Fraction
-from functools import lru_cache
-from itertools import islice, repeat
+from itertools import islice
 
-from disting.algebra.certainty import Certainty, residues
-from disting.algebra.groebner.rational import Bounds, TooLarge
+from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import ContradictionError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import Explicit, Inequality, NoEquivalent, Point, Witnesses
-from disting.general import listed, newton
-from disting.general.combination import excludes, is_tried
-from disting.general.equivalent import spelled
-from disting.general.fibre import Extent, solved
+from disting.evidence.general import Explicit, NoEquivalent
 from disting.general.formulas import explicit, fit
-from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.one_ports import same_one_ports
 from disting.general.orthant import THOROUGH, Effort
-from disting.general.search import STARTS, common_points
-from disting.general.target import fibre_equations, rational_values, target
 from disting.general.which_models import Way, way
+from disting.general.witness_points import (
+    Found,
+    by_inequalities,
+    by_lists,
+    by_numbers,
+    common_point,
+    points,
+    rounded,
+    sometimes,
+    witnesses,
+    written,
+)
 from disting.model.question import Domain
 
 FIRST = 3  # of either model, whose equivalents are all listed or excluded
@@ -40,13 +41,9 @@ SMALL = 5  # parameters: formulas for so few come before searches in rounded num
 MANY = 9  # parameters: elimination of more unknowns seldom ends, so inequalities come before
 FEW = 3  # starts of searches for a common point of so many: most find one at once
 GUARDS = 4  # of either model, where no equivalents are to be found
-SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
-REMEMBERED = 64  # pairs of which a common point was looked for: several searches ask
 TOO_LARGE = "the search for all equivalents grew too large"
 
 Ways = tuple[Way | None, Way | None]
-Found = tuple[bool, Point, Point]
-"""Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
 
 
 def admissible_finding(
@@ -57,21 +54,21 @@ def admissible_finding(
     """
     size = max(len(m.parameters) for m in (left, right))
     if domain is Domain.POSITIVE:
-        by_signs = _by_inequalities(left, right, FEW) if size > MANY else None
+        by_signs = by_inequalities(left, right, FEW) if size > MANY else None
         if by_signs is not None:
             return by_signs
-        found = _by_lists(left, right, seed, FIRST)
+        found = by_lists(left, right, seed, FIRST)
         if found is None and size > SMALL:
-            found = _by_numbers(left, right, seed, FIRST, effort.degree)
+            found = by_numbers(left, right, seed, FIRST, effort.degree)
         if found:
-            return _sometimes(found)
+            return sometimes(found)
     first = way(left, right, domain, effort)
     second = None if first and first.never else way(right, left, domain, effort)
     finding = of_ways(left, right, (first, second), domain, seed, effort)
     if domain is not Domain.POSITIVE or finding.outcome is not Outcome.ABANDONED:
         return finding
     was_brief = effort.unknowns is not None and size > effort.unknowns
-    by_signs = None if was_brief else _by_inequalities(left, right)
+    by_signs = None if was_brief else by_inequalities(left, right)
     return finding if by_signs is None else by_signs
 
 
@@ -98,21 +95,21 @@ def of_ways(
         )
     having, lacking, shares = _seen(ways, domain, seed, effort.points)
     if lacking and not having and domain is Domain.POSITIVE:
-        having = _common(left, right)
+        having = common_point(left, right)
     if lacking and (one := ways[0 if lacking[0] else 1]) and one.path():
         raise ContradictionError(
             f"a root gives equivalents of all {one.given.name}, and {dict(lacking[1])} has none"
         )
     if having and lacking:
-        return _sometimes(_witnesses(left, right, having, lacking, domain))
+        return sometimes(witnesses(left, right, having, lacking, domain))
     if not lacking and (formulas := explicit(ways, left, right, domain, effort)):
         return _always(formulas, left, right)
     if domain is Domain.POSITIVE:
-        found = _by_lists(left, right, seed, effort.listed) or _by_numbers(
+        found = by_lists(left, right, seed, effort.listed) or by_numbers(
             left, right, seed, effort.listed, effort.degree, having
         )
         if found:
-            return _sometimes(found)
+            return sometimes(found)
     note = (
         f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
         " others"
@@ -127,27 +124,6 @@ def are_one_ports(left: AnyModel, right: AnyModel) -> bool:
     if isinstance(left, Model) and isinstance(right, Model):
         return same_one_ports(left, right)
     return False
-
-
-def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
-    """Yield random rational parameters of a domain, without end, determined by the seed and the
-    model.
-    """
-    label = ":".join(map(str, (seed, *model.content)))
-    n, k = len(model.parameters), 0
-    while True:
-        spread = SPREADS[k % len(SPREADS)]
-        tops, bottoms, signs = (
-            residues(f"{what}:{label}:{k}", n, below)
-            for what, below in (("p", spread + 1), ("q", spread + 1), ("sign", 3))
-        )
-        values = (Fraction(p, q) for p, q in zip(tops, bottoms, strict=True))
-        signed = (
-            x if s == 1 or domain is Domain.POSITIVE else -x
-            for x, s in zip(values, signs, strict=True)
-        )
-        yield dict(zip(model.parameters, signed, strict=True))
-        k += 1
 
 
 def _never(ways: Ways, at: int, domain: Domain) -> Finding:
@@ -199,133 +175,12 @@ def _seen(
             found = one.having(values)
             count += bool(found)
             if found:
-                having.append((left_given, _written(values), _rounded(one.other, found)))
+                having.append((left_given, written(values), rounded(one.other, found)))
             elif not always and one.lacking(values):
-                lacking.append((left_given, _written(values), ()))
+                lacking.append((left_given, written(values), ()))
             if having and lacking:
                 return having[0], lacking[0], ""
         share = f"{count} of {count_of} random" if one.looked_at else "no"
         lost = one.not_looked_at
         shares.append(f"at {share} points of {one.given.name}{lost and f' ({lost})'}")
     return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
-
-
-def _by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesses | None:
-    """A point with and one without a positive equivalent, among so many of either model, by lists
-    of all.
-    """
-    having, lacking = list[Found](), list[Found]()
-    drawn = [
-        zip(repeat(side), islice(points(one, Domain.POSITIVE, seed), count))
-        for side, one in ((True, left), (False, right))
-    ]
-    for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
-        given, other = (left, right) if left_given else (right, left)
-        found = listed.having(given, values, other)
-        if found:
-            having.append((left_given, _written(values), _rounded(other, found)))
-        elif listed.lacking(given, values, other):
-            lacking.append((left_given, _written(values), ()))
-        if having and lacking:
-            return _witnesses(left, right, having[0], lacking[0], Domain.POSITIVE)
-    return None
-
-
-def _by_inequalities(left: AnyModel, right: AnyModel, starts: int = STARTS) -> Finding | None:
-    """What inequalities that all values of one of them satisfy tell: no values of the other one do,
-    or some do not and some have an equivalent.
-    """
-    if not (isinstance(left, Model) and isinstance(right, Model)):
-        return None
-    ways = [(True, left, right), (False, right, left)]
-    for left_given, given, other in ways:
-        form = contradiction(given, other)
-        if form:
-            evidence = Inequality(Domain.POSITIVE.value, left_given, form)
-            return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
-    for left_given, given, other in ways:
-        values = next(points_against(given, other), None)
-        having = values and _common(left, right, starts)
-        if values and having:
-            lacking = left_given, _written(values), ()
-            return _sometimes(_witnesses(left, right, having, lacking, Domain.POSITIVE))
-    return None
-
-
-def _by_numbers(
-    left: AnyModel,
-    right: AnyModel,
-    seed: str,
-    count: int,
-    degree: int,
-    having: Found | None = None,
-) -> Witnesses | None:
-    """A point that has a positive equivalent, found by a search in rounded numbers and shown by
-    intervals, and one, among so many of either model, that has none by a combination of the
-    equations.
-    """
-    if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
-        return None
-    if not any(map(is_tried, (left, right))):
-        return None
-    having = having or _common(left, right)
-    if having is None:
-        return None
-    drawn = [
-        zip(repeat(side), islice(points(one, Domain.POSITIVE, seed), count))
-        for side, one in ((True, left), (False, right))
-    ]
-    for left_given, values in (x for both in zip(*drawn, strict=True) for x in both):
-        given, other = (left, right) if left_given else (right, left)
-        if not is_tried(other) or newton.having(given, values, other):
-            continue
-        if excludes(given, values, other, degree):
-            lacking = left_given, _written(values), ()
-            return _witnesses(left, right, having, lacking, Domain.POSITIVE)
-    return None
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _common(left: AnyModel, right: AnyModel, starts: int = STARTS) -> Found | None:
-    """A point with a positive equivalent, where a search finds one."""
-    if not (isinstance(left, Model) and isinstance(right, Model) and newton.are_alike(left, right)):
-        return None
-    for left_given, values, near in common_points(left, right, starts):
-        given, other = (left, right) if left_given else (right, left)
-        found = newton.having(given, values, other, near)
-        if found:
-            return left_given, _written(values), _rounded(other, found)
-    return None
-
-
-def _sometimes(evidence: Witnesses) -> Finding:
-    return Finding(ADMISSIBLE, Outcome.SOMETIMES, Certainty.PROVEN, evidence=evidence)
-
-
-def _witnesses(
-    left: AnyModel, right: AnyModel, having: Found, lacking: Found, domain: Domain
-) -> Witnesses:
-    sides = (left, right) if lacking[0] else (right, left)
-    return Witnesses(domain.value, *having, *lacking[:2], _count(*sides, lacking[1]))
-
-
-def _count(given: AnyModel, other: AnyModel, point: Point) -> int:
-    """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
-    at once.
-    """
-    if not (isinstance(given, Model) and isinstance(other, Model)):
-        return -2
-    goal = target(given, rational_values(given, dict(point)))
-    try:
-        found = solved(fibre_equations(goal, other), other.parameters, "count", Bounds())
-    except TooLarge:
-        return -2
-    return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(found.extent, len(found.equivalents))
-
-
-def _written(values: dict[str, Fraction]) -> Point:
-    return tuple((name, str(x)) for name, x in values.items())
-
-
-def _rounded(model: AnyModel, values: tuple[float, ...]) -> Point:
-    return tuple((name, spelled(x)) for name, x in zip(model.parameters, values, strict=True))

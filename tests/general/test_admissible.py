@@ -12,7 +12,7 @@ from disting.conditions.finding import Outcome
 from disting.errors import ContradictionError
 from disting.evidence.conditions import Renaming
 from disting.evidence.general import NoEquivalent, Witnesses
-from disting.general.admissible import of_ways, points
+from disting.general.admissible import of_ways
 from disting.general.alternatives import alternatives
 from disting.general.cases import Search
 from disting.general.elimination import Case
@@ -22,6 +22,7 @@ from disting.general.model_evidence import confirms
 from disting.general.orthant import Orthant
 from disting.general.sections import sections
 from disting.general.which_models import way
+from disting.general.witness_points import points
 from disting.model.question import Domain
 
 IRREVERSIBLE = Model.from_state_space(

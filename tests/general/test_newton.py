@@ -9,7 +9,6 @@ from itertools import islice
 import pytest
 
 from disting import Model, Relation, compare, local_identifiability, verify
-from disting.general.admissible import points
 from disting.general.any_model import of_network
 from disting.general.newton import having
 from disting.general.relations import (
@@ -19,6 +18,7 @@ from disting.general.relations import (
     relations,
 )
 from disting.general.search import common_points
+from disting.general.witness_points import points
 from disting.model.question import Domain
 from disting.network.notation import network_of
 from disting.verdict.verdict_file import verdict_file

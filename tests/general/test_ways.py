@@ -16,7 +16,6 @@ from disting.algebra.symbols import RationalFunction
 from disting.conditions.finding import Outcome
 from disting.errors import InputError
 from disting.evidence.general import Explicit
-from disting.general.admissible import points
 from disting.general.alternatives import alternatives
 from disting.general.any_model import of_network
 from disting.general.between import path
@@ -30,6 +29,7 @@ from disting.general.orthant import BRIEF, Effort, Orthant, value_at
 from disting.general.robust import Parted
 from disting.general.sections import held, sections
 from disting.general.which_models import Way, way
+from disting.general.witness_points import points
 from disting.model.question import Domain, Settings
 from disting.network.notation import network_of
 

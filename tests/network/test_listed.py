@@ -10,9 +10,10 @@ from scipy.optimize import least_squares
 from disting import Model, compare, network_of
 from disting.conditions.finding import Outcome
 from disting.general import listed
-from disting.general.admissible import admissible_finding, points
+from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network
 from disting.general.model_evidence import confirms
+from disting.general.witness_points import points
 from disting.model.question import Domain
 from disting.network.families import family_of
 from disting.verdict.result import Relation
