@@ -18,6 +18,8 @@ from disting.verdict.decisions import Decisions, Pair
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.result import Relation
 
+MOST = 9  # parameters of networks whose parts are looked at
+
 
 def search_in_brief(
     engine: Engine,
@@ -71,12 +73,14 @@ def _representatives_of_parts(
     sides: Sequence[ComparedModel], own: Sequence[int]
 ) -> dict[int, list[tuple[Labels, int]]]:
     """Of each network that stands for others: names of elements that can be left out, and the
-    network that stands for the rest.
+    network that stands for the rest; of large ones, which have thousands of parts, none.
     """
     numbers = {form: i for i in own if (form := simplest_network(sides[i].subject))}
     parts = dict[int, list[tuple[Labels, int]]]()
     for i in {*own}:
-        every = [(names, simplest_network(p)) for names, p in parts_of(sides[i].subject)]
+        whole = sides[i].subject
+        tried = parts_of(whole) if len(whole.parameters) <= MOST else ()
+        every = [(names, simplest_network(part)) for names, part in tried]
         parts[i] = [(names, numbers[form]) for names, form in every if form in numbers]
     return parts
 

@@ -108,7 +108,9 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
     """That networks which give the same do so, by twins in plain numbers, and all evidence of some."""
     name, sides, pairs = searched
     draw = random.Random(name)
-    for r in draw.sample([r for r in pairs if "as" in r], 3):
+    shared = [r for r in pairs if "as" in r]
+    assert bool(shared) is (name != "machines-3-damped")  # none of which gives the same
+    for r in draw.sample(shared, min(3, len(shared))):
         places = zip((r["left"], r["right"]), r["as"], strict=True)
         for own, other in places:
             networks = [sides[at - 1].subject.network for at in (own, other)]
