@@ -43,7 +43,6 @@ SHIPPED = (
     "machines-2",
     "machines-2-damped",
     "machines-3",
-    "machines-3-damped",
     "trees-4",
     "circuits-4",
     "circuits-5",
