@@ -58,7 +58,7 @@ def test_some_pairs_are_decided_again_with_the_same_evidence(n, damped):
 def test_provenance_names_the_digest_of_every_file():
     stored = json.loads((shipped_folder() / PROVENANCE).read_text())
     assert stored["files"] == provenance_of(shipped_folder())["files"]
-    assert len(stored["files"]) == 40
+    assert len(stored["files"]) == 41
 
 
 def test_verify_finds_one_altered_evidence(tmp_path):
