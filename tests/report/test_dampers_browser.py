@@ -244,7 +244,8 @@ def test_the_search_finds_what_compare_calls_them(visit) -> None:  # type: ignor
         tab.fill("#find", typed)
         tab.press("#find", "Enter")
         assert tab.inner_text("#detail h3") == found and not tab.inner_text("#trouble")
-    assert float(tab.get_attribute("#matrix", "data-cell")) > 20  # its block fills the square
+    # its block fills the square, when it is drawn
+    tab.wait_for_function("() => Number(document.getElementById('matrix').dataset.cell) > 20")
 
 
 def test_the_search_says_what_it_does_not_find(visit) -> None:  # type: ignore[no-untyped-def]
