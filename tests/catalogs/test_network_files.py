@@ -120,7 +120,9 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
         for own, other in places:
             networks = [sides[at - 1].subject.network for at in (own, other)]
             assert twin(*networks, draw, 4 * STARTS)[1] is not None
-    for r in draw.sample([r for r in pairs if r["positive"]["relation"] != "undecided"], 6):
+    decided = [r for r in pairs if r["positive"]["relation"] != "undecided"]
+    of_their_own = [r for r in decided if "finding" in r or "evidence" in r["positive"]]
+    for r in draw.sample(of_their_own, 6):
         left, right = sides[r["left"] - 1], sides[r["right"] - 1]
         evidence = r["finding"].evidence if "finding" in r else None
         evidence = evidence or evidence_from(r["positive"]["evidence"])
