@@ -120,8 +120,9 @@ def _pairs(
         }
         record["positive"] = _verdict_record(over_positive, i, j)
         if isinstance(finding, Finding):
-            del record["positive"]["evidence"]
             record["finding"] = json.loads(finding.to_json())
+            if over_positive.verdict(i, j).evidence == finding.evidence:  # else by a theorem
+                del record["positive"]["evidence"]
         yield record
 
 

@@ -121,8 +121,9 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
             networks = [sides[at - 1].subject.network for at in (own, other)]
             assert twin(*networks, draw, 4 * STARTS)[1] is not None
     decided = [r for r in pairs if r["positive"]["relation"] != "undecided"]
-    of_their_own = [r for r in decided if "finding" in r or "evidence" in r["positive"]]
-    for r in draw.sample(of_their_own, 6):
+    for r in decided:
+        assert r["positive"].get("evidence") or r["finding"].evidence is not None
+    for r in draw.sample(decided, 6):
         left, right = sides[r["left"] - 1], sides[r["right"] - 1]
         evidence = r["finding"].evidence if "finding" in r else None
         evidence = evidence or evidence_from(r["positive"]["evidence"])
