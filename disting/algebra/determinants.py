@@ -94,11 +94,11 @@ def _reduced(
     previous: fmpz_mpoly | None,
 ) -> list[fmpz_mpoly]:
     """Bareiss' step: (pivot * entry - factor * above) / previous pivot."""
-    entries = list(row)
+    reduced = list(row)
     for j in columns:
         entry = pivot[column] * row[j] - row[column] * pivot[j]
-        entries[j] = entry if previous is None else entry // previous
-    return entries
+        reduced[j] = entry if previous is None else entry // previous
+    return reduced
 
 
 def _primitive(row: Sequence[fmpz_mpoly]) -> list[fmpz_mpoly]:

@@ -98,10 +98,10 @@ def _pairs(decisions: dict[str, Decisions]) -> Iterator[Record]:
     for i in range(size):
         for j in range(i + 1, size):
             both = decisions[Stage.FIBRE].inclusions.get((i, j))
-            entries = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
+            fields = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
             yield (
                 {"left": i + 1, "right": j + 1}
-                | entries
+                | fields
                 | _shares(decisions[Stage.FIBRE], i, j)
                 | {
                     part: step(decided, i, j)

@@ -23,14 +23,14 @@ def decisions_csv(decided: Decisions) -> str:
     def rest(i: int, j: int) -> tuple[Domain, str, str, str, str, str, str]:
         """Domain, image, closure, the positive equivalents of both sides, damping, quantity."""
         sides = decided.subjects[i].premise, decided.subjects[j].premise
-        own_name, other_name = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
+        own_share, other_share = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
         image, closure = (inclusion_text(decided.inclusion(i, j, sense)) for sense in Sense)
         return (
             decided.query.view.domain,
             image,
             closure,
-            own_name,
-            other_name,
+            own_share,
+            other_share,
             *premise_text(*sides),
         )
 

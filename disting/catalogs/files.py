@@ -138,8 +138,8 @@ def _is_complete(records: Records, models: int) -> bool:
     numbers = range(1, models + 1)
     heads = [f'{{"model":{i},' for i in numbers]
     heads += [f'{{"left":{i},"right":{j},' for i, j in combinations(numbers, 2)]
-    parts = records.lines[1:]
-    return len(parts) == len(heads) and all(map(str.startswith, parts, heads))
+    lines_after = records.lines[1:]
+    return len(lines_after) == len(heads) and all(map(str.startswith, lines_after, heads))
 
 
 def digest(path: Path) -> str:

@@ -181,9 +181,9 @@ class ModelRow:
     identifiability: Identifiability
 
     def __repr__(self) -> str:
-        name = f"{self.rank} of {self.n_parameters} parameters determinable"
+        phrase = f"{self.rank} of {self.n_parameters} parameters determinable"
         return summary(
-            self, f"model {self.number}, {name}" + f", group {self.group}" * bool(self.group)
+            self, f"model {self.number}, {phrase}" + f", group {self.group}" * bool(self.group)
         )
 
 

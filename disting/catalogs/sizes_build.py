@@ -125,6 +125,6 @@ def _pairs(decisions: Decisions) -> Iterator[Record]:
     for i, j in combinations(range(len(names)), 2):
         if sizes[i] != sizes[j]:
             both = decisions.inclusions.get((i, j))
-            entries = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
+            fields = {} if both is None else {INCLUSIONS: inclusions_to_dict(both)}
             where = decisions.verdict(i, j).representation.value
-            yield {"left": names[i], "right": names[j], **entries, where: step(decisions, i, j)}
+            yield {"left": names[i], "right": names[j], **fields, where: step(decisions, i, j)}

@@ -184,7 +184,7 @@ def _open(
     """
     classes = family.found
     group = {canonical(c).chain: int(g) for c, g in zip(classes.chains, classes.group, strict=True)}
-    for number, other in sorted(classes.open_groups):
+    for group_number, other in sorted(classes.open_groups):
         links = [(group[a], group[b], x.outcome) for (a, b), x in findings.items()]
         same = Forest.of(1 + max(group.values()))
         for a, b, outcome in links:
@@ -192,8 +192,8 @@ def _open(
                 same.unite(a, b)
         root = same.root
         apart = [{root(a), root(b)} for a, b, outcome in links if outcome is Outcome.FAILS]
-        if root(number) != root(other) and {root(number), root(other)} not in apart:
-            yield _representative(family, number), _representative(family, other)
+        if root(group_number) != root(other) and {root(group_number), root(other)} not in apart:
+            yield _representative(family, group_number), _representative(family, other)
 
 
 def _representative(family: DamperFamily, group: int) -> int:

@@ -142,9 +142,9 @@ def conditions(text: str) -> tuple[str, ...]:
         low, dash, high = part.strip().partition("-")
         high = high if dash else low
         if not {low, high} <= set(names) or names.index(high) < names.index(low):
-            own_name = f"the conditions {names[0]} to {names[-1]}"
+            offered = f"the conditions {names[0]} to {names[-1]}"
             raise argparse.ArgumentTypeError(
-                f"conditions are written like 1-5,8, of {own_name}, not {shown(text)}"
+                f"conditions are written like 1-5,8, of {offered}, not {shown(text)}"
             )
         chosen |= set(names[names.index(low) : names.index(high) + 1])
     return tuple(name for name in names if name in chosen)

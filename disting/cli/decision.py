@@ -76,14 +76,14 @@ def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Na
     with told_if_long(LONGER + less):
         chains = _chains(sides)
         verdict = shipped(chains, asked) if chains else None
-        parts = shipped_ranks(chains) if chains else None
-        if verdict is None or parts is None:
+        ranks = shipped_ranks(chains) if chains else None
+        if verdict is None or ranks is None:
             with engine_for(options) as (engine, _, _progress):
                 verdict = verdict or compare(*sides, query=asked, engine=engine)
-                parts = parts or determinable(sides[0], sides[1], engine)
+                ranks = ranks or determinable(sides[0], sides[1], engine)
         left, right = in_order(chains, verdict) if chains else sides
         verdict = prove(verdict, left, right) if options.prove else verdict
-        return Judged((left, right), verdict, parts)
+        return Judged((left, right), verdict, ranks)
 
 
 def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
@@ -141,12 +141,11 @@ def _within(
     chains: Sequence[Chain], limits: Mapping[str, tuple[str, str]]
 ) -> tuple[PositiveFinding, PositiveFinding]:
     """Which positive models of each chain, within ranges, have an equivalent in the other."""
-    entries = dict.fromkeys(name for chain in chains for name in chain.parameters)
-    unknown = sorted(limits.keys() - entries.keys())
+    names = dict.fromkeys(name for chain in chains for name in chain.parameters)
+    unknown = sorted(limits.keys() - names.keys())
     if unknown:
         raise InputError(
-            f"no parameter of the two models is called {listed(unknown)};"
-            f" there are {listed(entries)}"
+            f"no parameter of the two models is called {listed(unknown)}; there are {listed(names)}"
         )
     left, right = chains
     of_left, of_right = ({n: limits[n] for n in c.parameters if n in limits} for c in chains)

@@ -113,8 +113,8 @@ def _counted(options: argparse.Namespace) -> dict[int, int]:
     """Candidates by number of masses, before they are made: each structure with any dampers to the
     ground, lag and dead time.
     """
-    entries = {n: len(Family(n)) if options.family else 1 for n in options.masses}
-    return {n: count * 2 ** (n + 2) for n, count in entries.items()}
+    counts = {n: len(Family(n)) if options.family else 1 for n in options.masses}
+    return {n: count * 2 ** (n + 2) for n, count in counts.items()}
 
 
 def _left(options: argparse.Namespace) -> Named | None:

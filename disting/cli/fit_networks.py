@@ -114,10 +114,8 @@ def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[
     width += bool(width)
     for name, value in best.values.items():
         spread = best.relative[name]
-        own_name = (
-            f"+- {100 * spread:.2g} %" if isfinite(spread) and spread < 1 else "not determined"
-        )
-        yield f"  {name:6} {value:<12.5g} {units.get(name[0], ''):{width}}{own_name}"
+        error = f"+- {100 * spread:.2g} %" if isfinite(spread) and spread < 1 else "not determined"
+        yield f"  {name:6} {value:<12.5g} {units.get(name[0], ''):{width}}{error}"
     if not best.explains:
         yield from (f"it misses the data at {miss.sentence}" for miss in best.misses)
 

@@ -156,14 +156,14 @@ def _table(
     for place, chain in enumerate(family):
         _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
         ports = (f"{act_plus}-{act_minus}", f"{meas_plus}-{meas_minus}")
-        parts = _found(profiles[place]) if profiles else (NOT_ASKED,) * 3
+        cells = _found(profiles[place]) if profiles else (NOT_ASKED,) * 3
         rank = (
             str(identifiabilities[place].rank if identifiabilities else profiles[place].rank)
             if profiles
             else NOT_ASKED
         )
         sets = _sets(identifiabilities[place]) if identifiabilities else NOT_ASKED
-        yield _line((str(place + 1), str(gap), *ports, *parts, rank, sets, text_drawing(chain)))
+        yield _line((str(place + 1), str(gap), *ports, *cells, rank, sets, text_drawing(chain)))
 
 
 def _line(cells: Sequence[str]) -> str:
@@ -192,10 +192,10 @@ def _identifiabilities(
 
 def _one_model(text: str) -> Experiment:
     """The experiment of an option that names masses of one model; raises InputError."""
-    item = parse_experiment(text)
-    if item.places:
+    parsed = parse_experiment(text)
+    if parsed.places:
         raise InputError(f"{text} names masses of two models: write {text.partition('/')[0]} alone")
-    return item.experiment
+    return parsed.experiment
 
 
 def _under_experiments(

@@ -193,8 +193,8 @@ def _told(advice: AnyFurther, words: Sequence[str] = (), *, brief: bool = False)
         for kind in advice.kinds if advice.least(structure) or not brief else ():
             cost = f"{kind.name:8} cost {advice.costs.cost(kind):g}"
             for at in advice.places(structure):
-                own_name = in_words(advice, structure, Item(kind, at))
-                lines.append(f"  {cost}  {advice.place} {at}: {own_name}")
+                answer = in_words(advice, structure, Item(kind, at))
+                lines.append(f"  {cost}  {advice.place} {at}: {answer}")
         lines.append(f"  {conclusion(advice, structure)}")
     return lines
 

@@ -118,14 +118,14 @@ def onward(
             " the structures to tell apart"
         )
     _warn(source, named)
-    own_stood = stood(named.left, engine, progress)
+    standing = stood(named.left, engine, progress)
     groups = []
-    for members in own_stood.groups:
+    for members in standing.groups:
         chosen = [(named.left[k].name, named.left[k].chain) for k in members]
         groups.append(further(chosen, engine, costs=costs, executor=executor, progress=progress))
     bench = bench_of(named)
     seen = foretold(named.left, bench, engine.settings, costs) if bench else None
-    return Onward(source, named, own_stood, tuple(groups), seen, costs)
+    return Onward(source, named, standing, tuple(groups), seen, costs)
 
 
 def _warn(source: str, named: Named) -> None:

@@ -99,7 +99,7 @@ class _Parser(argparse.ArgumentParser):
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         """A command refuses itself what it does not know, so that its own help is named."""
         self.declare()
-        value, rest = super().parse_known_args(args, namespace)
+        namespace_read, rest = super().parse_known_args(args, namespace)
         if rest:
             options = [name for action in self._actions for name in _offered(action)]
             meant = [near(word.partition("=")[0], options) for word in rest if word[0:1] == "-"]
@@ -109,7 +109,7 @@ class _Parser(argparse.ArgumentParser):
             self.error(
                 f"unrecognized arguments: {' '.join(rest)}{''.join(meant) or '; leave them away'}"
             )
-        return value, rest
+        return namespace_read, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:

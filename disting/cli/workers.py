@@ -124,12 +124,12 @@ def pairs_by_size(sizes: Iterable[int], *, across: bool = True) -> dict[int, int
     >>> pairs_by_size([2, 3]), pairs_by_size([2, 3], across=False)
     ({2: 3, 3: 88}, {2: 3, 3: 55})
     """
-    entries, smaller = {}, 0
+    pairs, smaller = {}, 0
     for n in sorted(set(sizes)):
         count = len(Family(n))
-        entries[n] = count * (count - 1) // 2 + count * smaller
+        pairs[n] = count * (count - 1) // 2 + count * smaller
         smaller += count if across else 0
-    return entries
+    return pairs
 
 
 def in_words(seconds: float) -> str:

@@ -167,17 +167,17 @@ def benches(chain: Chain, other: Chain, also: Sequence[str | Experiment]) -> Ite
     they are named. Raises InputError.
     """
     asked = [parse_experiment(e) if isinstance(e, str) else Named(e) for e in also]
-    used = {i for own_item in asked for i in own_item.experiment.masses}
+    used = {i for own_machine in asked for i in own_machine.experiment.masses}
     own = tuple((i, i) for i in sorted(used)) if other == chain else ()
-    lefts = [Experiment(), *(own_item.experiment for own_item in asked)]
+    lefts = [Experiment(), *(own_machine.experiment for own_machine in asked)]
     for places in ways(chain, other, asked, own):
         rights = [move(e, places) for e in lefts]
         pairs = dict.fromkeys(zip(lefts, rights, strict=True))
         sides = zip(*pairs, strict=True)
-        own_item, other_machine = (
+        own_machine, other_machine = (
             MeasuredChain(c, tuple(s)) for c, s in zip((chain, other), sides, strict=True)
         )
-        yield Bench(own_item, other_machine, places)
+        yield Bench(own_machine, other_machine, places)
 
 
 def _response(entry: Entry, values: Values, ring: type) -> tuple[Any, Any]:

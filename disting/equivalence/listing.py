@@ -130,8 +130,8 @@ class Equivalents(Shown):
     experiments: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        name = ", ".join(listing.name for listing in self.listings if listing.members)
-        return summary(self, f"{len(self)} of {self.name}" + f" in {name}" * bool(name))
+        sizes = ", ".join(listing.name for listing in self.listings if listing.members)
+        return summary(self, f"{len(self)} of {self.name}" + f" in {sizes}" * bool(sizes))
 
     def __iter__(self) -> Iterator[Equivalent]:
         members = [member for listing in self.listings for member in listing.members]

@@ -130,9 +130,11 @@ def _seen(chain: Chain, ports: Ports, *, wall: bool) -> Outwards:
     """The row with the receptance of the given chain between these ports."""
     structure: Structure = replace(chain.structure, ports=ports)
     ring = _ring(chain)
-    item = ring["s"] ** 0
-    parts = plain_receptance(structure, ring, ring["s"], item)
-    num, den = ([RationalFunction(c, item) for c in coefficients(p, "s")[::2]] for p in parts)
+    one_of_ring = ring["s"] ** 0
+    sides = plain_receptance(structure, ring, ring["s"], one_of_ring)
+    num, den = (
+        [RationalFunction(c, one_of_ring) for c in coefficients(p, "s")[::2]] for p in sides
+    )
     return row_from_end(num, den, wall=wall)
 
 

@@ -202,9 +202,9 @@ def _deviations(columns: Real, level: float) -> list[float]:
     where the fit misses more than the scatter; infinite where a direction is not determined.
     """
     _, sizes, right = np.linalg.svd(columns, full_matrices=False)
-    entry = sizes > LEAST * sizes[0]
-    lost = np.sum(right[~entry] ** 2, axis=0) > LEAST
-    variance = np.sum((right[entry] / sizes[entry, None]) ** 2, axis=0) * max(level, 1.0)
+    is_seen = sizes > LEAST * sizes[0]
+    lost = np.sum(right[~is_seen] ** 2, axis=0) > LEAST
+    variance = np.sum((right[is_seen] / sizes[is_seen, None]) ** 2, axis=0) * max(level, 1.0)
     return [float(x) for x in np.where(lost, np.inf, np.sqrt(variance))]
 
 

@@ -138,8 +138,8 @@ def alternatives(
     >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
     ['a = 1/2, b = 1', 'a = 1, b = 1/2']
     """
-    for own_model in (model, other):
-        of_type(own_model, Model | MatrixModel, "alternatives are those of a Model in a Model")
+    for either in (model, other):
+        of_type(either, Model | MatrixModel, "alternatives are those of a Model in a Model")
     of_type(values, Mapping, "values are a mapping of names to numbers")
     exact = rational_values(model, values)
     if model.shape != other.shape:
@@ -152,9 +152,7 @@ def alternatives(
         points = [rational_values(other, values) for values in plain]
         first = [rational(dict(point)) for point in points if _targets(other_model, point) == goals]
         others = (
-            x
-            for x in fibre.equivalents
-            if x.values not in [own_model.values for own_model in first]
+            x for x in fibre.equivalents if x.values not in [either.values for either in first]
         )
         fibre = replace(fibre, equivalents=(*first, *others))
     return Alternatives(

@@ -110,10 +110,10 @@ def _lifted(model: Model, powers: Powers, places: Sequence[int]) -> Model:
 
 
 def _at(parts: tuple[int, ...], places: Sequence[int], size: int) -> tuple[int, ...]:
-    numbers = [0] * size
+    exponents = [0] * size
     for at, power in zip(places, parts[1:], strict=True):
-        numbers[at] = power
-    return parts[0], *numbers
+        exponents[at] = power
+    return parts[0], *exponents
 
 
 def cells_of(model: AnyModel) -> list[Cell]:
@@ -201,9 +201,9 @@ def _carried(left: Model, right: Model, sources: list[int]) -> bool:
     """Whether the coefficients become those of the other one, all or none with the sign changed."""
     sides = [(*m.numerator_terms, *m.denominator_terms) for m in (left, right)]
     moved = [{tuple(e[i] for i in sources): c for e, c in terms} for terms in sides[0]]
-    rows = [dict(terms) for terms in sides[1]]
-    negated = [{e: -c for e, c in terms.items()} for terms in rows]
-    return left.degrees == right.degrees and moved in (rows, negated)
+    wanted = [dict(terms) for terms in sides[1]]
+    negated = [{e: -c for e, c in terms.items()} for terms in wanted]
+    return left.degrees == right.degrees and moved in (wanted, negated)
 
 
 def _stacked(*models: AnyModel) -> tuple[StackedMap, ...]:

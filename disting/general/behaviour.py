@@ -246,9 +246,9 @@ def _series(top: Sequence[Known], bottom: Sequence[Known], count: int) -> list[K
     for k in range(start - m + count + 1):
         terms = [_product(bottom[m - j], numbers[k - j]) for j in range(1, min(k, m) + 1)]
         first = top[start - k] if 0 <= start - k < len(top) else Fraction(0)
-        own_numbers = [term for term in terms if term is not None]
-        sure = first is not None and len(own_numbers) == len(terms)
-        numbers.append(first - sum(own_numbers) if first is not None and sure else None)
+        summands = [term for term in terms if term is not None]
+        sure = first is not None and len(summands) == len(terms)
+        numbers.append(first - sum(summands) if first is not None and sure else None)
     return numbers
 
 

@@ -85,8 +85,8 @@ def without(model: Model, zero: tuple[str, ...]) -> Model | None:
     sides = [tuple(map(left, side)) for side in (model.numerator_terms, model.denominator_terms)]
     names = tuple(model.parameters[i] for i in kept)
     less = replace(model, parameters=names, numerator_terms=sides[0], denominator_terms=sides[1])
-    rows = [list(map(bool, coefficients(m))) for m in (model, less)]
-    return less if kept and rows[0] == rows[1] else None
+    patterns = [list(map(bool, coefficients(m))) for m in (model, less)]
+    return less if kept and patterns[0] == patterns[1] else None
 
 
 def keeps_functions(model: Model, other: Model, less: Model) -> bool:

@@ -73,8 +73,8 @@ class ClosedForm:
 
     def at(self, point: Sequence[float]) -> dict[str, complex]:
         """The values at rounded ones of the given parameters."""
-        entries = {n: complex(x) for n, x in zip(self.given, point, strict=True)}
-        return next(_evaluated(self, entries, cmath.sqrt))
+        values = {n: complex(x) for n, x in zip(self.given, point, strict=True)}
+        return next(_evaluated(self, values, cmath.sqrt))
 
     @property
     def text(self) -> str:
@@ -177,16 +177,18 @@ def _evaluated(
     """Yield the values at a point, for all signs of the square roots."""
     quadratics = [s.root for s in form.steps if s.root and s.sign > 0]
     for signs in product((1, -1), repeat=len(quadratics)):
-        entry = dict(point)
+        values_so_far = dict(point)
         for step in form.steps:
             if step.root:
                 _, b, a = step.root
                 way = step.sign * signs[quadratics.index(step.root)]
-                root = way * square_root(_number(step.discriminant, entry))
-                entry[step.name] = (root - _number(b, entry)) / (2 * _number(a, entry))
+                root = way * square_root(_number(step.discriminant, values_so_far))
+                values_so_far[step.name] = (root - _number(b, values_so_far)) / (
+                    2 * _number(a, values_so_far)
+                )
             else:
-                entry[step.name] = _number(step.value, entry)
-        yield {name: _number(value, entry) for name, value in form.values}
+                values_so_far[step.name] = _number(step.value, values_so_far)
+        yield {name: _number(value, values_so_far) for name, value in form.values}
 
 
 def _square_root(number: Residue) -> Residue:
@@ -214,16 +216,16 @@ def _polynomial(polynomial: fmpz_mpoly, at: Mapping[str, Residue]) -> Residue:
 
 def _same(model: AnyModel, other: AnyModel, p: Sequence[Residue], q: Sequence[Residue]) -> bool:
     """Whether all coefficients over the leading one are the same, no leading one being zero."""
-    for own_model, two in zip(model.entries, other.entries, strict=True):
-        own_rows, other_rows = (
+    for own_model, other_model in zip(model.entries, other.entries, strict=True):
+        own_values, other_values = (
             [_value_of(t, at) for t in (*m.numerator_terms, *m.denominator_terms)]
-            for m, at in ((own_model, p), (two, q))
+            for m, at in ((own_model, p), (other_model, q))
         )
-        if len(own_rows) != len(other_rows) or not other_rows[-1]:
+        if len(own_values) != len(other_values) or not other_values[-1]:
             return False
         if any(
-            a * other_rows[-1] != b * own_rows[-1]
-            for a, b in zip(own_rows, other_rows, strict=True)
+            a * other_values[-1] != b * own_values[-1]
+            for a, b in zip(own_values, other_values, strict=True)
         ):
             return False
     return True
@@ -242,15 +244,15 @@ def _value_of(terms: Terms, point: Sequence[Residue]) -> Residue:
 
 def _size(form: ClosedForm, source_model: AnyModel, other: AnyModel) -> Size:
     """Bounds of the polynomials c_S, of what is compared and of all denominators."""
-    entries = dict.fromkeys(form.given, (1.0, 0.0))
+    bounds = dict.fromkeys(form.given, (1.0, 0.0))
     for step in form.steps:
-        parts = [_bounds(v, entries) for v in step.made_of]
+        parts = [_bounds(v, bounds) for v in step.made_of]
         if step.root:  # (-b + w)/(2 a), w^2 the discriminant
-            parts = [*parts[1:], _bounds(step.discriminant, entries), (0.0, 2.0)]
-        entries[step.name] = sum(d for d, _ in parts), sum(b for _, b in parts)
-    values = {name: _bounds(value, entries) for name, value in form.values}
-    parts = [*entries.values(), *values.values()]
-    for model, at in ((source_model, entries), (other, values)):
+            parts = [*parts[1:], _bounds(step.discriminant, bounds), (0.0, 2.0)]
+        bounds[step.name] = sum(d for d, _ in parts), sum(b for _, b in parts)
+    values = {name: _bounds(value, bounds) for name, value in form.values}
+    parts = [*bounds.values(), *values.values()]
+    for model, at in ((source_model, bounds), (other, values)):
         for entry in model.entries:
             every = [t for c in (*entry.numerator_terms, *entry.denominator_terms) for t in c]
             powers = [max(e[i] for e, _ in every) for i in range(len(entry.parameters))]

@@ -116,9 +116,9 @@ def _products(rows: Sequence[Polynomial], monomials: Sequence[Exponents]) -> Ite
     """Yield all m f_ij, over their largest coefficient; those that cancel are kept as 0, as
     they do not near by.
     """
-    for numbers, other in combinations(rows, 2):
+    for first, other in combinations(rows, 2):
         terms: Polynomial = defaultdict(Fraction)
-        for row, sign in ((numbers, 1), (other, -1)):
+        for row, sign in ((first, 1), (other, -1)):
             for e, c in row.items():
                 terms[e] += sign * c
         largest = max(map(abs, terms.values()))

@@ -143,10 +143,10 @@ def _remainder(ring: Orthant, first: fmpz_mpoly, second: fmpz_mpoly, at: int) ->
 
 
 def _content(ring: Orthant, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
-    the_polynomial = ring.number(0)
+    common = ring.number(0)
     for c in ring.coefficients(polynomial, at):
-        the_polynomial = the_polynomial.gcd(c)
-    return the_polynomial
+        common = common.gcd(c)
+    return common
 
 
 @dataclass(frozen=True, slots=True)

@@ -144,8 +144,8 @@ def _column(entries: object) -> Matrix:
 
 
 def _row(entries: object) -> Matrix:
-    numbers = [tree(entry) for entry in _entries(entries)]
-    return [numbers] if numbers else []
+    trees = [tree(entry) for entry in _entries(entries)]
+    return [trees] if trees else []
 
 
 def _width(rows: Matrix) -> int:

@@ -115,12 +115,12 @@ def without_zeros(
 def _inverted(equations: Sequence[Sparse], chosen: tuple[int, ...]) -> list[Sparse]:
     """The equations in the inverses of the chosen unknowns, and that no unknown is zero."""
     made = list[Sparse]()
-    for entries in equations:
-        size = len(next(iter(entries)))
-        top = [max(e[i] for e in entries) if i in chosen else 0 for i in range(size)]
+    for equation in equations:
+        size = len(next(iter(equation)))
+        top = [max(e[i] for e in equation) if i in chosen else 0 for i in range(size)]
         turned = (
             (tuple(abs(t - e) for t, e in zip(top, powers, strict=True)), c)
-            for powers, c in entries.items()
+            for powers, c in equation.items()
         )
         made.append(dict(turned))
     return [*made, {(1,) * size: 1, (0,) * size: -1}]

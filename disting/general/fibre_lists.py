@@ -53,8 +53,8 @@ def having(model: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...
     """
     if not (isinstance(model, Model) and isinstance(other, Model)):
         return None
-    parts = _there(other)
-    if _there(model) != parts or len(other.parameters) != sum(map(sum, parts)) - 1:
+    is_there = _there(other)
+    if _there(model) != is_there or len(other.parameters) != sum(map(sum, is_there)) - 1:
         return None
     goal = goal_of(model, values)
     equivalents = (goal and positive(goal, other)) or ()

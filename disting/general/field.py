@@ -88,12 +88,12 @@ class Arithmetic:
         """Their product."""
         return reduce(self._times, polynomials, (self.one,))
 
-    def _times(self, parts: Poly, other: Poly) -> Poly:
-        items = [self.zero] * (len(parts) + len(other) - 1)
-        for i, a in enumerate(parts):
+    def _times(self, first: Poly, other: Poly) -> Poly:
+        product = [self.zero] * (len(first) + len(other) - 1)
+        for i, a in enumerate(first):
             for j, b in enumerate(other):
-                items[i + j] += a * b
-        return tuple(map(self.short, items))
+                product[i + j] += a * b
+        return tuple(map(self.short, product))
 
     def plus(self, parts: Poly, other: Poly, factor: Any = None) -> Poly:
         """one + factor other."""

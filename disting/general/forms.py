@@ -105,11 +105,11 @@ def by_inverse(
 def inverse_of(left: AnyModel, right: AnyModel) -> tuple[AnyModel, AnyModel] | None:
     """Both with 1/s for s; None where an element has no counterpart."""
     networks = [m.network and at_inverse(m.network) for m in (left, right)]
-    own_networks = [n for n in networks if n is not None]
-    if len(own_networks) < len(networks) or len({(n.sort, n.order) for n in own_networks}) > 1:
+    turned = [n for n in networks if n is not None]
+    if len(turned) < len(networks) or len({(n.sort, n.order) for n in turned}) > 1:
         return None
     try:
-        models = [_with_network(of_network(n), n) for n in own_networks]
+        models = [_with_network(of_network(n), n) for n in turned]
     except InputError:
         return None
     model, other = on_one_variable(models)
@@ -129,14 +129,14 @@ def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
         (m.network, simplest_network(m), simplest_network(m, larger)) for m in (left, right)
     ]
     more = [whole != same for _, same, whole in networks]
-    own_networks = [whole for own, _, whole in networks if own is not None and whole is not None]
-    if len(own_networks) < len(networks) or any(more) != larger:
+    wholes = [whole for own, _, whole in networks if own is not None and whole is not None]
+    if len(wholes) < len(networks) or any(more) != larger:
         return None
-    spread = zip((left, right), own_networks, more, strict=True)
+    spread = zip((left, right), wholes, more, strict=True)
     if any(larger_ and _rank(m) < len(whole.parameters) for m, whole, larger_ in spread):
         return None
     try:
-        models = [_with_network(of_network(whole), whole) for whole in own_networks]
+        models = [_with_network(of_network(whole), whole) for whole in wholes]
     except InputError:
         return None
     model, other = on_one_variable(models)

@@ -144,7 +144,7 @@ def _fits(formula: Formula, model: AnyModel, other: AnyModel, domain: Domain) ->
     names = [*root[:1], *model.parameters]
     ring = dict(zip(names, _ring(names), strict=True))
     expansion = Expansion(ring, next(iter(ring.values())) ** 0)
-    own_polynomial = expansion.one
+    unit = expansion.one
     trees = [tree(text) for _, text in values]
     if (
         tuple(name for name, _ in values) != other.parameters
@@ -153,15 +153,15 @@ def _fits(formula: Formula, model: AnyModel, other: AnyModel, domain: Domain) ->
         return False
     point = [expansion.value(t) for t in trees]
     inside = [v for v, (_, text) in zip(point, values, strict=True) if text != ZERO]
-    generic = [RationalFunction(ring[n], own_polynomial) for n in model.parameters]
+    generic = [RationalFunction(ring[n], unit) for n in model.parameters]
     pairs = [
         (
-            [value_of(c, generic, own_polynomial) for c in _every(a)],
-            [value_of(c, point, own_polynomial) for c in _every(b)],
+            [value_of(c, generic, unit) for c in _every(a)],
+            [value_of(c, point, unit) for c in _every(b)],
         )
         for a, b in zip(model.entries, other.entries, strict=True)
     ]
-    equation = expansion.value(tree(root[1])).num if root else own_polynomial - own_polynomial
+    equation = expansion.value(tree(root[1])).num if root else unit - unit
     rests = [
         b * own_functions[-1] - a * other_functions[-1]
         for own_functions, other_functions in pairs

@@ -111,8 +111,8 @@ def global_identifiability(
     )
 
 
-def _encoded(the_global_identifiability: GlobalIdentifiability) -> str:
-    return json.dumps(asdict(the_global_identifiability), separators=(",", ":"))
+def _encoded(answer: GlobalIdentifiability) -> str:
+    return json.dumps(asdict(answer), separators=(",", ":"))
 
 
 def _decoded(text: str) -> GlobalIdentifiability:

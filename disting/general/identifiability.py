@@ -46,9 +46,9 @@ class LocalIdentifiability:
     safety: int
 
     def __repr__(self) -> str:
-        name = f"{self.rank} of {len(self.parameters)} determinable"
+        phrase = f"{self.rank} of {len(self.parameters)} determinable"
         names = f": {', '.join(self.identifiable)}" if self.identifiable else ""
-        return summary(self, name + names)
+        return summary(self, phrase + names)
 
     @property
     def unidentifiable(self) -> tuple[str, ...]:

@@ -103,10 +103,14 @@ def contradiction(model: Model, other: Model) -> Labelled | None:
 
 
 def is_contradiction(form: Labelled, model: Model, other: Model) -> bool:
-    """Whether it tells two models apart: seen from the signs of all coefficients."""
+    """Whether it tells two models apart: seen from the signs of all coefficients; almost all points
+    are regular if one is.
+    """
     names = _labels(other)
     is_known = all(name in names for _, *pair in form for name in pair)
     if not is_known or not are_alike(model, other):
+        return False
+    if not any(is_regular(model, values) for values, _ in _points(model)):
         return False
     at = [((names.index(i), names.index(j)), number) for number, i, j in form]
     own_value, other_value = (_value(at, _polynomials(m)).coeffs() for m in (model, other))

@@ -192,7 +192,7 @@ def _marked(ring: Orthant, case: Case, at: int) -> list[Mark]:
 
 def _numbers(ring: Orthant, polynomials: list[fmpz_mpoly]) -> list[list[int]]:
     """Signs of polynomials in the p at a few points; only as many as agree with the first."""
-    rows = []
+    signs_at = []
     for polynomial in polynomials:
         terms = [(int(c), tuple(map(int, e))) for e, c in polynomial.to_dict().items()]
         signs: list[int] = []
@@ -202,8 +202,8 @@ def _numbers(ring: Orthant, polynomials: list[fmpz_mpoly]) -> list[list[int]]:
             signs.append((value > 0) - (value < 0))
             if signs[0] != signs[-1] or not signs[-1]:
                 break
-        rows.append(signs)
-    return rows
+        signs_at.append(signs)
+    return signs_at
 
 
 def _holds_between(ring: Orthant, polynomial: fmpz_mpoly, at: int, low: End, high: End) -> bool:

@@ -105,8 +105,8 @@ class MatrixModel(Shown):
         """
         variable = frequency(s)
         source_rows = rows_of(rows)
-        number = polynomial(1, variable)
-        sides = [[(polynomial(entry, variable), number) for entry in row] for row in source_rows]
+        unit = polynomial(1, variable)
+        sides = [[(polynomial(entry, variable), unit) for entry in row] for row in source_rows]
         refuse_namesakes(*(entry for row in source_rows for entry in row), s)
         parameters = parameters_of((top for row in sides for top, _ in row), variable)
         ring = symbols([variable, *parameters])

@@ -218,8 +218,8 @@ class Model(Shown):
     def content(self) -> tuple[object, ...]:
         """All that tells two models apart: their names do not."""
         weights = (weight for _, weight in self.powers.weights)
-        parts = (*("halves",) * self.powers.halves, *weights)
-        return self.parameters, self.numerator_terms, self.denominator_terms, *parts
+        powers = (*("halves",) * self.powers.halves, *weights)
+        return self.parameters, self.numerator_terms, self.denominator_terms, *powers
 
     @property
     def degrees(self) -> tuple[int, int]:

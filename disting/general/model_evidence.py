@@ -87,11 +87,11 @@ def exact_again(
 def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
     """Whether these are constants of both models that differ, by their exact values."""
     sides = [behaviour_of(model).constants(None) for model in (left, right)]
-    parts = (evidence.left, evidence.right)
-    pairs = [tuple(map(side.get, evidence.labels)) for side in sides]
-    differ = all(a != b for a, b in zip(*pairs, strict=True))
+    stated = (evidence.left, evidence.right)
+    constants = [tuple(map(side.get, evidence.labels)) for side in sides]
+    differ = all(a != b for a, b in zip(*constants, strict=True))
     is_known = all(label in side for side in sides for label in evidence.labels)
-    return bool(evidence.labels) and is_known and tuple(pairs) == parts and differ
+    return bool(evidence.labels) and is_known and tuple(constants) == stated and differ
 
 
 def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:

@@ -123,8 +123,8 @@ class ComparedModel(Side[AnyModel]):
     @property
     def rank(self) -> int:
         """Number of determinable parameters, exponents too."""
-        size, number = len(self.subject.powers.weights), self.transfer_profile.rank
-        return number + determined(cells_of(self.subject), size)[0] if size else number
+        size, rank = len(self.subject.powers.weights), self.transfer_profile.rank
+        return rank + determined(cells_of(self.subject), size)[0] if size else rank
 
     @property
     def n_elements(self) -> int | None:
@@ -296,5 +296,5 @@ def _is_asked(left: ComparedModel, right: ComparedModel, domain: Domain) -> bool
 def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:
     if name == GEARS:
         return same_in_units(left.subject, right.subject)
-    value = left.gives.get(name)
-    return value is not None and value == right.gives.get(name)
+    given_set = left.gives.get(name)
+    return given_set is not None and given_set == right.gives.get(name)

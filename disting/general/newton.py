@@ -83,9 +83,9 @@ def having(
     wanted = [float(g / system.wanted[0]) for g in system.wanted[1:]]
     searched = values_near(system.rows, wanted, system.unknowns)
     for start in chain([near] if near else [], searched):
-        the_values = _certified(system, start)
-        if the_values:
-            return the_values
+        equivalent = _certified(system, start)
+        if equivalent:
+            return equivalent
     return None
 
 
@@ -97,8 +97,8 @@ def are_alike(model: Model, other: Model) -> bool:
         return False
     if not is_in_one_variable(model.powers, other.powers) or model.degrees != other.degrees:
         return False
-    rows, two = ([bool(c) for c in coefficients(m)] for m in (model, other))
-    return rows == two
+    own_pattern, other_pattern = ([bool(c) for c in coefficients(m)] for m in (model, other))
+    return own_pattern == other_pattern
 
 
 def _system(model: Model, values: Values, other: Model) -> System | None:
@@ -171,9 +171,9 @@ def _chosen(system: System, start: Sequence[float]) -> list[int]:
     from scipy.linalg import qr
 
     every = list(range(system.unknowns))
-    the_arb_mat = _derivatives(system, [arb(x) for x in start], every)
+    jacobian = _derivatives(system, [arb(x) for x in start], every)
     count = len(system.solved)
-    table = [[float(the_arb_mat[i, j].mid()) * start[j] for j in every] for i in range(count)]
+    table = [[float(jacobian[i, j].mid()) * start[j] for j in every] for i in range(count)]
     table = [[x / (max(map(abs, row)) or 1) for x in row] for row in table]
     return sorted(map(int, qr(np.array(table), mode="r", pivoting=True)[1][:count]))
 

@@ -106,9 +106,9 @@ def slope(relation: Relation, at: Sequence[Any], by: int, zero: Any) -> Any:
     """The derivative of a quadratic form by one variable."""
     total = zero
     for (i, j), number in relation:
-        for this_number, other in ((i, j), (j, i)):
-            if this_number == by:
-                total += at[other] * number.numerator / number.denominator
+        for first, second in ((i, j), (j, i)):
+            if first == by:
+                total += at[second] * number.numerator / number.denominator
     return total
 
 

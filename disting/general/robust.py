@@ -127,11 +127,11 @@ def _in_case(parted: Parted, case: Case, point: Point) -> tuple[float, ...] | No
         ]
         for values in product(*ways):
             for sign in signs:
-                the_values = _in_interval(
+                equivalent = _in_interval(
                     parted, case, point | dict(zip(others, values, strict=True)), at, sign
                 )
-                if the_values:
-                    return the_values
+                if equivalent:
+                    return equivalent
     return None
 
 

@@ -52,10 +52,10 @@ def common_points(
 
     def errors(logs: Any) -> tuple[Any, Any]:
         """Relative differences of both, and their derivatives by the logarithms of all values."""
-        (item, slopes), (other, along) = ratios[0](logs[:count]), ratios[1](logs[count:])
-        value = item / other
-        both = [slopes / other[:, None], -along * (value / other)[:, None]]
-        return value - 1, np.hstack(both)
+        (own, slopes), (other, along) = ratios[0](logs[:count]), ratios[1](logs[count:])
+        quotient = own / other
+        both = [slopes / other[:, None], -along * (quotient / other)[:, None]]
+        return quotient - 1, np.hstack(both)
 
     for k in range(starts):
         value = _search(errors, f"common:{k}", count + len(right.parameters))
@@ -82,8 +82,8 @@ def _ratios(rows: Sequence[Terms], unknowns: int) -> Callable[[Any], tuple[Any, 
         each = numbers * np.exp(np.clip(powers @ logs, -300, 300))
         totals, slopes = np.bincount(places, each, len(rows)), np.zeros((len(rows), unknowns))
         np.add.at(slopes, places, each[:, None] * powers)
-        value = totals[1:] / totals[0]
-        return value, slopes[1:] / totals[0] - value[:, None] * slopes[0] / totals[0]
+        quotients = totals[1:] / totals[0]
+        return quotients, slopes[1:] / totals[0] - quotients[:, None] * slopes[0] / totals[0]
 
     return at
 

@@ -138,8 +138,8 @@ def _half(grid: Grid, axis: int, upper: bool) -> Grid:
 
 def _shifted(coefficients: Sequence[int]) -> list[int]:
     """Coefficients of f(1 + u)."""
-    numbers = list(coefficients)
-    for i in range(len(numbers)):
-        for j in range(len(numbers) - 2, i - 1, -1):
-            numbers[j] += numbers[j + 1]
-    return numbers
+    moved = list(coefficients)
+    for i in range(len(moved)):
+        for j in range(len(moved) - 2, i - 1, -1):
+            moved[j] += moved[j + 1]
+    return moved

@@ -124,11 +124,11 @@ def synthesized(
             yield {name: x for values in chosen for name, x in values.items()}
 
 
-def _share(part: Part, view: str, this_part: Power | None, other: Power | None) -> Share:
+def _share(part: Part, view: str, low: Power | None, high: Power | None) -> Share:
     if len(part.kinds) > 1:
         part = part if part.form == view else turned(part)
     count = sum(n for _, n in part.terms)
-    return Share(count, this_part in part.single, other in part.single)
+    return Share(count, low in part.single, high in part.single)
 
 
 def _chosen(field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share]) -> None:
@@ -148,9 +148,9 @@ def _inverse(field: Arithmetic, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
 
 def _value(field: Arithmetic, element: Element, view: str, top: Poly, bottom: Poly) -> Values:
     """Of a constant top/bottom, or a pole at 0."""
-    entry = top[0] / bottom[-1]
+    constant = top[0] / bottom[-1]
     is_inverse = (view == "S") is not element.kind.divides
-    return {element.value: field.short(field.one / entry if is_inverse else entry)}
+    return {element.value: field.short(field.one / constant if is_inverse else constant)}
 
 
 def _parted(
@@ -195,15 +195,15 @@ def shared(
         return
     for factors, cut in _partitions(field, branches, bottom):
         terms = _partial(field, factors, top, bottom)
-        entries = dict[int, tuple[Poly, Poly]]()
+        functions = dict[int, tuple[Poly, Poly]]()
         for (place, _, _), chosen in zip(branches, cut, strict=True):
             below = field.times(*(factors[i] for i in chosen))
             above: Poly = ()
             for i in chosen:
                 others = field.times(*(factors[j] for j in chosen if j != i))
                 above = field.plus(above, field.times(terms[i], others))
-            entries[place] = above, below
-        yield entries
+            functions[place] = above, below
+        yield functions
 
 
 def _partitions(
@@ -290,9 +290,9 @@ def _quotient(field: Arithmetic, top: Poly, bottom: Poly, by: Poly) -> Poly:
         for r in rows[at + 1 :]:
             factor = field.short(r[at] / pivot[at])
             r[at:] = [field.short(a - factor * b) for a, b in zip(r[at:], pivot[at:], strict=True)]
-    items = list[Any]()
+    solution = list[Any]()
     for r in reversed(rows):
-        entry = r[degree - len(items) : degree]
-        total = sum((a * b for a, b in zip(entry, items, strict=True)), zero)
-        items.insert(0, field.short((r[-1] - total) / r[degree - 1 - len(items)]))
-    return tuple(items)
+        row_after = r[degree - len(solution) : degree]
+        total = sum((a * b for a, b in zip(row_after, solution, strict=True)), zero)
+        solution.insert(0, field.short((r[-1] - total) / r[degree - 1 - len(solution)]))
+    return tuple(solution)

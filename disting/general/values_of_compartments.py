@@ -64,9 +64,9 @@ def values_of_tree(field: Arithmetic, model: Model, network: Network) -> Iterato
         raise NoFormulas("both do not give functions of one set")
     end = next(iter(leaks), enter.plus)
     for sums in _sums(field, tree, top, bottom):
-        entries = dict[tuple[int, int], Any]()
-        left = _flow(field, entries, sums, flows, end, 0)
-        values = {flows[ends]: x for ends, x in entries.items()}
+        flow_values = dict[tuple[int, int], Any]()
+        left = _flow(field, flow_values, sums, flows, end, 0)
+        values = {flows[ends]: x for ends, x in flow_values.items()}
         yield values | ({leaks[end]: left} if leaks else {})
 
 
@@ -95,8 +95,8 @@ def _sums(field: Arithmetic, tree: Hanging, top: Poly, bottom: Poly) -> Iterator
     rest = field.plus(rest, tuple(below), -field.one)[: len(above) - 1]
     branches = [(at, h, h.count) for at, h in enumerate(tree.inside)]
     for terms in shared(field, branches, rest, tuple(above)):
-        the_sums = [list(_sums(field, h, *terms[at])) for at, h, _ in branches]
-        for chosen in product(*the_sums):
+        inner_sums = [list(_sums(field, h, *terms[at])) for at, h, _ in branches]
+        for chosen in product(*inner_sums):
             sums = Sums({tree.node: out}, {})
             for (at, h, _), this_sums in zip(branches, chosen, strict=True):
                 high, low = (side[-1] for side in terms[at])

@@ -88,27 +88,29 @@ def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[
     that are not known are chosen: 1.
     """
     (own_network, ratios), (other_network, chosen) = _placed(model), _placed(other)
-    entry = {e.value: field[e.value] for e in own_network.elements}
+    known_values = {e.value: field[e.value] for e in own_network.elements}
     for name, unit in _units(field, model.network, [field[n] for n in ratios]).items():
-        entry[name] = field[name] * unit
+        known_values[name] = field[name] * unit
     back = _units(field, other.network, [field.one] * len(chosen))
     (plain, made), (wanted, undone) = unbridged(own_network), unbridged(other_network)
     for exchange in made:
-        entry = exchange.forth(field, entry)
-    for values in _of_edges(field, entry, plain, wanted):
+        known_values = exchange.forth(field, known_values)
+    for values in _of_edges(field, known_values, plain, wanted):
         values = _before(field, undone, values)
-        the_entry = {name: x / back.get(name, field.one) for name, x in values.items()}
-        yield the_entry | dict.fromkeys(chosen, field.one)
+        in_units = {name: x / back.get(name, field.one) for name, x in values.items()}
+        yield in_units | dict.fromkeys(chosen, field.one)
 
 
 def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) -> Values:
     """Those that gears make, with these values for ratios that are not known."""
-    entry = dict[str, Any]()
+    unit_of = dict[str, Any]()
     for name, (number, powers) in (units(network) if network else {}).items():
-        entry[name] = field.number(number.numerator) / field.number(number.denominator)
+        unit_of[name] = field.number(number.numerator) / field.number(number.denominator)
         for ratio, k in zip(ratios, powers, strict=True):
-            entry[name] *= reduce(operator.mul, [ratio] * abs(k), field.one) ** (1 if k > 0 else -1)
-    return entry
+            unit_of[name] *= reduce(operator.mul, [ratio] * abs(k), field.one) ** (
+                1 if k > 0 else -1
+            )
+    return unit_of
 
 
 def _placed(model: AnyModel) -> tuple[Network, list[str]]:
@@ -250,11 +252,11 @@ def _paired(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
 
 def _composed(field: Arithmetic, entry: Values, tree: Tree, low: Power) -> tuple[Poly, Poly]:
     """F(x) of branches of two kinds, of which one has the power `low`."""
-    zero, item = field.zero, field.one
+    zero, unit = field.zero, field.one
     if tree.element is not None:
         value = entry[tree.element.value]
-        value = value if tree.element.kind.divides else item / value
-        return (value,), ((item,) if tree.element.power == low else (zero, item))
+        value = value if tree.element.kind.divides else unit / value
+        return (value,), ((unit,) if tree.element.power == low else (zero, unit))
     functions = [_composed(field, entry, t, low) for t in tree.inside]
     if tree.form == "S":
         return reduce(partial(_sum, field), functions)

@@ -102,10 +102,10 @@ def meaning(header: str) -> Column:
     if stated is None:
         inside = INSIDE.findall(header.replace("_per_", "/"))
         hertz = [text for text in inside if text.lower().endswith("hz")]
-        rows = [text for text in inside if _known(role, text) is not None]
+        units = [text for text in inside if _known(role, text) is not None]
         if role in (Role.REAL, Role.IMAGINARY, Role.GAIN):
-            rows = [text for text in rows if known_unit(text, LEVELS)]  # rad is none of a gain
-        stated = (rows or (hertz if role is Role.FREQUENCY else []) or [None])[-1]
+            units = [text for text in units if known_unit(text, LEVELS)]  # rad is none of a gain
+        stated = (units or (hertz if role is Role.FREQUENCY else []) or [None])[-1]
     if role is Role.FREQUENCY and stated is None and CIRCULAR & set(_words(name)):
         return Column(role, "rad/s")
     if TWENTY.search(header) and role in (Role.GAIN, Role.OTHER):
@@ -204,8 +204,8 @@ def _with_unit(role: Role, stated: str, name: str) -> Column:
             return Column(Role.OTHER)  # F [N], w [m]
         if known_unit(stated, FREQUENCIES) == "rad/s" and "rad" not in stated.lower():
             return Column(role, "rad/s" if CIRCULAR & set(_words(name)) else "Hz")  # in 1/s
-    text = _known(role, stated)
-    if text is None:
+    unit_text = _known(role, stated)
+    if unit_text is None:
         return replace(Column(role), unknown=stated)
-    unit = gain(text) if role in (Role.GAIN, Role.REAL, Role.IMAGINARY) else None
-    return Column(Role.SIGNAL if unit and unit.signal else role, text)
+    unit = gain(unit_text) if role in (Role.GAIN, Role.REAL, Role.IMAGINARY) else None
+    return Column(Role.SIGNAL if unit and unit.signal else role, unit_text)

@@ -46,16 +46,18 @@ def _scope(lines: list[str], origin: str) -> Table | None:
         return None
     first = max((i for i in range(at) if head[i][0] == NAME), default=at)
     end = next((i for i in range(at, len(head)) if not head[i][0]), len(head))
-    rows = {row[0]: row for row in head[first:end]}
-    columns = _columns(rows[RATE], origin)
-    headers = ("time [ms]", *(_header(rows, j) for j in columns[1:]))
+    fields = {row[0]: row for row in head[first:end]}
+    columns = _columns(fields[RATE], origin)
+    headers = ("time [ms]", *(_header(fields, j) for j in columns[1:]))
     cells, numbers = array("d"), list[int]()
     for n, row in enumerate((line.split(mark) for line in lines[end:]), end + 1):
         if len(row) > columns[0] and row[columns[0]].strip() not in ("", "EOF"):
             cells.extend(_numbers(row, columns, f"{origin}, line {n}", mark))
             numbers.append(n)
     values = np.frombuffer(cells, dtype=np.float64).reshape(-1, len(columns))
-    return Table(headers, values, tuple(numbers), (), origin, left_out=_left_out(rows, columns[1:]))
+    return Table(
+        headers, values, tuple(numbers), (), origin, left_out=_left_out(fields, columns[1:])
+    )
 
 
 def _left_out(rows: dict[str, list[str]], kept: list[int]) -> str:

@@ -78,11 +78,11 @@ def _cells(line: str) -> list[str]:
 
 def _columns(cells: list[str]) -> tuple[int, ...]:
     """Where frequency, real and imaginary part are; () where one is missing."""
-    numbers = [
+    columns = [
         next((i for i, cell in enumerate(cells) if words.match(cell)), -1)
         for words in (FREQUENCY, REAL, IMAGINARY)
     ]
-    return () if -1 in numbers else tuple(numbers)
+    return () if -1 in columns else tuple(columns)
 
 
 def _numbers(line: str, at: tuple[int, ...]) -> tuple[float, ...] | None:

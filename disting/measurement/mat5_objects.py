@@ -82,8 +82,8 @@ def objects(content: bytes, take: Take) -> "Objects | None":
     data = mat5.array(inner, order).astype(np.uint8).tobytes()
     order = "<" if data[2:4] == b"IM" else ">"
     for matrix in mat5.matrices(data, order, 8, take):
-        value = tree(matrix, order)
-        cells = value.get("MCOS") if isinstance(value, dict) else None
+        variables = tree(matrix, order)
+        cells = variables.get("MCOS") if isinstance(variables, dict) else None
         if isinstance(cells, list) and cells and isinstance(cells[0], np.ndarray):
             return Objects(cells, cells[0].astype(np.uint8).tobytes(), order)
     return None

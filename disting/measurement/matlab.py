@@ -160,11 +160,11 @@ def _whole(variable: mat5.Variable, file: Source, take: Take) -> NDArray[Any]:
 def _listed(file: Source) -> set[str]:
     import scipy.io
 
-    value = _foreign(
+    contents = _foreign(
         partial(scipy.io.whosmat, io.BytesIO(file.content)),
         f"{file.name} is no MATLAB file that can be read",
     )
-    return {str(entry[0]) for entry in value}
+    return {str(entry[0]) for entry in contents}
 
 
 def _loaded(file: Source, name: str) -> NDArray[Any]:

@@ -66,7 +66,7 @@ def stored_responses(content: bytes, take: Take) -> dict[str, Stored]:
     """The response objects of a MATLAB file of version 5 to 7 by name, `frf.Pv` where a struct
     holds them.
     """
-    the_stored_responses = dict[str, Stored]()
+    stored = dict[str, Stored]()
     try:
         subsystem = objects(content, take)
     except mat5.DAMAGE:
@@ -74,12 +74,12 @@ def stored_responses(content: bytes, take: Take) -> dict[str, Stored]:
     for variable in mat5.variables(content):
         try:
             if variable.kind in HOLDERS:
-                the_stored_responses |= _within(
+                stored |= _within(
                     variable.name, tree(variable.matrix(take), variable.order), subsystem
                 )
         except mat5.DAMAGE:
             continue  # what is damaged is no response
-    return the_stored_responses
+    return stored
 
 
 def from_stored(
@@ -233,6 +233,6 @@ def _signals(held: Mapping[str, Any], side: str, count: int) -> tuple[Signal, ..
 
 def _texts(value: Any, count: int) -> list[str]:
     """One text a channel; empty ones where the object has none."""
-    rows = [value] if isinstance(value, str) else value if isinstance(value, list) else []
-    texts = [text if isinstance(text, str) else "" for text in rows]
+    channels = [value] if isinstance(value, str) else value if isinstance(value, list) else []
+    texts = [text if isinstance(text, str) else "" for text in channels]
     return texts if len(texts) == count else [""] * count

@@ -172,8 +172,8 @@ class FrequencyResponse(Shown):
         """Sentences on what looks wrong in the numbers, each with its remedy; empty where
         nothing does.
         """
-        text = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
-        return (*self.doubts, *([] if text is None else [text]))
+        doubt = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
+        return (*self.doubts, *([] if doubt is None else [doubt]))
 
     def subset(self, lines: Any) -> "FrequencyResponse":
         """The lines of a boolean mask or of indices, shape (n,); raises InputError where fewer

@@ -111,19 +111,27 @@ def in_si(
     >>> in_si(degrees, output="deg", input="Nm").G.real[:2].round(4).tolist()
     [3.1416, 6.2832]
     """
-    other_unit, parts = motion(output or response.output.unit), drive(input or response.input.unit)
-    for text, unit, example in ((output, other_unit, "rad, mm/s, rpm"), (input, parts, "A, Nm, N")):
+    output_unit, input_unit = (
+        motion(output or response.output.unit),
+        drive(input or response.input.unit),
+    )
+    for text, unit, example in (
+        (output, output_unit, "rad, mm/s, rpm"),
+        (input, input_unit, "A, Nm, N"),
+    ):
         if text and unit is None:
             raise InputError(
                 f"{shown(text)} is no unit that is known here; known are such as {example}"
             )
-    if other_unit is not None:
+    if output_unit is not None:
         response = _moved(
-            response, other_unit, said=output or response.output.unit, asked=output is not None
+            response, output_unit, said=output or response.output.unit, asked=output is not None
         )
-    if parts is None:
+    if input_unit is None:
         return response
-    return _scaled(replace(response, input=response.input._replace(unit=parts[0])), 1 / parts[1])
+    return _scaled(
+        replace(response, input=response.input._replace(unit=input_unit[0])), 1 / input_unit[1]
+    )
 
 
 def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResponse:

@@ -161,11 +161,11 @@ class _Reading:
             self.notes.append(f"{self.table.named(at)}: ({unknown}) is taken as part of its name")
         elif unknown:
             phase = self.roles[at].role is Role.PHASE
-            name = listed(PHASES) if phase else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
+            units = listed(PHASES) if phase else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
             remedy = "phase=deg" if phase else "magnitude=1, which takes the numbers as they are"
             raise InputError(
                 f"{self.table.origin}, {self.table.named(at)}: the unit {shown(unknown)} is not"
-                f" known; known are {name}; else give --unit {remedy}"
+                f" known; known are {units}; else give --unit {remedy}"
             )
 
     def _scale(self, at: int) -> float:

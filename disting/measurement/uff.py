@@ -52,9 +52,9 @@ def read_uff(
     responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]
     number = 1 if record is None else record
     if not 1 <= number <= len(responses):
-        name = listed((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
+        offered = listed((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
         raise InputError(
-            f"{file.name} has no frequency response number {number}; there are: {name}"
+            f"{file.name} has no frequency response number {number}; there are: {offered}"
         )
     chosen = responses[number - 1]
     quantity, note = _quantity(chosen, sensor)
@@ -128,10 +128,10 @@ def _coherence(records: Sequence[Record], response: Record) -> Any:
     """That of the same output and frequencies, if there is exactly one (a coherence may name no
     input).
     """
-    items = [
+    coherences = [
         r["data"] for r in records if r.get("func_type") == COHERENCE and _belongs(r, response)
     ]
-    return np.real(items[0]) if len(items) == 1 else None
+    return np.real(coherences[0]) if len(coherences) == 1 else None
 
 
 def _belongs(coherence: Record, response: Record) -> bool:

@@ -158,13 +158,13 @@ def row(
 
 def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, origin: str) -> str:
     if asked is None:
-        text = next((name for name in usual if name in arrays), None)
-        if text is None:
+        variable = next((name for name in usual if name in arrays), None)
+        if variable is None:
             raise InputError(
                 f"{origin}: which variable is the {role}? give --read {role}=NAME; variables:"
                 f" {_listed(arrays)}"
             )
-        return text
+        return variable
     if asked not in arrays:
         raise InputError(f"{origin} has no variable {shown(asked)}; variables: {_listed(arrays)}")
     return asked

@@ -80,5 +80,5 @@ def _kernel(x: Real) -> Complex:
     size = np.abs(tau)
     r = (1 - size) * (2 + np.cos(2 * np.pi * size)) / 3 + np.sin(2 * np.pi * size) / (2 * np.pi)
     values, at = np.unique(np.round(x, 9), return_inverse=True)
-    value = np.exp(-1j * np.outer(values, tau)) @ (r * np.exp(SHIFT * tau)) / STEPS
-    return np.asarray(value[at].reshape(x.shape))
+    transform = np.exp(-1j * np.outer(values, tau)) @ (r * np.exp(SHIFT * tau)) / STEPS
+    return np.asarray(transform[at].reshape(x.shape))

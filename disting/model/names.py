@@ -190,8 +190,8 @@ def _meant(text: str) -> str:
     head, *words = _joined(text.replace("_", " ")).lower().split("+")
     head = re.sub(r"^a?(\d{1,2})\s*[.;,/\- ]\s*a?(\d{1,6})$", r"\1:\2", head)
     near = [_word(word.replace(" ", "")) for word in words]
-    name = "+".join([head, *near])
-    return name if NAME.fullmatch(name) and name != text else ""
+    mended = "+".join([head, *near])
+    return mended if NAME.fullmatch(mended) and mended != text else ""
 
 
 def _word(word: str) -> str:

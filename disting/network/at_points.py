@@ -73,11 +73,11 @@ class Frame:
         entries = self.entries
         if all(abs(x) == 1 for e in entries for _, x in e.feels):
             return self
-        the_entries = []
+        columns = []
         for e in entries:
             v = tuple((i, sign) for (i, _), sign in zip(e.feels, (1, -1), strict=False))
-            the_entries.append(replace(e, pulls=v, feels=v))
-        return _frame(self.size, tuple(the_entries), self.n_values)
+            columns.append(replace(e, pulls=v, feels=v))
+        return _frame(self.size, tuple(columns), self.n_values)
 
     @property
     def highest(self) -> int:
@@ -179,8 +179,8 @@ def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
         wanted, wanted, [pow(at.s, j, modulus) for at in seen for j in range(wanted)], modulus
     )
     width = len(rows[0])
-    own_nmod_mat = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
-    numbers = [int(x) for x in powers.solve(own_nmod_mat).entries()]
+    right_sides = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
+    numbers = [int(x) for x in powers.solve(right_sides).entries()]
     num, den, *slopes = (nmod_poly(numbers[i::width], modulus) for i in range(width))
     return _turned(of, point, num, den, slopes)
 
@@ -240,18 +240,18 @@ def _at_number(of: Assembly, at: Solved, modulus: int) -> list[int]:
     x = [of.scale * sum(a * row[i] for i, a in of.force) for row in inverse]
     y = [sum(a * inverse[i][j] for i, a in of.sensor) for j in range(len(inverse))]
     num = den * sum(a * x[i] for i, a in of.sensor) % modulus
-    numbers = [num, den]
+    sides = [num, den]
     for w, pairs, square in at.ways:
-        own_place = 0
+        slope = 0
         for u, v in pairs:
-            other_place = moved = 0
+            left_value = moved = 0
             for i, a in u:
-                other_place += a * y[i]
+                left_value += a * y[i]
             for j, b in v:
                 moved += b * x[j]
-            own_place += other_place * moved
-        numbers += [w * (num * square - den * own_place) % modulus, w * den * square % modulus]
-    return numbers
+            slope += left_value * moved
+        sides += [w * (num * square - den * slope) % modulus, w * den * square % modulus]
+    return sides
 
 
 def _turned(

@@ -63,8 +63,8 @@ def taken_away(part: Network, whole: Network) -> tuple[Names, Names] | None:
     >>> taken_away(network_of("p(R1,C1)-R0"), network_of("R0-p(R1,C1)-p(R2,C2)"))
     (('R2',), ('C2',))
     """
-    this_parts, other = ((n.sort, n.order, n.sign_of_one_port) for n in (part, whole))
-    if this_parts != other or not part.sign_of_one_port:
+    own_kind, other_kind = ((n.sort, n.order, n.sign_of_one_port) for n in (part, whole))
+    if own_kind != other_kind or not part.sign_of_one_port:
         return None
     form, size = branches(part), len(part.grounded.elements)
     return None if form is None else _rests(whole.grounded, size).get(form)

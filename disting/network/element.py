@@ -230,6 +230,6 @@ def kind_of(name: str) -> Kind:
     if name[:3] == "CPE":
         raise InputError(f"{shown(name)} is a constant phase element: call it P{name[3:]}")
     if letter not in KINDS or letter == "v":
-        own_name = _words(letter for letter in KINDS if letter != "v")
-        raise InputError(f"{shown(name)} begins with no letter of an element; there are {own_name}")
+        letters = _words(letter for letter in KINDS if letter != "v")
+        raise InputError(f"{shown(name)} begins with no letter of an element; there are {letters}")
     return KINDS[letter]

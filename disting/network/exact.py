@@ -45,11 +45,11 @@ def within(inner: Network, outer: Network) -> bool | None:
     the_pairs = [exact_form(n) for n in (inner, outer)]
     if None in the_pairs or inner.exponents or outer.exponents:
         return None
-    parts, other = (
+    drawn, other_drawn = (
         numbered(n, NormalForm(edges or (), ()))
         for n, edges in zip((inner, outer), the_pairs, strict=True)
     )
-    (ports, left, _), (others, right, _) = parts, other
+    (ports, left, _), (others, right, _) = drawn, other_drawn
     if ports != others or [ends for ends, _ in left] != [ends for ends, _ in right]:
         return None
     pairs = [(a, b) for (_, a), (_, b) in zip(left, right, strict=True)]

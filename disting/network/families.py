@@ -72,13 +72,13 @@ def machines(
     masses: int, joint: str, edges: Callable[[int], Iterable[Sequence[Edge]]]
 ) -> list[str]:
     """Texts of all machines with these sets of edges, up to numbering and reciprocity."""
-    entries = dict[tuple[object, ...], str]()
+    texts = dict[tuple[object, ...], str]()
     for joints in edges(masses):
         for force, sensor in product(combinations(range(masses + 1), 2), repeat=2):
             form = _form(masses, joints, force, sensor)
-            if form not in entries and _is_whole(masses, joints, force, sensor):
-                entries[form] = _machine(joints, force, sensor, joint)
-    return list(entries.values())
+            if form not in texts and _is_whole(masses, joints, force, sensor):
+                texts[form] = _machine(joints, force, sensor, joint)
+    return list(texts.values())
 
 
 def springs_anywhere(masses: int) -> Iterator[Sequence[Edge]]:

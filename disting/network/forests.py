@@ -234,8 +234,8 @@ def _crossing(of: Assembly, terms: Sequence[int]) -> int | None:
     for e, term in zip(of.frame.entries, terms, strict=True):
         weights[frozenset([0, *(i + 1 for i, _ in e.feels)][-2:])] += term
     (above, below), (plus, minus) = _ends(of.force), _ends(of.sensor)
-    entries = forests(weights, (above, below, plus, minus))
-    if entries is None:
+    weight_of = forests(weights, (above, below, plus, minus))
+    if weight_of is None:
         return None
     ways = (((above, plus), (below, minus)), ((above, minus), (below, plus)))
-    return sum(entries.get(frozenset(map(frozenset, way)), 0) for way in ways)
+    return sum(weight_of.get(frozenset(map(frozenset, way)), 0) for way in ways)

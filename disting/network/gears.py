@@ -60,15 +60,15 @@ def units(network: Network) -> dict[str, Height]:
         return {}
     ports = network.inputs[0], network.outputs[0]
     (a, m), (b, n) = (heights[next(iter(port.ends))] for port in ports)
-    entries = dict[str, Height]()
+    units_of = dict[str, Height]()
     for e in network.elements:
         number, powers = heights[next(filter(None, e.nodes))]
         unit = number**2 / (a * b)
         steps = tuple(2 * k - i - j for k, i, j in zip(powers, m, n, strict=True))
         if e.kind.divides:
             unit, steps = 1 / unit, tuple(-k for k in steps)
-        entries[e.value] = unit, steps
-    return entries
+        units_of[e.value] = unit, steps
+    return units_of
 
 
 def unknown_ratios(network: Network) -> list[str]:

@@ -136,8 +136,8 @@ class Network(Drawn):
     @property
     def ratio_scale(self) -> int:
         """The smallest number that makes all ratios that are numbers whole."""
-        numbers = (e.known_ratio for e in self.elements)
-        return lcm(*(ratio.denominator for ratio in numbers if ratio is not None))
+        ratios = (e.known_ratio for e in self.elements)
+        return lcm(*(ratio.denominator for ratio in ratios if ratio is not None))
 
     @property
     def grounded(self) -> "Network":
@@ -246,12 +246,12 @@ def _problems_of_names(elements: Sequence[Element]) -> Iterator[str]:
 
 
 def _problems_of_ends(network: Network, port: Port, what: str) -> Iterator[str]:
-    own_parts = (0, *network.nodes)
-    missing = sorted({port.plus, port.minus} - {*own_parts})
+    nodes = (0, *network.nodes)
+    missing = sorted({port.plus, port.minus} - {*nodes})
     if missing:
         yield (
             f"{what} is at node {missing[0]}, but no element is; nodes are"
-            f" {', '.join(map(str, own_parts))}"
+            f" {', '.join(map(str, nodes))}"
         )
     if port.plus == port.minus:
         yield f"{what} is between node {port.plus} and itself: it needs two different ends"

@@ -157,11 +157,11 @@ def _orders(
 
 
 def _ranked(looks: Iterable[Any]) -> list[Any]:
-    items = list[Any]()
+    ranked = list[Any]()
     for look in sorted(looks):
-        if not items or items[-1] != look:
-            items.append(look)
-    return items
+        if not ranked or ranked[-1] != look:
+            ranked.append(look)
+    return ranked
 
 
 def _readings(network: Network) -> Iterator[tuple[tuple[int, int], ...]]:
@@ -262,10 +262,10 @@ def _ladder(part: Part) -> Tree:
     terms = dict(part.terms).get((low, high), 0)
     if high == RESISTOR:
         low, high = high, low
-    the_part: Tree | None = high if high in part.single else None
+    tree: Tree | None = high if high in part.single else None
     for _ in range(terms):
-        inner: Tree = ("S", (low, the_part)) if the_part else low
-        the_part = ("P", (high, inner))
+        inner: Tree = ("S", (low, tree)) if tree else low
+        tree = ("P", (high, inner))
     if low not in part.single:
-        return the_part or low
-    return ("S", (low, the_part)) if the_part else low
+        return tree or low
+    return ("S", (low, tree)) if tree else low

@@ -101,13 +101,13 @@ def _from(network: Network, part: Part, start: int) -> Part:
     if part.form == "parallel":
         inner = sorted((_from(network, p, start) for p in part.parts), key=lambda p: p.first)
         return Part(part.first, None, part.form, tuple(inner))
-    left, parts = list(part.parts), []
+    left, inside = list(part.parts), []
     while left:
-        own_part = next(p for p in left if start in _ends(p))
-        left.remove(own_part)
-        parts.append(_from(network, own_part, start))
-        start = sum(_ends(own_part)) - start
-    return Part(part.first, None, part.form, tuple(parts))
+        next_part = next(p for p in left if start in _ends(p))
+        left.remove(next_part)
+        inside.append(_from(network, next_part, start))
+        start = sum(_ends(next_part)) - start
+    return Part(part.first, None, part.form, tuple(inside))
 
 
 def _ends(part: Part) -> tuple[int, int]:

@@ -67,8 +67,8 @@ def _linked(children: Iterable[Token], done: set[str]) -> Iterator[Token]:
     inside = 0  # of a link, which does not nest
     for token in children:
         inside += token.nesting if token.type in ("link_open", "link_close") else 0
-        if token.type == "link_open" and (text := str(token.attrs["href"])).startswith(PAGE):
-            done.add(text.partition("#")[2])
+        if token.type == "link_open" and (address := str(token.attrs["href"])).startswith(PAGE):
+            done.add(address.partition("#")[2])
         if inside or token.type != "text":
             yield token
             continue

@@ -161,10 +161,10 @@ def guide_parts(texts: dict[str, str]) -> list[tuple[str, list[str]]]:
     >>> guide_parts({"index": listing, "b": "", "d": ""})
     [('A', ['b']), ('C', ['d'])]
     """
-    _, *rows = PART.split(texts[LISTING])
+    _, *titles_and_texts = PART.split(texts[LISTING])
     parts = [
         (title, [m[1] for m in ADDRESS.finditer(text) if m[1] in texts])
-        for title, text in zip(rows[::2], rows[1::2], strict=True)
+        for title, text in zip(titles_and_texts[::2], titles_and_texts[1::2], strict=True)
     ]
     listed = {LISTING}.union(*(names for _, names in parts))
     parts[-1][1].extend(name for name in texts if name not in listed)

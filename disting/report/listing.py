@@ -68,8 +68,10 @@ class JudgedList:
         if special:
             return special.sentence("{L}", "{R}")
         named = ((low, high), "{L}", "{R}"), ((high, low), "{R}", "{L}")
-        items = (reach.sentence(*names) for pair, *names in named if (reach := self.reached(*pair)))
-        return " ".join(filter(None, items))
+        sentences = (
+            reach.sentence(*names) for pair, *names in named if (reach := self.reached(*pair))
+        )
+        return " ".join(filter(None, sentences))
 
     def pairs(self, view: View) -> Iterator[tuple[int, int, Verdict]]:
         """All pairs, left < right."""

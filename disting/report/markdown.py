@@ -112,10 +112,10 @@ def guide_page(
         glossary.linked(
             inner for token, inner in pairs if inner.children and token.type != "heading_open"
         )
-    value = parser.renderer.render(
+    html = parser.renderer.render(
         tokens[3:], parser.options, {"drawings": drawings, "outputs": outputs}
     )
-    return GuidePage(name, title, sections, Markup(value))
+    return GuidePage(name, title, sections, Markup(html))
 
 
 def _parser() -> MarkdownIt:

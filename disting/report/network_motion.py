@@ -131,13 +131,13 @@ def _listed(machine: Network) -> list[tuple[str, str, int]]:
 
 def _joints(machine: Network) -> dict[frozenset[int], Joint]:
     """The joints, each once, by their nodes."""
-    entries = dict[frozenset[int], Joint]()
+    joints = dict[frozenset[int], Joint]()
     for e in machine.elements:
         if e.kind.ends > 1:
             (i, j), number = e.nodes if e.ratio else sorted(e.nodes), e.known_ratio
             gear: Joint = (i, j, e.ratio if number is None else float(number))
-            entries.setdefault(_ends(e), gear if e.ratio else (i, j))
-    return entries
+            joints.setdefault(_ends(e), gear if e.ratio else (i, j))
+    return joints
 
 
 def _ends(e: Element) -> frozenset[int]:

@@ -204,14 +204,14 @@ def summary(catalog: Catalog, view: View) -> str:
     >>> summary(catalog(3, damped=False), View.TF)
     '26 pairs by condition 1, 15 by 4, 2 by 5, 2 by 6 and 10 by 7; none left undecided.'
     """
-    entries = {name: n for name, n in catalog.counts(view).items() if n}
-    left = entries.pop("", 0)
+    counts = {name: n for name, n in catalog.counts(view).items() if n}
+    left = counts.pop("", 0)
     first = iter(["pairs by condition "])
-    by_name = [name for name in entries if RULES[name].role is not Role.DECISION]
-    parts = [f"{entries[name]} {next(first, 'by ')}{name}" for name in by_name]
+    by_name = [name for name in counts if RULES[name].role is not Role.DECISION]
+    parts = [f"{counts[name]} {next(first, 'by ')}{name}" for name in by_name]
     parts += [
         f"{n} by {RULES[name].in_words(view.domain)}"
-        for name, n in entries.items()
+        for name, n in counts.items()
         if name not in by_name
     ]
     return f"{listed(parts) or 'No pair decided'}; {left or 'none'} left undecided."

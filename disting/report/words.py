@@ -81,14 +81,14 @@ def headline(catalog: Catalog) -> str:
     >>> counts
     '43 distinguishable, 12 indistinguishable, 0 undecided'
     """
-    entries = totals(catalog)
+    counts = totals(catalog)
     head = (
-        f"{plural(len(catalog.family), 'model')}, {plural(sum(entries.values()), 'pair')}, over"
+        f"{plural(len(catalog.family), 'model')}, {plural(sum(counts.values()), 'pair')}, over"
         " positive parameters"
     )
     said = (
         f"{n} {SAID[relation]}"
-        for relation, n in entries.items()
+        for relation, n in counts.items()
         if n or relation is not Relation.SOMETIMES
     )
     return f"{head}: {', '.join(said)}"

@@ -64,6 +64,7 @@ def test_real_roots_by_hand():
     assert form in [dict(f) for f in inequalities(roots)]
     assert excludes_around(other, {"p": Fraction(1), "q": Fraction(1)}, roots)
     assert not excludes_around(other, {"p": Fraction(3), "q": Fraction(1)}, roots)
+    assert not excludes_around(other, {"p": Fraction(2), "q": Fraction(2)}, roots)  # equality
     cancels = Model.from_transfer_function("s + c", "(s + a)*(s + b)")
     assert not excludes_around(cancels, dict.fromkeys("abc", Fraction(1)), cancels)
 

@@ -252,6 +252,6 @@ def _cross_validated(estimate: Estimate, task: Task, p: Real) -> Complex:
     for fold in range(FOLDS):
         kept = _without(task, fold)
         box = kept.box(task.names(estimate.chain))
-        values, _ = fine(kept.plant(estimate.chain), kept.cost, box, p, FOLD_GAIN)
-        whole[at == fold] = plant.response(values)[at == fold]
+        refined, _ = fine(kept.plant(estimate.chain), kept.cost, box, p, FOLD_GAIN)
+        whole[at == fold] = plant.response(refined)[at == fold]
     return whole

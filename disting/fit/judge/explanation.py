@@ -226,8 +226,8 @@ def noises(
     """C of the residuals, shape (n_y,), as in `noise`."""
     rows = [cost.by_residual(a) for a in (residual, sigma)]
     missing = [None] * len(cost.parts) if missed is None else cost.by_residual(missed)
-    the_noises = [noise(*own) for own in zip(*rows, missing, strict=True)]
-    return the_noises[0] if len(the_noises) == 1 else JointNoise(tuple(the_noises))
+    noises = [noise(*own) for own in zip(*rows, missing, strict=True)]
+    return noises[0] if len(noises) == 1 else JointNoise(tuple(noises))
 
 
 def correlations(cost: AnyCost, residual: Real) -> float:

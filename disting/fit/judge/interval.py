@@ -72,17 +72,17 @@ def intervals(candidate: Candidate, task: Task, scatter: Scatter) -> dict[str, I
     """The interval of each fitted parameter; 0 and infinity where it has no end."""
     values, errors = candidate.estimate.parameters, candidate.practical.relative_errors
     wide = float(t_distribution.isf(OUTSIDE / 2, scatter.freedom))
-    entries = {n: _about(values[n], wide * e) for n, e in errors.items()}
+    intervals = {n: _about(values[n], wide * e) for n, e in errors.items()}
     about = _likelihood(candidate, task, scatter)
     if any(e > STRAIGHT for e in errors.values()):
         response = task.plant(candidate.chain).response(values_of(candidate.estimate, task))
         own = float(about.whitened.total(response))
         most = STRAIGHT if own - about.lowest <= MOST_LIKELY else FROM_ZERO
-        entries = {
-            n: entries[n] if e <= most else _profiled(about, n, e <= FROM_ZERO)
+        intervals = {
+            n: intervals[n] if e <= most else _profiled(about, n, e <= FROM_ZERO)
             for n, e in errors.items()
         }
-    return _with_valleys(about, entries, wide)
+    return _with_valleys(about, intervals, wide)
 
 
 def _about(value: float, relative: float) -> Interval:
@@ -196,13 +196,13 @@ def _end(rise: Callable[[float], float], start: float, step: float, most: float)
     """Where the profile reaches `most`, from `start` in steps that grow to `STEP`; infinite where
     it does not.
     """
-    inside, value = (start, 0.0), start
+    inside, at = (start, 0.0), start
     for _ in range(STEPS):
-        value += step
-        reached = rise(value)
+        at += step
+        reached = rise(at)
         if reached > most:
-            return _between(rise, inside, (value, reached), most)
-        inside, step = (value, reached), float(np.clip(2 * step, -STEP, STEP))
+            return _between(rise, inside, (at, reached), most)
+        inside, step = (at, reached), float(np.clip(2 * step, -STEP, STEP))
     return float(np.copysign(inf, step))
 
 

@@ -44,8 +44,8 @@ def under_all(
     same is known where a renaming of the parameters, within the limits, turns all responses of the
     one into those of the other.
     """
-    mine, side = (engine.measured_subject(str(c), _measured(c, cost)) for c in (chain, other))
-    verdict = engine.verdict(mine, side, Query(View.COMBINED))
+    mine, theirs = (engine.measured_subject(str(c), _measured(c, cost)) for c in (chain, other))
+    verdict = engine.verdict(mine, theirs, Query(View.COMBINED))
     if verdict.relation is Relation.DISTINGUISHABLE:
         return None
     if is_same_under_all(chain, other, cost, limits):
@@ -113,8 +113,8 @@ def behaves_alike(
     mine = _responses(chain, values, task.cost.setups_of(chain.structure), task)
     return any(
         all(
-            _same(own_values, two)
-            for own_values, two in zip(
+            _same(own_response, other_response)
+            for own_response, other_response in zip(
                 mine, _responses(other, other_entries, setups, task), strict=True
             )
         )

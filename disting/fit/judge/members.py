@@ -126,16 +126,16 @@ def members(
         (c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters}, dict(limits))
         for c in chosen
     ]
-    entries = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
+    twins_of = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
     for (chain, values, _), both in mapped(twins, rows, executor):
-        entries[chain] = _in_all(chain, values, *both, task)
-        progress("equivalents", len(entries), len(rows))
+        twins_of[chain] = _in_all(chain, values, *both, task)
+        progress("equivalents", len(twins_of), len(rows))
     return tuple(
         Member(
             c,
-            *entries.get(c.chain, ((), ())),
-            disagreements=disagreements(c, task, test) if test and c.chain in entries else (),
-            intervals=intervals(c, task, own_scatters[0]) if c.chain in entries else {},
+            *twins_of.get(c.chain, ((), ())),
+            disagreements=disagreements(c, task, test) if test and c.chain in twins_of else (),
+            intervals=intervals(c, task, own_scatters[0]) if c.chain in twins_of else {},
             contains=inside[c.chain],
             differs=_differs(left[0], c, test or task.cost, task),
         )

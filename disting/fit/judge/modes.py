@@ -56,14 +56,16 @@ def zeros(structure: Structure, p: Real) -> Complex:
     bordered = np.pad(_matrices(structure, p), ((0, 0), (0, 1), (0, 1)))
     bordered[2][:n, n], bordered[2][n, :n] = port_vectors(structure)
     mass, damping, stiffness = bordered
-    values, nothing = np.eye(n + 1), np.zeros((n + 1, n + 1))
-    value = eig(
-        np.block([[nothing, values], [-stiffness, -damping]]),
-        np.block([[values, nothing], [nothing, mass]]),
+    identity, nothing = np.eye(n + 1), np.zeros((n + 1, n + 1))
+    eigenvalues = eig(
+        np.block([[nothing, identity], [-stiffness, -damping]]),
+        np.block([[identity, nothing], [nothing, mass]]),
         right=False,
     )
     fastest = np.abs(poles(structure, p)).max()
-    return np.asarray(value[np.isfinite(value) & (np.abs(value) < REMOTE * fastest)])
+    return np.asarray(
+        eigenvalues[np.isfinite(eigenvalues) & (np.abs(eigenvalues) < REMOTE * fastest)]
+    )
 
 
 @dataclass(frozen=True)
@@ -136,9 +138,9 @@ def _matrices(structure: Structure, p: Real) -> Real:
 @lru_cache(maxsize=REMEMBERED)
 def _shares(structure: Structure) -> Real:
     """What each parameter at 1 adds to M, D and K, shape (n_p, 3, N, N)."""
-    entries = dict.fromkeys(structure.parameters, 1.0)
-    whole = np.stack(matrices(structure, entries))
-    doubled = (matrices(structure, {**entries, name: 2.0}) for name in structure.parameters)
+    ones = dict.fromkeys(structure.parameters, 1.0)
+    whole = np.stack(matrices(structure, ones))
+    doubled = (matrices(structure, {**ones, name: 2.0}) for name in structure.parameters)
     return np.stack([np.stack(more) - whole for more in doubled])
 
 

@@ -196,9 +196,11 @@ def standard_errors(slopes: Real, columns: Real, noise: Seen, rank: int) -> Real
         return np.full(len(slopes), inf)
     left, values, right = np.linalg.svd(unit_columns(columns), full_matrices=False)
     parts = slopes / length @ right.T
-    entry = np.linalg.norm(noise.seen(left[:, :rank]) @ (parts[:, :rank] / values[:rank]).T, axis=0)
+    errors = np.linalg.norm(
+        noise.seen(left[:, :rank]) @ (parts[:, :rank] / values[:rank]).T, axis=0
+    )
     lost = np.linalg.norm(parts[:, rank:], axis=1) > LOST * np.linalg.norm(parts, axis=1)
-    return np.asarray(np.where(lost, inf, entry))
+    return np.asarray(np.where(lost, inf, errors))
 
 
 def worst_direction(columns: Real, names: Sequence[str]) -> dict[str, float]:

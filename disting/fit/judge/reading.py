@@ -159,13 +159,13 @@ def _small(candidates: Sequence[Estimate]) -> tuple[Chain, ...]:
     """
     sizes = {c.chain.n_masses for c in candidates}
     wanted = sizes & set(SMALL) or {min(sizes)}
-    entries = dict[Chain, None]()
+    chains = dict[Chain, None]()
     for n in sorted(wanted):
         chain = next(c.chain for c in candidates if c.chain.n_masses == n)
         for dampers in ((), tuple(range(1, n + 1))):
             for lag in (False, True):
-                entries[replace(chain, ground_dampers=dampers, lag=lag, dead_time=True)] = None
-    return tuple(entries)
+                chains[replace(chain, ground_dampers=dampers, lag=lag, dead_time=True)] = None
+    return tuple(chains)
 
 
 def _missed(fit: Estimate, task: Task) -> Real:

@@ -84,8 +84,8 @@ def expected(
     length = np.linalg.norm(fitted, axis=0)
     length = np.where(length > 0, length, 1.0)
     left, values, right = np.linalg.svd(fitted / length, full_matrices=False)
-    entry = values > VANISHING * values[0]
-    half = (left[:, entry] * sigma[:, None]) / values[entry] @ right[entry]
+    is_seen = values > VANISHING * values[0]
+    half = (left[:, is_seen] * sigma[:, None]) / values[is_seen] @ right[is_seen]
     # in units of the lengths: the square of a column that hardly matters has no number
     seen = seen / length
     return np.asarray(
@@ -123,8 +123,8 @@ def correlation(residual: Real) -> float:
     """
     halves = residual.reshape(2, -1)
     power = float(np.sum(halves**2))
-    value = float(np.sum(halves[:, 1:] * halves[:, :-1])) / power if power else 0.0
-    return min(value, MOST) if value > SIGNIFICANT / sqrt(residual.size) else 0.0
+    correlation = float(np.sum(halves[:, 1:] * halves[:, :-1])) / power if power else 0.0
+    return min(correlation, MOST) if correlation > SIGNIFICANT / sqrt(residual.size) else 0.0
 
 
 def _carried(rows: Real, r: float) -> Real:

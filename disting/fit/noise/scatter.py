@@ -156,9 +156,7 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
     """From standard deviations of the data, against contrasts where candidates are fitted."""
     each = [contrasts(measured.omega, measured.G, other) for other in (None, *fitted)]
     seen = each[
-        _preferred(
-            [log(max(float(np.median(this_contrasts.power)), TINY**2)) for this_contrasts in each]
-        )
+        _preferred([log(max(float(np.median(one_way.power)), TINY**2)) for one_way in each])
     ]
     floor = float(np.median(deviation[deviation > 0])) ** 2
     power = np.maximum(deviation**2, 1e-6 * floor)
@@ -175,19 +173,19 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
 
 def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Scatter:
     """With what neighbouring lines say of standard deviations."""
-    value = freedom(measured.omega)
+    lines_free = freedom(measured.omega)
     level = _excess(seen, variance) + 1
-    if level > f_distribution.isf(SURE, value, own.freedom):
-        values = _widened(variance, seen, measured)
-        if values is None:
+    if level > f_distribution.isf(SURE, lines_free, own.freedom):
+        widened = _widened(variance, seen, measured)
+        if widened is None:
             return own
         return replace(
             own,
-            rho=np.maximum(np.sqrt(values / 2) / seen.size, LEAST),
+            rho=np.maximum(np.sqrt(widened / 2) / seen.size, LEAST),
             source="neighbouring lines, which jump by more than their standard deviations",
-            freedom=value,
+            freedom=lines_free,
         )
-    if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, value, own.freedom):
+    if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, lines_free, own.freedom):
         return replace(
             own,
             doubt=(

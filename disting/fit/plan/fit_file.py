@@ -122,9 +122,9 @@ def _count(value: Any) -> int:
 
 def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, Parameters]]:
     """In the order of the file, those with values last, which stand."""
-    for value in plain["alternatives"]:
-        if value["relation"] != Relation.INDISTINGUISHABLE:
-            yield chain_from_dict(value), {}
+    for alternative in plain["alternatives"]:
+        if alternative["relation"] != Relation.INDISTINGUISHABLE:
+            yield chain_from_dict(alternative), {}
     members = [m for m in plain["not_excluded"][1:] if not m.get("contains")]
     yield from map(model_from_dict, members)
 

@@ -57,8 +57,8 @@ def ideal(surplus: int = 1, level: float = LEVEL) -> Sample:
     >>> round(ideal().power(17.8), 3), round(ideal(2).needed(), 1)
     (0.95, 20.6)
     """
-    values = np.ones(1)
-    return Sample(values * limit(surplus, np.inf, level=level), values, values, surplus)
+    ones = np.ones(1)
+    return Sample(ones * limit(surplus, np.inf, level=level), ones, ones, surplus)
 
 
 def simulated(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:

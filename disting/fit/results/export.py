@@ -242,12 +242,12 @@ _DELAYS = "dead_times = {  # [s], no part of a state space\n"
 def _entry(model: Exported, sign: int) -> str:
     """The matrices, with the parameters as a comment."""
     ss = state_space(model.chain, model.values, sign)
-    name = ", ".join(
+    parameters = ", ".join(
         f"{n} = {v:.6g}{f' {model.units[n]}' if model.units.get(n) else ''}"
         for n, v in model.values.items()
     )
-    matrices_of = (f"        {getattr(ss, n).tolist()!r},\n" for n in "ABCD")
-    return f"    # {name}\n    {model.name!r}: control.StateSpace(\n{''.join(matrices_of)}    ),\n"
+    matrices = "".join(f"        {getattr(ss, n).tolist()!r},\n" for n in "ABCD")
+    return f"    # {parameters}\n    {model.name!r}: control.StateSpace(\n{matrices}    ),\n"
 
 
 def predicted(

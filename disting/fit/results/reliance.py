@@ -176,11 +176,11 @@ def _roots_at(sample: Drawn, roots_of: Callable[..., Complex], k: int) -> Comple
 
 def _followed(sample: Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
     """The root in all draws in which it is still there."""
-    items = (
+    nearest_roots = (
         nearest(oscillating(_roots_at(sample, roots_of, k)), root, inf)
         for k in range(len(sample.p))
     )
-    return [r for r in items if r is not None]
+    return [r for r in nearest_roots if r is not None]
 
 
 def nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> complex | None:

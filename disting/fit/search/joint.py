@@ -89,15 +89,15 @@ class JointPlant:
         machine, computed once a state.
         """
         units: dict[tuple[object, ...], Motion] = {}
-        pairs = []
+        answers = []
         for part, at in zip(self.parts, self._places, strict=True):
             force = part.structure.ports[:2]
             lines = part.omega.tobytes(), part.window and part.window.duration
             state, own = (force, part.still, part.added, *lines), p[..., at]
             if state not in units:
                 units[state] = part.motion(own)
-            pairs.append((part, own, at, units[state]))
-        return pairs
+            answers.append((part, own, at, units[state]))
+        return answers
 
     @cached_property
     def _own(self) -> tuple[str, ...]:
@@ -107,13 +107,13 @@ class JointPlant:
     def _places(self) -> list[NDArray[np.intp]]:
         """Where the parameters of each part stand."""
         n = len(self.parts[0].parameters)
-        rows = []
+        places = []
         for setup in self.setups:
             at = np.arange(n)
             if self._own and setup.delay:
                 at[-1] = n + self._own.index(setup.delay)
-            rows.append(at)
-        return rows
+            places.append(at)
+        return places
 
 
 @dataclass(frozen=True, eq=False)

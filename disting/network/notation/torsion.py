@@ -209,15 +209,15 @@ def _senses(
         if a != b:
             near[a].append((b, turned))
             near[b].append((a, turned))
-    entries = dict[int, int]()
+    senses = dict[int, int]()
     for first in list(near):
-        todo = [] if first in entries else [(first, 1)]
+        todo = [] if first in senses else [(first, 1)]
         while todo:
             at, sense = todo.pop()
-            if entries.setdefault(at, sense) != sense:
+            if senses.setdefault(at, sense) != sense:
                 raise InputError("shafts and gears close a ring that cannot turn: open the ring")
             todo += [(other, sense * turned) for other, turned in near.pop(at, ())]
-    return entries
+    return senses
 
 
 def _size(gear: _Part) -> Fraction:
@@ -248,7 +248,7 @@ def _sizes(
     """Of all elements of the network, by letter, nodes and ratio: side by side they are one; masses
     come first.
     """
-    numbers = dict[Key, Fraction]()
+    values = dict[Key, Fraction]()
     for part in built.parts:
         (a, f), (b, g) = (factors[nodes[place]] for place in (part.start, part.end))
         damping, inertia = _number(part, "damping"), _number(part, "inertia")
@@ -264,9 +264,9 @@ def _sizes(
             ends = (i, j, abs(g / f))
             sizes = {("k", *ends): stiffness * f**2, ("d", *ends): damping * f**2}
         for key, size in sizes.items():
-            numbers[key] = numbers.get(key, Fraction(0)) + size
-    ordered = sorted(numbers, key=lambda key: ("mkd".index(key[0]), *key[1:]))
-    return {key: numbers[key] for key in ordered if numbers[key]}
+            values[key] = values.get(key, Fraction(0)) + size
+    ordered = sorted(values, key=lambda key: ("mkd".index(key[0]), *key[1:]))
+    return {key: values[key] for key in ordered if values[key]}
 
 
 def _elements(sizes: Mapping[Key, Fraction]) -> list[Element]:

@@ -96,13 +96,13 @@ def intervals(member: Member, measured: FrequencyResponse) -> list[Row]:
     marked; last, what is given.
     """
     apart = {d.name: d for d in member.disagreements}
-    values, entries = member.candidate.estimate.parameters, member.intervals
+    values, intervals = member.candidate.estimate.parameters, member.intervals
     return [
         Row(
             n,
-            readable(value, 4 if n in entries else 6),
+            readable(value, 4 if n in intervals else 6),
             unit_of(n[0], measured),
-            between(*entries[n]) if n in entries else "given",
+            between(*intervals[n]) if n in intervals else "given",
             f"{readable(apart[n].test)} on test data" if n in apart else "",
         )
         for n, value in values.items()

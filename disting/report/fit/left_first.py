@@ -102,11 +102,11 @@ def _worst(errors: Mapping[str, float]) -> str:
             f"the data do not determine {name}: another sensor, another place of the force or a"
             " wider band may help"
         )
-    own_name = f"{name} has the largest error, ± {percent(error)} (one standard error)"
+    sentence = f"{name} has the largest error, ± {percent(error)} (one standard error)"
     if error <= KNOWN:
-        return own_name
+        return sentence
     return (
-        f"{own_name}: {readable((error / KNOWN) ** 2)} times as many periods, or lines in the same"
+        f"{sentence}: {readable((error / KNOWN) ** 2)} times as many periods, or lines in the same"
         f" range, reduce it to ± {percent(KNOWN)} as far as noise is the cause"
     )
 

@@ -296,5 +296,5 @@ def _numbers(lead: Onward, a: int, b: int, step: Step | None) -> tuple[str, ...]
 def _measures(seen: Foretold, a: int, b: int, step: Step) -> dict[str, float | None]:
     """Numbers by MEASURED_COLUMNS; None but for the power where only one of the two moves."""
     sizes = step.largest, step.frequency, step.noncentrality
-    own_rows = [None] * 3 if step.is_motion else sizes
-    return dict(zip(MEASURED_COLUMNS, (*own_rows, seen.power(a, b, step)), strict=True))
+    columns = [None] * 3 if step.is_motion else sizes
+    return dict(zip(MEASURED_COLUMNS, (*columns, seen.power(a, b, step)), strict=True))

@@ -128,8 +128,8 @@ def commands(selection: Selection) -> tuple[str, ...]:
     chain, fitted = _without_zeros(first.chain, first.estimate.parameters)
     form, damped = as_listed(chain), damping_option(chain.damped)
     values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in fitted.items())
-    name = f'--to "{chain.n_masses}+b*" --set {values}'
-    return (*steps, f"disting equivalents {reference(chain)} {damped} {name}")
+    options = f'--to "{chain.n_masses}+b*" --set {values}'
+    return (*steps, f"disting equivalents {reference(chain)} {damped} {options}")
 
 
 def _without_zeros(chain: Chain, values: Mapping[str, float]) -> tuple[Chain, dict[str, float]]:

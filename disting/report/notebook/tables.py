@@ -124,11 +124,11 @@ def _identifiability(shown: Identifiability) -> str:
         (p, "determinable" if p in alone else "not by itself", alone.get(p, ""))
         for p in shown.parameters
     )
-    own_name = ", ".join(shown.combinations)
+    combinations = ", ".join(shown.combinations)
     return block(
         line(shown.sentence, bold=True),
         table(["parameter", "from the response", "one value only"], rows),
-        line(f"{plural(shown.rank, 'independent combination')}: {own_name}."),
+        line(f"{plural(shown.rank, 'independent combination')}: {combinations}."),
     )
 
 

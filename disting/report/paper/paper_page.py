@@ -94,11 +94,11 @@ def parts(findings: Findings, beside: Container[str] = ()) -> tuple[Part, ...]:
 
 
 def _line(claim: Claim, findings: Findings, beside: Container[str]) -> Line:
-    the_found = claim.check(findings) if claim.check else None
-    seen = the_found.seen if the_found else ()
+    outcome = claim.check(findings) if claim.check else None
+    seen = outcome.seen if outcome else ()
     return Line(
         claim,
-        the_found,
+        outcome,
         tuple((in_words(s), address(s)) for s in seen if page_of(s) in beside),
         tuple(command(s) for s in seen if not page_of(s)),
     )
@@ -188,8 +188,8 @@ def paper_page(findings: Findings, pictures: Sequence[Picture], beside: Containe
 
 def figure_of(place: str, pictures: Sequence[Picture]) -> str:
     """Name of the picture of which a claim's place speaks, "" where there is none."""
-    items = (p.name for p in pictures if re.search(rf"{re.escape(p.printed)}(?!\d)", place))
-    return next(items, "")
+    names = (p.name for p in pictures if re.search(rf"{re.escape(p.printed)}(?!\d)", place))
+    return next(names, "")
 
 
 def model_rows(findings: Findings) -> list[tuple[ModelRow, int]]:

@@ -161,8 +161,8 @@ def _shown(module: str, entry: Entry, addresses: Mapping[Place, str], within: st
     leads = partial(_address, entry.place.module, addresses)
     errors = partial(_address, "disting.errors", addresses)  # whoever raises them
     anchor = f"{within}.{entry.name}" if within else entry.name
-    own_name = addresses.get(entry.place, "")
-    elsewhere = "" if within or own_name.startswith(f"{page_name(module)}.html") else own_name
+    address = addresses.get(entry.place, "")
+    elsewhere = "" if within or address.startswith(f"{page_name(module)}.html") else address
     members = [_shown(module, m, addresses, anchor) for m in entry.members] if not elsewhere else []
     return Shown(
         entry=entry,
