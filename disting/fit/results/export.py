@@ -246,8 +246,8 @@ def _entry(model: Exported, sign: int) -> str:
         f"{n} = {v:.6g}{f' {model.units[n]}' if model.units.get(n) else ''}"
         for n, v in model.values.items()
     )
-    matrices = "".join(f"        {getattr(ss, n).tolist()!r},\n" for n in "ABCD")
-    return f"    # {parameters}\n    {model.name!r}: control.StateSpace(\n{matrices}    ),\n"
+    fields = "".join(f"        {getattr(ss, n).tolist()!r},\n" for n in "ABCD")
+    return f"    # {parameters}\n    {model.name!r}: control.StateSpace(\n{fields}    ),\n"
 
 
 def predicted(
