@@ -73,7 +73,7 @@ def build_networks(
     progress: Progress = silent,
 ) -> str:
     """The text of the file of a family, computed; the bytes do not depend on the machine or the
-    order of the work.
+    order of the work, but where what can be determined was not found in time (`reason`).
     """
     sides = engine.general_subjects([of_network(n) for n in family.networks])
     over_complex = engine.decisions(sides, COMPLEX, executor=executor, progress=progress)
@@ -170,12 +170,15 @@ def _verdict_record(decided: Decisions, i: int, j: int) -> Record:
 
 
 def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
-    """Let the engine know what the shipped file, or that of another folder, holds on a family;
-    nothing where there is none. Raises CatalogError for a damaged file.
+    """Let the engine know what the shipped file, or that of another folder, holds on a family and
+    on its networks; nothing where there is none. Raises CatalogError for a damaged file.
 
     >>> recall("circuits-4", Engine())
     """
-    sides, records = _known(family, engine, folder)
+    sides, rows, records = _known(family, engine, folder)
+    for side, r in zip(sides, rows, strict=False):
+        answer = PARAMETERS.decode(json.dumps(r["identifiability"]))
+        engine.remember(PARAMETERS, (unnamed(side.subject),), answer)
     for r in records:
         if "finding" in r:
             question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
@@ -186,7 +189,7 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
     """The same of one model that gives the same as a network of the family, such as that network
     with other numbers, and all others of the family.
     """
-    sides, records = _known(family, engine, folder)
+    sides, _, records = _known(family, engine, folder)
     like = (i for i, s in enumerate(sides, 1) if replaceable(model, s.subject))
     own = next(like, 0) if records else 0
     for r in records:
@@ -203,15 +206,16 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
 
 def _known(
     family: str, engine: Engine, folder: Path | None
-) -> tuple[list[ComparedModel], list[Record]]:
-    """The networks of a family and the pairs of its file, none where there is none, or where it
-    has other random points: what is known by these is not what is asked.
+) -> tuple[list[ComparedModel], list[Record], list[Record]]:
+    """The networks of a family, and the lines of its file on them and on their pairs; none where
+    there is none, or where it has other random points: what is known by these is not what is asked.
     """
     sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
     path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
     records = read(path) if path.is_file() else []
     is_asked = records and records[0]["settings"] == engine.settings.to_dict()
-    return sides, records[1 + len(sides) :] if is_asked else []
+    at = 1 + len(sides)
+    return (sides, records[1:at], records[at:]) if is_asked else (sides, [], [])
 
 
 def _whole(records: Sequence[Record], names: Sequence[str]) -> Iterator[Record]:

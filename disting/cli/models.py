@@ -10,6 +10,7 @@ from dataclasses import replace
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
+from disting.catalogs.network_files import recall
 from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_list_or_network
 from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
@@ -121,6 +122,8 @@ def _of_list(source: Listed, options: argparse.Namespace) -> int:
     models = listed_models(source)
     asked = [(unnamed(model),) for model in models]
     with engine_for(options) as (engine, pool, progress):
+        if isinstance(source, str):
+            recall(source, engine)
         engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
         for model, question in zip(models, asked, strict=True):
             print(f"{model.name}: {engine.answer(PARAMETERS, question, engine.settings).sentence}")

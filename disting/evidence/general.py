@@ -139,11 +139,10 @@ class Inequality(OverDomain):
         '2*a0^2 - b1*a2'
         """
         said = ""
-        for number, *names in self.form:
-            text, other = names
+        for number, first, second in self.form:
             size = f"{abs(number)}*" * (abs(number) != 1)
             sign = " - " if number < 0 else " + "
-            said += sign + size + (f"{text}^2" if text == other else f"{text}*{other}")
+            said += sign + size + (f"{first}^2" if first == second else f"{first}*{second}")
         return said.removeprefix(" + ") if said.startswith(" + ") else f"-{said[len(' - ') :]}"
 
 

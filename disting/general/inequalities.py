@@ -203,14 +203,14 @@ def _cut(edges: dict[Row, int], row: Row, at: int, common: int) -> dict[Row, int
     value = {e: sum(a * b for a, b in zip(row, e, strict=True)) for e in edges}
     left = {e: rows | (not value[e]) << at for e, rows in edges.items() if value[e] >= 0}
     above, below = ([e for e in edges if sign * value[e] > 0] for sign in (1, -1))
-    for parts, other in product(above, below):
-        both = edges[parts] & edges[other]
+    for higher, lower in product(above, below):
+        both = edges[higher] & edges[lower]
         if both.bit_count() < common:
             continue
-        if any(both & rows == both for e, rows in edges.items() if e not in (parts, other)):
+        if any(both & rows == both for e, rows in edges.items() if e not in (higher, lower)):
             continue
-        pairs = zip(parts, other, strict=True)
-        left[_shortest([value[parts] * b - value[other] * a for a, b in pairs])] = both | 1 << at
+        pairs = zip(higher, lower, strict=True)
+        left[_shortest([value[higher] * b - value[lower] * a for a, b in pairs])] = both | 1 << at
     return left
 
 
