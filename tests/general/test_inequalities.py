@@ -69,6 +69,19 @@ def test_real_roots_by_hand():
     assert not excludes_around(cancels, dict.fromkeys("abc", Fraction(1)), cancels)
 
 
+def test_where_a_root_cancels_nothing_is_said():
+    """1/(s + 2) is (s + 1)/((s + 1)(s + 2)), with 2 b0 < a1, and (s + 4)/((s + 2)(s + 4)): the other
+    one has 2 b0 >= a1, and gives it all the same.
+    """
+    one = Model.from_transfer_function("s + c", "(s + a)*(s + b)")
+    other = Model.from_transfer_function("s + p + u + t", "(s + p)*(s + p + 2*u)")
+    broken = {"a": Fraction(1), "b": Fraction(2), "c": Fraction(1)}
+    assert not excludes_around(one, broken, other)
+    assert excludes_around(one, broken | {"c": Fraction(1, 2)}, other)
+    cancel = [v for v, _ in module._points(one) if v["c"] == v["a"] < v["b"]]
+    assert cancel and all(v["c"] not in (v["a"], v["b"]) for v in points_against(one, other))
+
+
 def test_a_sign_tells_two_models_apart():
     one = Model.from_transfer_function("b - c", "s + a")
     other = Model.from_transfer_function("-b", "s + a")
