@@ -131,6 +131,16 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
         assert left.confirms(right, evidence, r["positive"]["representation"])
 
 
+def test_what_a_theorem_tells_is_written_beside_an_open_search():
+    """Networks 15 and 25 of machines-3: interlacing tells that they are the same."""
+    whole = family_of("machines-3")
+    names = [whole.networks[i - 1].name for i in (15, 25)]
+    text = build_networks(replace(whole, source=lambda: names), Engine())
+    record = json.loads(text.splitlines()[-1])
+    assert record["positive"]["evidence"] == {"kind": "theorem", "name": "interlacing"}
+    assert record["finding"][1] == "abandoned"
+
+
 @pytest.mark.parametrize("name", ["circuits-4", "machines-3-damped"])
 def test_what_can_be_determined_is_taken_over(name):
     """Networks of 15 values take minutes: nothing of them is computed again."""

@@ -116,6 +116,14 @@ def test_edges_are_those_of_the_cone(rows):
         assert not at or abs(min(at) - least.fun) < 1e-6 * max(1, abs(least.fun))
 
 
+def test_no_edge_lies_between_opposite_corners_of_a_square():
+    """Both corners are zero in three rows, of which one is the sum of two: a count says nothing."""
+    square = [(0, 0, 1, 0, 0), (0, 0, 0, 1, 0), (0, 0, -1, 0, 1), (0, 0, 0, -1, 1)]
+    rows = [(1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (1, 1, 0, 0, 0), *square, (0, 0, -2, -2, 3)]
+    corners = {(0, 0, 0, 0, 1), (0, 0, 1, 0, 1), (0, 0, 0, 1, 1), (0, 0, 2, 1, 2), (0, 0, 1, 2, 2)}
+    assert {*module._edges(rows)} == {(1, 0, 0, 0, 0), (0, 1, 0, 0, 0), *corners}
+
+
 @pytest.mark.parametrize(
     ("one", "two"), [(STAR, RING), ("#=1, 1=2, 2=3; F2:1; S3:2", "#=1, 1=2, 1=3, 2=3; F1; S2:1")]
 )

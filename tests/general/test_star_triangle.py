@@ -47,6 +47,10 @@ def test_the_middle_is_eliminated(kind, other, values):
         ("R1 1 2; L1 2 3; C1 2 0; C2 3 0; R3 1 3; port 1 0", 0),  # of two kinds
         ("R1 1 2; R2 1 2; R3 2 0; C1 2 0; port 1 0", 0),  # in series and parallel already
         ("C1 1 2; R1 1 3; R2 2 3; C2 2 0; R3 3 0; port 3 0", 0),  # the middle is a port
+        (
+            "R1 1 4; R2 2 4; R3 3 4; C1 2 0; C2 2 5; C3 3 0; C4 3 5; L1 5 0; L2 1 5; port 1 0",
+            0,  # as many edges as before
+        ),
     ],
 )
 def test_only_what_leaves_fewer_edges(text, count):
