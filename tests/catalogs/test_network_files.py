@@ -132,9 +132,9 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
 
 
 def test_what_a_theorem_tells_is_written_beside_an_open_search():
-    """Networks 15 and 25 of machines-3: interlacing tells that they are the same."""
+    """Networks 17 and 28 of machines-3: interlacing tells that they are the same."""
     whole = family_of("machines-3")
-    names = [whole.networks[i - 1].name for i in (15, 25)]
+    names = [whole.networks[i - 1].name for i in (17, 28)]
     text = build_networks(replace(whole, source=lambda: names), Engine())
     record = json.loads(text.splitlines()[-1])
     assert record["positive"]["evidence"] == {"kind": "theorem", "name": "interlacing"}
