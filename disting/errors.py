@@ -1,7 +1,7 @@
 """The few errors that a user can meet. Not knowing is no error: it is the relation UNDECIDED.
 
-What is echoed of an input is short and can be printed, whoever made the input: see `shown` and
-`listed`.
+What is echoed of an input is short and can be printed, whoever made the input: see `short` and
+`enumeration`.
 """
 
 from collections.abc import Iterable
@@ -71,10 +71,10 @@ class NotSeenError(DistingError):
     """
 
 
-def shown(value: object) -> str:
+def short(value: object) -> str:
     """What a user gave, as Python writes it, but no longer than an eye takes in.
 
-    >>> shown("a" * 99), shown(10**9999), shown("a\\x1b[2J")
+    >>> short("a" * 99), short(10**9999), short("a\\x1b[2J")
     ("'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…'", 'a number of 33216 bits', "'a\\\\x1b[2J'")
     """
     if isinstance(value, str):
@@ -92,14 +92,14 @@ def of_type(value: T, kind: type | UnionType | tuple[type, ...], wanted: str) ->
     disting.errors.InputError: a name is a text, not 3
     """
     if not isinstance(value, kind):
-        raise InputError(f"{wanted}, not {shown(value)}")
+        raise InputError(f"{wanted}, not {short(value)}")
     return value
 
 
-def listed(names: Iterable[str], separator: str = ", ") -> str:
+def enumeration(names: Iterable[str], separator: str = ", ") -> str:
     """Names in a row, the first of them if there are many.
 
-    >>> listed(map(str, range(10**6)))[-30:]
+    >>> enumeration(map(str, range(10**6)))[-30:]
     '26, 27, 28, 29 and 999970 more'
     """
     rest = iter(names)

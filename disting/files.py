@@ -19,7 +19,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from disting.errors import CatalogError, InputError, of_type, printable, shown
+from disting.errors import CatalogError, InputError, of_type, printable, short
 
 PROVENANCE = "provenance.json"
 STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process, not a place
@@ -101,22 +101,22 @@ def read_json(path: Path, wanted: str) -> Any:
     """What a JSON file holds, of at most 50 MB, no key twice; raises InputError."""
     content = read_bounded(path, wanted)
     try:
-        return json.loads(content.decode("utf-8-sig"), object_pairs_hook=once)
+        return json.loads(content.decode("utf-8-sig"), object_pairs_hook=unique_keys)
     except InputError as reason:
         raise InputError(f"{printable(str(path))}: {reason}") from None
     except (ValueError, RecursionError):  # the second: brackets by the thousand
         raise InputError(f"{printable(str(path))} holds no JSON; name {wanted}") from None
 
 
-def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """A JSON object in which no key is doubled: of two values one would be lost."""
     entries = dict(pairs)
     if len(entries) < len(pairs):
         keys = [key for key, _ in pairs]
         name = next((value for key, value in pairs if key == "name"), None)
-        where = f"model {shown(name)}: " if name is not None else ""
+        where = f"model {short(name)}: " if name is not None else ""
         doubled = next(key for key in keys if keys.count(key) > 1)
-        raise InputError(f"{where}{shown(doubled)} is given twice; leave one of them away")
+        raise InputError(f"{where}{short(doubled)} is given twice; leave one of them away")
     return entries
 
 

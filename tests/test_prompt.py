@@ -40,14 +40,14 @@ from disting import (
     verify,
 )
 from disting.catalogs.next_files import next_catalog
-from disting.fit import figure_1, plan, predicted, select
+from disting.fit import figure_1, plan, predict, select
 from disting.measurement import FrequencyResponse, TimeSeries
 
 LONGEST = 120
 DRIVE = Chain(2, damped=True, ground_dampers=(1,))
 VALUES = {"m1": 0.02, "m2": 0.01, "k12": 500.0, "d12": 0.1, "b1": 0.3}
 OMEGA = 2 * np.pi * np.geomspace(5, 200, 60)
-DATA = FrequencyResponse(OMEGA, predicted(DRIVE, VALUES, OMEGA), input=("F", "N"))
+DATA = FrequencyResponse(OMEGA, predict(DRIVE, VALUES, OMEGA), input=("F", "N"))
 
 
 @pytest.fixture(scope="module")

@@ -233,12 +233,12 @@ def test_every_other_public_function_says_what_it_raises(room):
 def test_what_they_raise_has_cause_and_remedy():
     """Of those that broke off with an error of Python before."""
     from disting.catalogs import catalog
-    from disting.fit import predicted, state_space, write_mat, zero_pole
+    from disting.fit import predict, state_space, write_mat, zero_pole
     from disting.report import model_page
 
     chain, omega, whole = Chain(2, damped=False), np.ones(1), {"m1": 1.0, "m2": 1.0, "k12": 1.0}
     for call in (
-        lambda some: predicted(chain, some, omega),
+        lambda some: predict(chain, some, omega),
         lambda some: zero_pole(chain, some),
         lambda some: state_space(chain, some),
     ):

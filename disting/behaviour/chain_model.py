@@ -20,7 +20,7 @@ from flint import fmpz_poly
 from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, constant, lowest_terms, variable
 from disting.algebra.symbols import coefficients
-from disting.behaviour.expansion import written_out
+from disting.behaviour.expansion import numerator_and_denominator
 from disting.behaviour.sample import at_point, coefficient_columns
 from disting.behaviour.transfer import Arrangement, plain_receptance, receptance, values_at
 from disting.model.protocol import Columns, Degrees
@@ -94,7 +94,10 @@ def _at_ones(structure: Structure) -> tuple[list[bool], list[bool]]:
 
 def _written_out(structure: Structure) -> tuple[list[bool], list[bool]]:
     """Which coefficients are not the polynomial 0."""
-    num, den = ([not c.is_zero() for c in coefficients(p, "s")] for p in written_out(structure))
+    num, den = (
+        [not c.is_zero() for c in coefficients(p, "s")]
+        for p in numerator_and_denominator(structure)
+    )
     return num, den
 
 

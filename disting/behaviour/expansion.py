@@ -23,15 +23,15 @@ from disting.algebra.notation import Expr, quotient, symbol
 from disting.algebra.symbols import coefficients, rename_symbols, symbols
 from disting.behaviour.transfer import plain_receptance
 from disting.model.chain import Chain, Sensor
-from disting.model.names import chains_named
+from disting.model.names import read_together
 from disting.model.structure import Structure
 
-Written = tuple[fmpz_mpoly, fmpz_mpoly]
+Fraction = tuple[fmpz_mpoly, fmpz_mpoly]
 
 NO_UNITS: Mapping[str | int, int] = MappingProxyType({})
 
 
-def expand(structure: Structure) -> Written:
+def expand(structure: Structure) -> Fraction:
     """Numerator and denominator of the transfer function (24) without dead time, in lowest terms
     for every chain of the class.
 
@@ -41,13 +41,13 @@ def expand(structure: Structure) -> Written:
     >>> expand(Chain(1, damped=False).structure)
     (1, m1)
     """
-    num, den = written_out(structure)
+    num, den = numerator_and_denominator(structure)
     s = num.context().gens()[0]
     power = min(_valuation(num), _valuation(den))
     return num // s**power, den // s**power
 
 
-def written_out(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
+def numerator_and_denominator(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mpoly]:
     """Numerator (times s to the sensor's order) and denominator, common powers of s not
     cancelled; s is the first symbol.
     """
@@ -71,7 +71,7 @@ def transfer_function(
     """
     from sympy import exp
 
-    (chain,) = chains_named([chain], damped=damped, sensor=sensor)
+    (chain,) = read_together([chain], damped=damped, sensor=sensor)
     num, den = expand(chain.structure)
     rational = quotient(coefficients(num, "s"), coefficients(den, "s"))
     return rational * exp(-symbol("s") * symbol("Td")) if chain.dead_time else rational
@@ -88,7 +88,7 @@ def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> 
     return become(expand(left), expand(right), renaming)
 
 
-def become(a: Written, b: Written, renaming: Mapping[str, str]) -> bool:
+def become(a: Fraction, b: Fraction, renaming: Mapping[str, str]) -> bool:
     """Whether renaming turns one numerator and its denominator into the other ones: an identity."""
     ring = symbols([str(g) for g in b[1].context().gens()])
     num, den = (rename_symbols(p, ring, renaming) for p in a)

@@ -34,7 +34,7 @@ SEARCHES = 3  # points modulo 31 bits: with thousands of models one is special n
 
 
 @dataclass(frozen=True, slots=True)
-class Unsearched:
+class NoMatroid:
     """A matroid that was not computed, and why."""
 
     reason: str
@@ -64,7 +64,7 @@ class Profile:
     n_states: int
     n_parameters: int
     rank: int
-    matroid: Matroid | Unsearched
+    matroid: Matroid | NoMatroid
     proven_zeros: frozenset[str]
     rank_proven: bool
     safety: int
@@ -208,7 +208,7 @@ def _constants_known(labels: Sequence[str], free: Sequence[bool], proven: frozen
 
 def _matroid(
     seen: Sequence[Sample], searches: Iterable[Sample], rank: int, limit: int
-) -> tuple[Matroid | Unsearched, int]:
+) -> tuple[Matroid | NoMatroid, int]:
     """Matroid at a search point with each dependence confirmed at all points, and the number of
     statements that were tried.
 
@@ -219,14 +219,14 @@ def _matroid(
         try:
             shape = matroid(search.jacobian, limit)
         except SearchTooLargeError as reason:
-            return Unsearched(f"more than {limit:,} sets of coefficients to look at: {reason}"), 0
+            return NoMatroid(f"more than {limit:,} sets of coefficients to look at: {reason}"), 0
         statements = list(shape.dependences())
         claims += len(statements)
         if shape.rank == rank and not any(
             s.rank(rows) > bound for s in seen for rows, bound in statements
         ):
             return shape, claims
-    return Unsearched("every search point was special; choose another seed"), 0
+    return NoMatroid("every search point was special; choose another seed"), 0
 
 
 def profile_to_json(profile: Profile) -> str:
@@ -238,7 +238,7 @@ def profile_to_json(profile: Profile) -> str:
     }
     data["matroid"] = (
         asdict(profile.matroid)
-        if isinstance(profile.matroid, Unsearched)
+        if isinstance(profile.matroid, NoMatroid)
         else _plain(profile.matroid)
     )
     return json.dumps(data, separators=(",", ":"))
@@ -268,9 +268,9 @@ def _plain(m: Matroid) -> dict[str, Any]:
     return {"size": m.size, "rank": m.rank, "components": components}
 
 
-def _read_matroid(data: dict[str, Any]) -> Matroid | Unsearched:
+def _read_matroid(data: dict[str, Any]) -> Matroid | NoMatroid:
     if "reason" in data:
-        return Unsearched(data["reason"])
+        return NoMatroid(data["reason"])
     return Matroid(data["size"], data["rank"], tuple(_component(c) for c in data["components"]))
 
 

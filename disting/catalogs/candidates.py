@@ -173,7 +173,7 @@ def read(folder: Path) -> Matrix:
 
 
 @cache
-def shipped() -> Matrix:
+def shipped_matrix() -> Matrix:
     """The shipped verdicts on the 120 candidates of Fig. 1."""
     return read(shipped_folder())
 

@@ -28,7 +28,7 @@ from disting.errors import CatalogError, ContradictionError, InputError, of_type
 from disting.files import Format
 from disting.model.chain import Premise
 from disting.model.family import Family
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.verdict.forest import classes_of
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Catalog(Shown):
+class Catalog(NotebookTable):
     """All verdicts of one family; `records` is its file's content (see `files`).
 
     >>> catalog(3, damped=True).verdict(2, 5, View.EXACT).decided_by

@@ -22,7 +22,7 @@ import numpy as np
 
 from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.export import premise_text
-from disting.catalogs.files import Record, lines, read_settled, shipped_folder, write_provenance
+from disting.catalogs.files import Record, lines, read_findings, shipped_folder, write_provenance
 from disting.conditions.finding import WRITTEN
 from disting.conditions.rule import EXACT
 from disting.errors import CatalogError, InputError
@@ -137,7 +137,7 @@ def damper_family(
     the_classes = classes(
         chains,
         engine or Engine(),
-        settled=read_settled((canonical(chain).chain for chain in chains), folder),
+        settled=read_findings((canonical(chain).chain for chain in chains), folder),
         more=[PATIENTLY] if n_masses <= PATIENT_UP_TO else [],
         executor=executor,
         progress=progress,

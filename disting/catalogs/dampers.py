@@ -37,7 +37,7 @@ class DamperSets(StrEnum):
     def of(self, n_masses: int) -> tuple[Masses, ...]:
         """The sets in the order of size, then of masses.
 
-        >>> [spelled(masses) for masses in DamperSets.ALL.of(2)]
+        >>> [spell(masses) for masses in DamperSets.ALL.of(2)]
         ['0', '1', '2', '1+2']
         """
         most = n_masses if self is DamperSets.ALL else 1
@@ -48,10 +48,10 @@ class DamperSets(StrEnum):
         )
 
 
-def spelled(masses: Masses) -> str:
+def spell(masses: Masses) -> str:
     """A set as text: 0 for no damper, else the masses such as 1+3.
 
-    >>> spelled(()), spelled((1, 3))
+    >>> spell(()), spell((1, 3))
     ('0', '1+3')
     """
     return "+".join(map(str, masses)) or "0"
@@ -92,7 +92,7 @@ class DamperTable:
         """The sets grouped by indistinguishability, in the order of their first members; an
         undecided pair joins no groups.
         """
-        classes = classes_of([spelled(s) for s in self.sets], self.decided.relation)
+        classes = classes_of([spell(s) for s in self.sets], self.decided.relation)
         return tuple(tuple(self.sets[i] for i in members) for members in classes)
 
     def to_csv(self) -> str:
@@ -105,7 +105,7 @@ class DamperTable:
         writer.writerow(COLUMNS)
         rows = self.rows()
         writer.writerows(
-            (spelled(a), spelled(b), relation.value, rule, self.domain.value, *premise)
+            (spell(a), spell(b), relation.value, rule, self.domain.value, *premise)
             for a, b, relation, rule in rows
         )
         return out.getvalue()
@@ -140,7 +140,7 @@ def dampers(
     """
     engine = engine or Engine()
     sets = which.of(chain.n_masses)
-    subjects = [engine.subject(spelled(s), replace(chain, ground_dampers=s)) for s in sets]
+    subjects = [engine.subject(spell(s), replace(chain, ground_dampers=s)) for s in sets]
     view = View.EXACT if domain is Domain.COMPLEX else View(domain.value)
     decided = engine.decisions(
         subjects, Query(view, inclusion=False), executor=executor, progress=progress

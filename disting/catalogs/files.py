@@ -39,7 +39,7 @@ from disting.files import (
 from disting.model.chain import Chain
 
 SETTLED = "settled-dampers.jsonl"
-Settled = dict[tuple[Chain, Chain], Finding]
+Findings = dict[tuple[Chain, Chain], Finding]
 """Findings on ordered pairs of canonical chains."""
 SCHEMA = 4
 SHIPPED_SIZES = (1, 2, 3, 4, 5)
@@ -48,10 +48,10 @@ INCLUSIONS = "inclusions"
 Record = dict[str, Any]
 
 
-def read_settled(canonical_chains: Iterable[Chain], folder: Path | None = None) -> Settled:
+def read_findings(canonical_chains: Iterable[Chain], folder: Path | None = None) -> Findings:
     """What is settled of these canonical chains: in the shipped file, and in the folder's own."""
     named = {str(chain): chain for chain in canonical_chains}
-    findings = Settled()
+    findings = Findings()
     folders = dict.fromkeys(where.resolve() for where in (shipped_folder(), folder) if where)
     for path in (where / SETTLED for where in folders):
         for text in intact_text(path).splitlines() if path.is_file() else ():

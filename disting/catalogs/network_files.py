@@ -26,7 +26,7 @@ from disting.conditions.side import AnySide
 from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
-from disting.general.any_model import of_network, unnamed
+from disting.general.any_model import of_network, without_names
 from disting.general.forms import of_equals
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
@@ -89,7 +89,7 @@ def build_networks(
         "command": f"{COMMAND} {family.name}",
         "settings": engine.settings.to_dict(),
     }
-    asked = [(unnamed(s.subject),) for s in sides]
+    asked = [(without_names(s.subject),) for s in sides]
     engine.answer_all(PARAMETERS, asked, executor=executor, progress=progress)
     models = [
         {
@@ -178,7 +178,7 @@ def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
     sides, rows, records = _known(family, engine, folder)
     for side, r in zip(sides, rows, strict=False):
         answer = PARAMETERS.decode(json.dumps(r["identifiability"]))
-        engine.remember(PARAMETERS, (unnamed(side.subject),), answer)
+        engine.remember(PARAMETERS, (without_names(side.subject),), answer)
     for r in records:
         if "finding" in r:
             question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])

@@ -32,7 +32,7 @@ from disting.model.kinds import KINDS, Kind
 from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.next_experiments import Further, further
+from disting.verdict.next_experiments import Menu, menu_for
 from disting.verdict.placement_record import TESTS, Placement
 from disting.verdict.query import View
 
@@ -92,7 +92,7 @@ class NextCatalog:
         return {m: at for at, group in enumerate(self.groups, 1) for m in group}
 
     @cached_property
-    def _read(self) -> dict[int, Further[Chain]]:
+    def _read(self) -> dict[int, Menu[Chain]]:
         """Groups that were asked for."""
         return {}
 
@@ -101,7 +101,7 @@ class NextCatalog:
         at = self._place.get(number)
         return self.groups[at - 1] if at else (number,)
 
-    def further(self, numbers: Sequence[int], costs: Costs | None = None) -> Further[Chain] | None:
+    def further(self, numbers: Sequence[int], costs: Costs | None = None) -> Menu[Chain] | None:
         """What to measure next to tell these structures of one group apart, in this order; None
         where they are no two of one group, or a kind with a cost is not in the file. Raises
         CatalogError for a damaged record.
@@ -155,7 +155,7 @@ def build_next(
     records = [header]
     for done, members in enumerate(groups, 1):
         named = [empty.named(m) for m in members]
-        advice = further(named, engine, executor=executor, progress=progress)
+        advice = menu_for(named, engine, executor=executor, progress=progress)
         tables = {k.name: _plain(t) for k, t in advice.tables.items() if isinstance(t, Placement)}
         records.append({"group": list(members), **tables})
         progress("groups", done, len(groups))
@@ -240,7 +240,7 @@ def _plain(table: Placement) -> Record:
     }
 
 
-def _further(stored: NextCatalog, record: Record) -> Further[Chain]:
+def _further(stored: NextCatalog, record: Record) -> Menu[Chain]:
     n, numbers, tests = stored.family.n_masses, record["group"], stored.records[0]["tests"]
     try:
         tables = {
@@ -249,7 +249,7 @@ def _further(stored: NextCatalog, record: Record) -> Further[Chain]:
             if kind.name in record
         }
         names, chains = zip(*map(stored.named, numbers), strict=True)
-        return Further(names, chains, tables)
+        return Menu(names, chains, tables)
     except (LookupError, TypeError, ValueError) as reason:
         raise CatalogError(
             f"the group {numbers} cannot be read ({reason!r}); make it with '{COMMAND} {n}'"

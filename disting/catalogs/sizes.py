@@ -17,7 +17,7 @@ from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.question import Models, Question
 from disting.model.symmetry import canonical
-from disting.questions.inclusion.decide import CLOSURE, IMAGE, turned
+from disting.questions.inclusion.decide import CLOSURE, IMAGE, turn
 from disting.questions.same.real_and_positive import POSITIVELY
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
@@ -41,7 +41,7 @@ def combined_family(
     )
 
 
-def combined(
+def combine(
     sizes: Sequence[int],
     *,
     damped: bool = True,
@@ -57,7 +57,7 @@ def combined(
     Of the 482 pairs of different size of 1 to 4 masses, the smaller model lies in the larger one
     in 417 without dampers and in 441 with dampers; in the others it does not.
 
-    >>> found = combined((1, 2), damped=False)
+    >>> found = combine((1, 2), damped=False)
     >>> found.subjects[2].name, found.relation(0, 2).value, found.verdict(0, 2).closure.value
     ('2:2', 'distinguishable', 'left-in-right')
     """
@@ -92,4 +92,4 @@ def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
             both = inclusions_from_dict(record[INCLUSIONS])
             small, large = (i, j) if ranks[i] < ranks[j] else (j, i)
             for question, said in ((IMAGE, both.image), (CLOSURE, both.closure)):
-                yield question, (forms[small], forms[large]), said if small == i else turned(said)
+                yield question, (forms[small], forms[large]), said if small == i else turn(said)

@@ -15,7 +15,7 @@ from disting.catalogs.files import (
     shipped_folder,
     write_provenance,
 )
-from disting.catalogs.sizes import answers_in, combined
+from disting.catalogs.sizes import answers_in, combine
 from disting.catalogs.sizes_files import COMMAND, SCHEMA, SizesCatalog, name_of, sizes_catalog
 from disting.conditions.inclusion import inclusions_to_dict
 from disting.files import write_whole
@@ -45,7 +45,7 @@ def build_sizes(
         if stored.record(0)["settings"] == engine.settings.to_dict():
             for parts in answers_in(stored):
                 engine.remember(*parts)
-    decisions = combined(
+    decisions = combine(
         SHIPPED_SIZES,
         damped=damped,
         query=Query(View.EXACT),

@@ -20,7 +20,7 @@ from disting.catalogs.sizes import combined_family
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text
 from disting.model.chain import Chain, Premise
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -35,7 +35,7 @@ def name_of(damped: bool) -> str:
 
 
 @dataclass(frozen=True)
-class SizesCatalog(Shown):
+class SizesCatalog(NotebookTable):
     """All verdicts on the models of several sizes, counted from 1 in the order of sizes.
 
     `catalogs`: one a size, for the pairs of one size; `records`: the file's content.

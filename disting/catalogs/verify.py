@@ -10,7 +10,7 @@ from pathlib import Path
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily, damper_family, damper_name, read, text_of
-from disting.catalogs.files import append, lines, name_of, read_settled
+from disting.catalogs.files import append, lines, name_of, read_findings
 from disting.conditions.finding import Finding, Outcome
 from disting.model.chain import Chain
 from disting.model.question import Settings
@@ -19,7 +19,7 @@ from disting.questions.same.evidence_check import Witness, finding_holds
 from disting.questions.same.low_cost import patient_finding
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.claim_checks import false_of_inclusions
-from disting.verdict.engine import Engine, Progress, mapped, silent
+from disting.verdict.engine import Engine, Progress, map_tasks, silent
 from disting.verdict.forest import Forest
 from disting.verdict.query import View
 from disting.verdict.result import Relation
@@ -122,14 +122,14 @@ def verify_dampers(
         progress=progress,
     )
     name = damper_name(n_masses, damped)
-    wrong = list(false_settled(stored, folder, engine.settings, executor, progress))
+    wrong = list(false_findings(stored, folder, engine.settings, executor, progress))
     other_name = (folder / f"{name}.jsonl").read_text(encoding="utf-8")
     if other_name != text_of(rebuilt, engine.settings):
         wrong.append(f"{name} is not what is computed now")
     return wrong
 
 
-def false_settled(
+def false_findings(
     stored: DamperFamily,
     folder: Path,
     settings: Settings,
@@ -141,10 +141,10 @@ def false_settled(
     """
     classes = stored.found
     place = {canonical(chain).chain: i for i, chain in enumerate(classes.chains)}
-    findings = read_settled(place, folder)
+    findings = read_findings(place, folder)
     asked = [(finding, *pair, settings) for pair, finding in findings.items()]
     for done, ((finding, *chains, _), is_true) in enumerate(
-        mapped(finding_holds, asked, executor), 1
+        map_tasks(finding_holds, asked, executor), 1
     ):
         left, right = (place[chain] for chain in chains)
         pair = stored.pair_text(left, right)
@@ -162,7 +162,7 @@ def settle_dampers(
     settled; the number settled. `announce` gets a sentence a pair.
     """
     chains = family.found.chains
-    findings, count = read_settled({canonical(chain).chain for chain in chains}, folder), 0
+    findings, count = read_findings({canonical(chain).chain for chain in chains}, folder), 0
     for low, high in _open(family, findings):
         side, other = (ComparedChain("", chains[place]) for place in (low, high))
         first, second = side.in_order(other)

@@ -10,7 +10,7 @@ from typing import Any
 
 from disting.cli.output import written_file, written_folder
 from disting.conditions.rule import RULES
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.model.chain import Sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
@@ -33,11 +33,11 @@ def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
         """The number, or an error that says what is needed."""
         if not text.isdecimal() or len(text) > 99 or int(text) < low:
             raise argparse.ArgumentTypeError(
-                f"a whole number of at least {low} is needed, not {shown(text)}"
+                f"a whole number of at least {low} is needed, not {short(text)}"
             )
         if int(text) > high:
             raise argparse.ArgumentTypeError(
-                f"a whole number of at most {high} is needed, not {shown(text)}"
+                f"a whole number of at most {high} is needed, not {short(text)}"
             )
         return int(text)
 
@@ -51,7 +51,7 @@ def sizes(text: str) -> range:
     """One size such as 4, or several such as 1-4."""
     match = re.fullmatch(r"([1-9]\d{0,2})(?:-([1-9]\d{0,2}))?", text)
     if not match or int(match[2] or match[1]) < int(match[1]):
-        raise argparse.ArgumentTypeError(f"sizes are written like 4 or 1-4, not {shown(text)}")
+        raise argparse.ArgumentTypeError(f"sizes are written like 4 or 1-4, not {short(text)}")
     if int(match[2] or match[1]) > MOST_MASSES:
         raise argparse.ArgumentTypeError(
             f"families of at most {MOST_MASSES} masses are listed, not of {match[2] or match[1]}"
@@ -67,10 +67,10 @@ Listed = Path | str
 FILE = ".json:"  # between a file and the name of a model in it
 
 
-def parted(text: str) -> tuple[str, str]:
+def split_reference(text: str) -> tuple[str, str]:
     """A file and the name of a model in it; "" and the text where it names something else.
 
-    >>> parted("own.json:two leaks"), parted("3:1")
+    >>> split_reference("own.json:two leaks"), split_reference("3:1")
     (('own.json', 'two leaks'), ('', '3:1'))
     """
     path, mark, name = text.partition(FILE)
@@ -112,7 +112,7 @@ def exact_range(text: str) -> tuple[str, tuple[str, str]]:
     """A range such as k12=0..1000, its ends as they are written."""
     match = re.fullmatch(r"(\w+)=([^=.]*\.?[^=.]*)\.\.([^=]+)", text)
     if not match:
-        raise argparse.ArgumentTypeError(f"a range is written like k12=0..1000, not {shown(text)}")
+        raise argparse.ArgumentTypeError(f"a range is written like k12=0..1000, not {short(text)}")
     return match[1], (match[2], match[3])
 
 
@@ -129,7 +129,7 @@ def frequency_range(text: str) -> tuple[float, float]:
         limits = (1.0, 0.0)
     if not limits[0] < limits[1]:
         raise argparse.ArgumentTypeError(
-            f"a range is written like 11..250, the lower end first, not {shown(text)}"
+            f"a range is written like 11..250, the lower end first, not {short(text)}"
         )
     return limits
 
@@ -144,7 +144,7 @@ def conditions(text: str) -> tuple[str, ...]:
         if not {low, high} <= set(names) or names.index(high) < names.index(low):
             offered = f"the conditions {names[0]} to {names[-1]}"
             raise argparse.ArgumentTypeError(
-                f"conditions are written like 1-5,8, of {offered}, not {shown(text)}"
+                f"conditions are written like 1-5,8, of {offered}, not {short(text)}"
             )
         chosen |= set(names[names.index(low) : names.index(high) + 1])
     return tuple(name for name in names if name in chosen)

@@ -10,7 +10,7 @@ from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.files import shipped_folder
 from disting.catalogs.network_files import SHIPPED, build_networks, verify_networks
 from disting.cli.arguments import add_masses, add_out, add_work, size_or_family
-from disting.cli.workers import announced, engine_for, pairs_by_size, pairs_work
+from disting.cli.workers import announce, engine_for, pairs_by_size, pairs_work
 from disting.network.families import family_of
 from disting.verdict.engine import Engine, Progress
 
@@ -74,7 +74,7 @@ def build(options: argparse.Namespace) -> int:
 
     for damped in (False, True):
         counts = pairs_by_size(options.masses, across=False)
-        announced(pairs_work(damped), counts, options.jobs)
+        announce(pairs_work(damped), counts, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         for n in options.masses:
             pair = [

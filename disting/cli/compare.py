@@ -18,11 +18,11 @@ from disting.cli.arguments import (
     add_notation,
     add_quantity,
 )
-from disting.cli.compare_words import both_ways, explained
-from disting.cli.look_up import in_order, shipped, shipped_ranks
+from disting.cli.compare_words import both_ways, explain
+from disting.cli.look_up import in_order, look_up, shipped_ranks
 from disting.cli.relations import query
 from disting.model.chain import Chain, text_drawing
-from disting.model.names import NAME, chains_named
+from disting.model.names import NAME, read_together
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
 
@@ -48,8 +48,8 @@ def run(options: argparse.Namespace) -> int:
     texts = (options.left, options.right)
     more = options.json or options.bound or options.also or options.prove
     if not more and all(map(NAME.fullmatch, texts)):
-        chains = chains_named(texts, damped=options.damped, sensor=options.quantity)
-        verdict = shipped(chains, query(options.conditions, View.EXACT, options.domain))
+        chains = read_together(texts, damped=options.damped, sensor=options.quantity)
+        verdict = look_up(chains, query(options.conditions, View.EXACT, options.domain))
         if verdict is not None:
             print("\n".join(_told(in_order(chains, verdict), verdict)))
             return 0
@@ -61,4 +61,4 @@ def run(options: argparse.Namespace) -> int:
 def _told(chains: Sequence[Chain], verdict: Verdict) -> list[str]:
     """A verdict that was looked up, in words."""
     ways = [] if verdict.proves_shares else both_ways(verdict)
-    return [explained(verdict, list(map(text_drawing, chains)), shipped_ranks(chains)), *ways]
+    return [explain(verdict, list(map(text_drawing, chains)), shipped_ranks(chains)), *ways]

@@ -6,14 +6,14 @@ from disting.cli.relations import in_colour
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.positive import PositiveFinding
 from disting.model.question import Domain
-from disting.verdict.meaning import RESPONSE, meaning_sentence, undetermined
+from disting.verdict.meaning import RESPONSE, meaning_sentence, undetermined_sentence
 from disting.verdict.result import Relation, Verdict
 
 Known = tuple[str, int, int]
 """The name of a model, how much of it is determined, how many parameters it has."""
 
 
-def explained(
+def explain(
     verdict: Verdict,
     drawn: list[str],
     items: Iterable[Known] | None = None,
@@ -30,7 +30,9 @@ def explained(
     heading = in_colour(verdict.relation.upper(), verdict.relation)
     lines = [heading, "", *drawings, ""]
     apart = verdict.relation is Relation.DISTINGUISHABLE
-    unknown = list(filter(None, (undetermined(*parts) for parts in (apart and items) or ())))
+    unknown = list(
+        filter(None, (undetermined_sentence(*parts) for parts in (apart and items) or ()))
+    )
     lines += [*unknown, *[""] * bool(unknown)]
     lines += [meaning_sentence(verdict, what, everywhere), "", verdict.sentence]
     if verdict.evidence:

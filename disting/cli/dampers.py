@@ -16,16 +16,16 @@ from disting.catalogs.damper_family import (
     damper_family,
     write,
 )
-from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
+from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spell
 from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
-from disting.cli.output import emitted, emitted_lines, written_file
+from disting.cli.output import emit, emitted_lines, written_file
 from disting.cli.relations import relations_in_words
-from disting.cli.workers import Work, announced, engine_for
+from disting.cli.workers import Work, announce, engine_for
 from disting.conditions.rule import RULES
 from disting.errors import InputError
 from disting.model.chain import text_drawing
 from disting.model.family import MOST_MASSES, Family
-from disting.model.names import chains_named, extras_of, name_of
+from disting.model.names import extras_of, name_of, read_together
 from disting.model.question import Domain
 from disting.verdict.joint import classes_safety, joint_in_words
 from disting.verdict.result import Relation
@@ -84,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
     """Print the table, or write it as CSV."""
     if options.model.isdecimal():
         return _whole_family(options)
-    (chain,) = chains_named([options.model], damped=is_damped(options))
+    (chain,) = read_together([options.model], damped=is_damped(options))
     if extras_of(chain):
         raise InputError(
             f"every set of dampers is asked: name the model without {extras_of(chain)}"
@@ -101,7 +101,7 @@ def run(options: argparse.Namespace) -> int:
         )
         table, over_complex = asked(domain=domain), asked(domain=Domain.COMPLEX)
     if options.csv:
-        emitted(options.csv, table.to_csv())
+        emit(options.csv, table.to_csv())
     if options.csv != "-":
         shown = f"{matrix(table, over_complex)}\n{legend(domain)}\n\n{summary(table, over_complex)}"
         sys.stdout.write(f"{name_of(chain)}  {text_drawing(chain)}\n\n{shown}\n")
@@ -130,7 +130,7 @@ def build(options: argparse.Namespace) -> int:
                     executor=pool,
                     progress=progress,
                 )
-                print(f"{write(family, engine.settings, options.out)}: {counted(family)}")
+                print(f"{write(family, engine.settings, options.out)}: {count_line(family)}")
     return 0
 
 
@@ -152,7 +152,7 @@ def _whole_family(options: argparse.Namespace) -> int:
         f"{n} by {_rule(rule)}" for rule, n in family.found.counts_by_rule().items() if rule
     )
     groups = family.classes()
-    print(f"{counted(family)}\n{rules}")
+    print(f"{count_line(family)}\n{rules}")
     print(
         f"{len(groups)} classes of indistinguishable models, the largest of"
         f" {max(map(len, groups), default=0)}"
@@ -168,7 +168,7 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
     which = DamperSets(options.sets)
     if n in SHIPPED_SIZES and which is DamperSets.ALL:
         return damper_catalog(n, damped=is_damped(options))
-    announced(Work.DAMPERS, {n: len(Family(n)) * len(which.of(n))}, options.jobs)
+    announce(Work.DAMPERS, {n: len(Family(n)) * len(which.of(n))}, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         return damper_family(
             n,
@@ -180,7 +180,7 @@ def _family(n: int, options: argparse.Namespace) -> DamperFamily:
         )
 
 
-def counted(family: DamperFamily) -> str:
+def count_line(family: DamperFamily) -> str:
     """Models, pairs and how surely all of it holds, in one line."""
     counts = family.found.counts()
     phrase = ", ".join(f"{n} {relation}" for relation, n in counts.items())
@@ -199,7 +199,7 @@ def matrix(table: DamperTable, over_complex: DamperTable) -> str:
         """Of two sets."""
         return "\\" if i == j else _sign(table, over_complex, i, j)
 
-    return grid([spelled(s) for s in table.sets], sign)
+    return grid([spell(s) for s in table.sets], sign)
 
 
 def grid(names: Sequence[str], sign: Callable[[int, int], str]) -> str:
@@ -269,7 +269,7 @@ def summary(table: DamperTable, over_complex: DamperTable) -> str:
     signs = [_sign(table, over_complex, i, j) for i, j in pairs]
     open_ones = signs.count(COMPLEX_ONLY)
     more = f" ({open_ones} of them indistinguishable over complex parameters)" if open_ones else ""
-    groups = [" ".join(map(spelled, group)) for group in table.classes() if len(group) > 1]
+    groups = [" ".join(map(spell, group)) for group in table.classes() if len(group) > 1]
     over = f"over {table.domain} parameters"
     same = "".join(f"\nindistinguishable {over}: {group}" for group in groups)
     return f"{len(table.sets)} sets, {len(pairs)} pairs, {over}: {counts}{more}{same}"

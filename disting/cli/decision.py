@@ -8,17 +8,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from disting.cli.compare_words import Known, both_ways, explained
-from disting.cli.look_up import in_order, shipped, shipped_ranks
-from disting.cli.model_names import in_letters, models_named
-from disting.cli.output import emitted
+from disting.cli.compare_words import Known, both_ways, explain
+from disting.cli.look_up import in_order, look_up, shipped_ranks
+from disting.cli.model_names import in_letters, models_of
+from disting.cli.output import emit
 from disting.cli.relations import query
 from disting.cli.workers import engine_for, told_if_long
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.evidence.positive import PositiveFinding
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.places import Places, move, parse_experiment
-from disting.general.any_model import measured
+from disting.general.any_model import measurand
 from disting.general.matrix_model import AnyModel
 from disting.general.special_values import SpecialValues, special_values
 from disting.model.chain import Chain, text_drawing
@@ -27,8 +27,8 @@ from disting.model.question import Domain, Settings
 from disting.questions.positive import ranges, within_ranges
 from disting.verdict.comparison import compare, prove
 from disting.verdict.placement_verdicts import (
+    AllPlacements,
     Answer,
-    Everywhere,
     compare_everywhere,
     everywhere_file,
 )
@@ -47,11 +47,11 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(
             "what holds within ranges is told in words only: leave --json or --bound away"
         )
-    sides = models_named((options.left, options.right), options)
+    sides = models_of((options.left, options.right), options)
     asked = query(options.conditions, View.EXACT, options.domain)
     if options.also:
         return _under_experiments(sides, asked, options)
-    judgement = judged(sides, asked, options)
+    judgement = judge(sides, asked, options)
     if options.json:
         _written(file_of(judgement, asked, options), options)
     if options.json != "-":
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 @dataclass(frozen=True, slots=True)
-class Judged:
+class Judgement:
     """Two models in the order of their verdict, and how much of each is determined."""
 
     models: tuple[Chain | AnyModel, Chain | AnyModel]
@@ -68,14 +68,16 @@ class Judged:
     known: tuple[Known, ...]
 
 
-def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace) -> Judged:
+def judge(
+    sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace
+) -> Judgement:
     """The verdict on two models, from the shipped catalogues or decided, and proven where that is
     asked for.
     """
     less = LESS if asked.view.domain is not Domain.COMPLEX else ""
     with told_if_long(LONGER + less):
         chains = _chains(sides)
-        verdict = shipped(chains, asked) if chains else None
+        verdict = look_up(chains, asked) if chains else None
         ranks = shipped_ranks(chains) if chains else None
         if verdict is None or ranks is None:
             with engine_for(options) as (engine, _, _progress):
@@ -83,35 +85,35 @@ def judged(sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Na
                 ranks = ranks or determinable(sides[0], sides[1], engine)
         left, right = in_order(chains, verdict) if chains else sides
         verdict = prove(verdict, left, right) if options.prove else verdict
-        return Judged((left, right), verdict, ranks)
+        return Judgement((left, right), verdict, ranks)
 
 
-def file_named(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
+def verdict_file(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models, as they are named, with all that its check needs."""
-    sides = models_named(texts, options)
+    sides = models_of(texts, options)
     asked = query(options.conditions, View.EXACT, options.domain)
     if not options.also:
-        return file_of(judged(sides, asked, options), asked, options)
+        return file_of(judge(sides, asked, options), asked, options)
     left, right = _chains(sides)
     with engine_for(options) as (engine, _, _progress):
         return everywhere_file(left, right, options.also, query=asked, engine=engine)
 
 
-def file_of(judgement: Judged, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
+def file_of(judgement: Judgement, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models with all that its check needs."""
     beside = None
     if has_more(judgement.verdict):
-        beside = judged(judgement.models, exact(asked), options).verdict
+        beside = judge(judgement.models, exact(asked), options).verdict
     return as_file(
         StoredVerdict(judgement.models, (), asked, Settings(), judgement.verdict, beside)
     )
 
 
 def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
-    emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
+    emit(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
 
 
-def _told(judgement: Judged, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:
+def _told(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:
     """The verdict in words, within ranges if there are any."""
     verdict, chains = judgement.verdict, _chains(judgement.models)
     special = _at_special_values(judgement.models, verdict)
@@ -119,7 +121,7 @@ def _told(judgement: Judged, limits: Mapping[str, tuple[str, str]]) -> Iterator[
         list(map(in_letters, judgement.models)),
         special is not None and special.is_same,
     )
-    yield explained(verdict, drawn, judgement.known, measured(judgement.models), everywhere)
+    yield explain(verdict, drawn, judgement.known, measurand(judgement.models), everywhere)
     said = special.sentence(verdict.left, verdict.right) if special else ""
     yield from [f"special    {said}"] * bool(said)
     if chains and limits:
@@ -145,7 +147,8 @@ def _within(
     unknown = sorted(limits.keys() - names.keys())
     if unknown:
         raise InputError(
-            f"no parameter of the two models is called {listed(unknown)}; there are {listed(names)}"
+            f"no parameter of the two models is called {enumeration(unknown)};"
+            f" there are {enumeration(names)}"
         )
     left, right = chains
     of_left, of_right = ({n: limits[n] for n in c.parameters if n in limits} for c in chains)
@@ -181,7 +184,7 @@ def _under_experiments(
 
 
 def _every_way(
-    placements: Everywhere, chains: Sequence[Chain], experiments: Sequence[Experiment]
+    placements: AllPlacements, chains: Sequence[Chain], experiments: Sequence[Experiment]
 ) -> Iterator[str]:
     """One way in full, several with what is common to them; one and the same chain is drawn with
     the experiments of each side.
@@ -193,7 +196,7 @@ def _every_way(
         if left == right:
             sides = experiments, [move(e, places) for e in experiments]
             drawings = [_drawn(chains[0], side) for side in sides]
-        yield explained(verdict, drawings)
+        yield explain(verdict, drawings)
         yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)
         yield f"places     {_placed(places, left, right)}"
         return

@@ -4,9 +4,9 @@ import argparse
 from pathlib import Path
 
 from disting.cli.arguments import MODEL, add_damped, add_notation, add_quantity
-from disting.cli.model_names import models_named
-from disting.cli.output import emitted, written_file
-from disting.errors import InputError, shown
+from disting.cli.model_names import models_of
+from disting.cli.output import emit, written_file
+from disting.errors import InputError, short
 from disting.files import write_whole
 
 
@@ -33,17 +33,17 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("say where the drawing goes: --svg FILE or --png FILE")
     if options.png == "-":
         raise InputError("a picture as PNG goes to a file: name one")
-    (model,) = models_named([options.model], options)
+    (model,) = models_of([options.model], options)
     scene = scene_of(model)
     if scene is None:
         raise InputError(
-            f"{shown(options.model)} is a transfer function or a state space: chains, machines,"
+            f"{short(options.model)} is a transfer function or a state space: chains, machines,"
             " circuits and compartments have a drawing"
         )
     if options.png:
         write_whole(Path(options.png), png(scene, scale=3))
     if options.svg:
-        emitted(options.svg, svg(scene))
+        emit(options.svg, svg(scene))
     files = [file for file in (options.svg, options.png) if file and file != "-"]
     if options.svg != "-":
         print(f"{scene.title}\n{' and '.join(files)} written")

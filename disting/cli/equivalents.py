@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from disting.cli.arguments import add_damped, add_json, add_no_cache, add_notation
-from disting.cli.output import emitted
+from disting.cli.output import emit
 from disting.equivalence import (
     NONE,
     Equivalent,
@@ -26,7 +26,7 @@ from disting.equivalence import (
 from disting.errors import InputError
 from disting.model.chain import Chain, text_drawing
 from disting.model.kinds import EXAMPLES
-from disting.model.names import chains_named, name_of
+from disting.model.names import name_of, read_together
 from disting.network.notation import notations_of
 
 ABREAST = 3  # parameter sets beside each other
@@ -99,7 +99,7 @@ def run(options: argparse.Namespace) -> int:
     if options.formulas or options.latex or options.sympy:
         if options.also:
             raise InputError("--also asks for values, not for formulas: leave one of them away")
-        (chain,) = chains_named([options.model], damped=options.damped)
+        (chain,) = read_together([options.model], damped=options.damped)
         print("\n".join(_formulas(chain, chains_of(options.to, chain), options)))
         return 0
     if not options.values:
@@ -108,9 +108,7 @@ def run(options: argparse.Namespace) -> int:
     values = assignments(options.values)
     equivalents = find(options.model, values, options.to, damped=options.damped, also=options.also)
     if options.json:
-        emitted(
-            options.json, json.dumps(equivalents.to_dict(), indent=1, ensure_ascii=False) + "\n"
-        )
+        emit(options.json, json.dumps(equivalents.to_dict(), indent=1, ensure_ascii=False) + "\n")
     else:
         print("\n".join(_lines(equivalents)))
     return 0

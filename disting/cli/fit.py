@@ -11,16 +11,16 @@ from pathlib import Path
 
 from disting.cli.arguments import is_damped
 from disting.cli.fit_data import Data, data, sensors
-from disting.cli.fit_text import told
-from disting.cli.output import emitted
-from disting.cli.workers import Work, announced, cores, engine_for
-from disting.errors import InputError, listed, printable
+from disting.cli.fit_text import fit_text
+from disting.cli.output import emit
+from disting.cli.workers import Work, announce, cores, engine_for
+from disting.errors import InputError, enumeration, printable
 from disting.files import write_whole
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.practical import Thresholds
-from disting.fit.plan.fit_file import Named, named_by
+from disting.fit.plan.fit_file import FitRecord, named_by
 from disting.fit.results.export import control_script, write_mat
-from disting.fit.results.loop import Controller, controller_named
+from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports, whole_family
 from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
@@ -45,11 +45,11 @@ def run(options: argparse.Namespace) -> int:
         from disting.cli.fit_networks import run as run_networks
 
         return run_networks(options)
-    controller = controller_named(options.controller) if options.controller else None
+    controller = read_controller(options.controller) if options.controller else None
     source_data = data(options)
     left = _left(options)
     if left is None:
-        announced(Work.FITS, _counted(options), options.jobs or cores())
+        announce(Work.FITS, _counted(options), options.jobs or cores())
     candidates = _candidates(options, source_data, left.chains if left else ())
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
     home = _as_measured(left.model, source_data) if left else None
@@ -57,9 +57,9 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         plain = selection_to_dict(selection)
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
-        emitted(options.json, f"{text}\n")
+        emit(options.json, f"{text}\n")
     if options.json != "-":
-        print(printable("\n".join(told(selection, source_data.train))))
+        print(printable("\n".join(fit_text(selection, source_data.train))))
     if options.out:
         _write(selection, source_data.train, source_data.test, options)
         if options.json != "-":
@@ -117,7 +117,7 @@ def _counted(options: argparse.Namespace) -> dict[int, int]:
     return {n: count * 2 ** (n + 2) for n, count in counts.items()}
 
 
-def _left(options: argparse.Namespace) -> Named | None:
+def _left(options: argparse.Namespace) -> FitRecord | None:
     """The earlier fit that names the candidates; raises InputError where options name others."""
     if options.left is None:
         return None
@@ -125,7 +125,7 @@ def _left(options: argparse.Namespace) -> Named | None:
     if own or options.damped is not None:
         raise InputError(
             f"{options.left} names the candidates: leave"
-            f" {listed(sorted(own)) or '--damped and --undamped'} away"
+            f" {enumeration(sorted(own)) or '--damped and --undamped'} away"
         )
     return named_by(options.left)
 
@@ -171,7 +171,8 @@ def _candidates(
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in names]
     if unknown:
         raise InputError(
-            f"no candidate has a parameter {listed(unknown)}; there are {listed(sorted(names))}"
+            f"no candidate has a parameter {enumeration(unknown)};"
+            f" there are {enumeration(sorted(names))}"
         )
     return chains
 
@@ -182,11 +183,11 @@ def _write(
     test: FrequencyResponse | None,
     options: argparse.Namespace,
 ) -> None:
-    from disting.report.fit import exported, write_fit_report
+    from disting.report.fit import export, write_fit_report
 
     names = selection.selected.practical.names if options.profiles and selection.selected else ()
     write_fit_report(selection, options.out, train, test, profiles=names, site=options.site)
-    models = exported(selection, train)
+    models = export(selection, train)
     if models:
         write_mat(options.out / "model.mat", models, selection.task.sign)
         script = control_script(models, selection.task.sign)

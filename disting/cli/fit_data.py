@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.output import complain, keep_apart
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.experiments.changes import GENERIC, read_changes
-from disting.fit.search.joint import Further
+from disting.fit.search.joint import FurtherResponse
 from disting.fit.search.setup import Setup
 from disting.fit.select import MOST_LINES
 from disting.measurement import FrequencyResponse, beginnings, in_si, mean_of, read
-from disting.measurement.scaling import scaled, with_constant
+from disting.measurement.scaling import scale, with_constant
 from disting.model.kinds import CHANGES
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
@@ -34,7 +34,7 @@ class Data:
 
     train: FrequencyResponse
     test: FrequencyResponse | None
-    further: tuple[Further, ...]
+    further: tuple[FurtherResponse, ...]
 
 
 def data(options: argparse.Namespace) -> Data:
@@ -105,7 +105,7 @@ def _from_files(options: argparse.Namespace) -> Data:
     signs = _signs(options, len(places))
     setups = [Setup(sensor=place, sign=sign) for place, sign in zip(places, signs, strict=True)]
     whole = [
-        Further(measured, setup, tests[k] if tests else None)
+        FurtherResponse(measured, setup, tests[k] if tests else None)
         for k, (measured, setup) in enumerate(zip(train, setups, strict=True))
     ][1:]
     for text in options.experiment:
@@ -129,10 +129,10 @@ def _responses(
     for k in range(count):
         repeats = options.repeat if what == "TRAIN" else []
         of_sensor = [files[0], *repeats] if len(files) == 1 else [files[k]]
-        yield measured(of_sensor, options, k, count, together=len(files) == 1)
+        yield read_mean(of_sensor, options, k, count, together=len(files) == 1)
 
 
-def measured(
+def read_mean(
     files: list[Path],
     options: argparse.Namespace,
     which: int = 0,
@@ -158,7 +158,7 @@ def measured(
         [read(file, **own) for file, own in zip(files, each, strict=True)],
         outliers=options.outliers,
     )
-    response = scaled(response, options.scale) if options.scale is not None else response
+    response = scale(response, options.scale) if options.scale is not None else response
     response = in_si(response, input=units.get("input"), output=units.get("output"))
     return (
         with_constant(response, options.torque_constant)
@@ -208,16 +208,18 @@ def _signs(options: argparse.Namespace, count: int) -> list[int]:
     return [sign * numbers[0] for sign in numbers * (count if len(numbers) == 1 else 1)]
 
 
-def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -> Iterator[Further]:
+def _experiment(
+    text: str, options: argparse.Namespace, signs: dict[str, int]
+) -> Iterator[FurtherResponse]:
     """The responses of one experiment: those of all sensors, or of the one that it names."""
     match = EXPERIMENT.fullmatch(text)
     if not match:
-        raise InputError(f"{FORM}, not {shown(text)}")
+        raise InputError(f"{FORM}, not {short(text)}")
     file, entries = Path(match[1]), dict[str, list[str]]()
     for part in match[2].split(","):
         name, equals, value = part.partition("=")
         if name not in ("sensor", "force", "column", *CHANGED) or not (equals and value):
-            raise InputError(f"{FORM}, not {shown(text)}")
+            raise InputError(f"{FORM}, not {short(text)}")
         entries.setdefault(name, []).append(value)
     changes = [
         change
@@ -229,10 +231,10 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
     setup = Setup(force=force, changes=changes)
     places = entries.get("sensor", list(signs))
     if not (changes or force or "sensor" in entries):
-        raise InputError(f"{FORM}, not {shown(text)}")
+        raise InputError(f"{FORM}, not {short(text)}")
     for k, place in enumerate(places):
         alone = "sensor" in entries
-        response = measured(
+        response = read_mean(
             [file],
             options,
             list(signs).index(place) if alone and place in signs else k,
@@ -242,7 +244,7 @@ def _experiment(text: str, options: argparse.Namespace, signs: dict[str, int]) -
         )
         own = not alone and k == 0  # the sensor of the first response, wherever a candidate has it
         seen = "" if own else place
-        yield Further(response, replace(setup, sensor=seen, sign=signs.get(place, 1)))
+        yield FurtherResponse(response, replace(setup, sensor=seen, sign=signs.get(place, 1)))
 
 
 def _measured(name: str, value: str) -> str:

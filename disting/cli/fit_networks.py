@@ -8,10 +8,10 @@ from math import isfinite
 from pathlib import Path
 
 from disting.cli.fit_data import data
-from disting.cli.output import complain, emitted, keep_apart
+from disting.cli.output import complain, emit, keep_apart
 from disting.cli.verdicts import listed_models
 from disting.cli.workers import engine_for
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.fit.networks import fit_networks
 from disting.fit.results.networks import BAR, FittedNetwork, NetworkSelection
 from disting.measurement import FrequencyResponse
@@ -40,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     """Fit networks, print what explains the data."""
     foreign = sorted({word.partition("=")[0] for word in options.words} & UNKNOWN)
     if foreign:
-        raise InputError(f"of networks --models knows no {listed(foreign)}: leave them away")
+        raise InputError(f"of networks --models knows no {enumeration(foreign)}: leave them away")
     networks = _networks(options.models)
     keep_apart(network.name for network in networks)
     measured = _measured(options, networks)
@@ -48,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
     with engine_for(options) as (engine, _, progress):
         selection = fit_networks(measured, networks, engine=engine, progress=progress)
     if options.json:
-        emitted(options.json, json.dumps(selection.to_dict(), indent=1, ensure_ascii=False) + "\n")
+        emit(options.json, json.dumps(selection.to_dict(), indent=1, ensure_ascii=False) + "\n")
     if options.json != "-":
         print("\n".join(_told(selection, first)))
     return 0 if selection.left else 1
@@ -121,7 +121,7 @@ def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[
 
 
 def _standing(f: FittedNetwork) -> str:
-    same = f"; never told from {listed(f.same, BAR)}" if f.same else ""
+    same = f"; never told from {enumeration(f.same, BAR)}" if f.same else ""
     if not f.explains:
         return f"does not explain the data{same}"
     return (f"excluded by {f.excluded_by}" if f.excluded_by else "not excluded") + same

@@ -17,9 +17,9 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
-from disting.report.fit.links import commands, renamed
+from disting.report.fit.links import commands, new_names
 from disting.report.fit.responses import fits_of
-from disting.report.fit.sentences import first_lines, learned, suspicions, which_mass
+from disting.report.fit.sentences import first_lines, suspicions, uninformative, which_mass
 from disting.report.fit.words import (
     cost_in_words,
     fit_in_words,
@@ -39,7 +39,7 @@ OTHERWISE = {
 }
 
 
-def told(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
+def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The result for people: what they must know in at most five lines, then the rest."""
     yield from (read_in_words(part.measured) for part in selection.task.cost.parts)
     yield ""
@@ -86,7 +86,7 @@ def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
         f"{what if selection.selected else 'the best one'}: {name_of(chain)}"
         f"   {text_drawing(chain)}"
     )
-    yield from [f"  {renamed(selection)}"] if renamed(selection) else []
+    yield from [f"  {new_names(selection)}"] if new_names(selection) else []
     yield f"  {fit_in_words(selection, train, None if selection.test is train else selection.test)}"
     yield from (f"  {line}" for line in _each(selection))
     yield from (f"  {line}" for line in _parameters(selection))
@@ -117,7 +117,7 @@ def _each(selection: Selection) -> Iterator[str]:
             else ""
         )
         yield f"{name}: {judged}fit {fit} of its training data"
-    yield from learned(selection)
+    yield from uninformative(selection)
     yield from which_mass(selection)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.arguments import frequency_range
-from disting.errors import shown
+from disting.errors import short
 
 UNITS = ("frequency", "phase", "magnitude", "input", "output")
 SIGNS = ("+", "-", "auto")
@@ -16,7 +16,7 @@ def site_folder(text: str) -> Path:
     """A folder that 'disting report' wrote."""
     if not (Path(text) / "models").is_dir():
         raise argparse.ArgumentTypeError(
-            f"{shown(text)} holds no pages that 'disting report' wrote; name their folder"
+            f"{short(text)} holds no pages that 'disting report' wrote; name their folder"
         )
     return Path(text)
 
@@ -26,7 +26,7 @@ def reader_option(text: str) -> tuple[str, Any]:
     name, equals, value = text.partition("=")
     if not (name and equals and value):
         raise argparse.ArgumentTypeError(
-            f"an option is written like sampling_rate=2500, not {shown(text)}"
+            f"an option is written like sampling_rate=2500, not {short(text)}"
         )
     if ".." in value:
         return name, frequency_range(value)
@@ -40,7 +40,7 @@ def unit_of(text: str) -> tuple[str, str]:
     name, equals, unit = text.partition("=")
     if not (equals and unit) or name not in UNITS:
         raise argparse.ArgumentTypeError(
-            f"a unit is written like output=deg, of {', '.join(UNITS)}, not {shown(text)}"
+            f"a unit is written like output=deg, of {', '.join(UNITS)}, not {short(text)}"
         )
     return name, unit
 
@@ -49,7 +49,7 @@ def signs(text: str) -> str:
     """One sign for each sensor, or auto."""
     if text != "auto" and not all(sign in ("+", "-") for sign in text.split(",")):
         raise argparse.ArgumentTypeError(
-            f"a sign is {', '.join(SIGNS)}, of several sensors like +,-, not {shown(text)}"
+            f"a sign is {', '.join(SIGNS)}, of several sensors like +,-, not {short(text)}"
         )
     return text
 
@@ -76,7 +76,7 @@ def known_value(text: str) -> tuple[str, float]:
         return name, float(value)
     except ValueError:
         raise argparse.ArgumentTypeError(
-            f"a value is written like m1=0.02, not {shown(text)}"
+            f"a value is written like m1=0.02, not {short(text)}"
         ) from None
 
 
@@ -85,7 +85,7 @@ def masses(text: str) -> tuple[int, ...]:
     match = re.fullmatch(r"([1-9])(?:-([1-9])|((?:,[1-9])*))", text)
     if not match or int(match[2] or 9) < int(match[1]):
         raise argparse.ArgumentTypeError(
-            f"numbers of masses are written like 3, 1-4 or 1,3, not {shown(text)}"
+            f"numbers of masses are written like 3, 1-4 or 1,3, not {short(text)}"
         )
     if match[2]:
         return tuple(range(int(match[1]), int(match[2]) + 1))
@@ -100,6 +100,6 @@ def thresholds(text: str) -> tuple[float, float, float]:
         first = second = third = -1.0
     if not all(limit > 0 for limit in (first, second, third)):
         raise argparse.ArgumentTypeError(
-            f"thresholds are written like 30,1000,20, all positive, not {shown(text)}"
+            f"thresholds are written like 30,1000,20, all positive, not {short(text)}"
         )
     return first, second, third

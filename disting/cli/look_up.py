@@ -12,7 +12,7 @@ from disting.verdict.query import Query
 from disting.verdict.result import Verdict
 
 
-def shipped(chains: Sequence[Chain], asked: Query) -> Verdict | None:
+def look_up(chains: Sequence[Chain], asked: Query) -> Verdict | None:
     """The stored verdict on two chains of a shipped catalogue, if all conditions may decide, under
     their whole names.
     """

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from disting.catalogs.network_files import recall_of
-from disting.cli.arguments import parted
-from disting.cli.output import emitted, keep_apart
+from disting.cli.arguments import split_reference
+from disting.cli.output import emit, keep_apart
 from disting.cli.workers import engine_for
 from disting.conditions.finding import Outcome
 from disting.equivalence import assignments
@@ -19,13 +19,13 @@ from disting.files import Format
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import of_network
 from disting.general.balls import POSITIVE, Synthesis
-from disting.general.equivalent import spelled
+from disting.general.equivalent import spell
 from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_files import read_models
 from disting.general.synthesis import NoFormulas
-from disting.model.names import chains_named, name_of
+from disting.model.names import name_of, read_together
 from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.families import family_of
@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
             "given": source_model.name,
             "equivalents": [x.to_dict() for x in equivalents],
         }
-        emitted(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
+        emit(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
         return 0
     other = "network" if source_model.network else "model"
     other = other if others == [source_model] else f"other {other}"
@@ -79,12 +79,12 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
     """What a text names: a network, a chain, file.json:name, or all models of file.json."""
     if text.endswith(".json"):
         return list(read_models(Path(text)))
-    path, name = parted(text)
+    path, name = split_reference(text)
     if path:
         return [read_models(Path(path))[name]]
     if options.notation or notations_of(text):
         return [of_network(network_of(text, options.notation))]
-    (chain,) = chains_named([text], damped=options.damped)
+    (chain,) = read_together([text], damped=options.damped)
     return [Model.from_chain(chain, name=name_of(chain))]
 
 
@@ -139,7 +139,7 @@ def _synthesis(synthesis: Synthesis) -> Iterator[str]:
     """Positive sets of values, and whether there are more."""
     for values in synthesis.sets:
         exact = {n: x for n, x in values.items() if len(str(x)) <= LONGEST}
-        yield ", ".join(f"{n} = {spelled(exact.get(n, float(x)))}" for n, x in values.items())
+        yield ", ".join(f"{n} = {spell(exact.get(n, float(x)))}" for n, x in values.items())
     yield EXTENTS[synthesis.extent]
 
 

@@ -6,14 +6,14 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import replace
 
-from disting.cli.arguments import FILE, parted
+from disting.cli.arguments import FILE, split_reference
 from disting.cli.output import keep_apart
 from disting.errors import InputError
 from disting.general.any_model import as_chain, of_network
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor, text_drawing
-from disting.model.names import NAME, chains_named, damping_option
+from disting.model.names import NAME, damping_option, read_together
 from disting.network.element import Sort
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
@@ -30,7 +30,7 @@ def is_network(text: str, notation: str = "") -> bool:
     return bool(notations_of(text)) or bool(notation and not NAME.fullmatch(text))
 
 
-def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
+def models_of(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
     """What is named by each text: a chain, a network in a notation, a model file.json:name."""
     networks = {text: _network(text, options) for text in texts if FILE not in text}
     named = [text for text, network in networks.items() if network is None]
@@ -39,7 +39,7 @@ def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chai
             raise InputError(
                 "with --also the verdict is on several experiments: leave --prove and --bound away"
             )
-        return [*chains_named(texts, damped=options.damped, sensor=options.quantity)]
+        return [*read_together(texts, damped=options.damped, sensor=options.quantity)]
     if options.also:
         raise InputError("--also belongs to numbered chains: leave it away")
     if getattr(options, "bound", ()):
@@ -53,15 +53,15 @@ def models_named(texts: Sequence[str], options: argparse.Namespace) -> list[Chai
     chains = dict(
         zip(
             named,
-            chains_named(named, damped=options.damped, sensor=options.quantity),
+            read_together(named, damped=options.damped, sensor=options.quantity),
             strict=True,
         )
     )
-    lists = {path: read_models(path) for path, _ in map(parted, texts) if path}
+    lists = {path: read_models(path) for path, _ in map(split_reference, texts) if path}
     keep_apart(model.name for models in lists.values() for model in models)
     return [
         lists[path][name] if path else networks[text] or chains[text]
-        for text, (path, name) in zip(texts, map(parted, texts), strict=True)
+        for text, (path, name) in zip(texts, map(split_reference, texts), strict=True)
     ]
 
 
@@ -81,7 +81,7 @@ def structures(
     """
     said = [FILE in text or is_network(text, options.notation) for text in texts]
     if not any(said):
-        return [*chains_named(texts, damped=options.damped, sensor=quantity)]
+        return [*read_together(texts, damped=options.damped, sensor=quantity)]
     _refuse_damping(options)
     if not all(said):
         raise InputError(
@@ -95,7 +95,7 @@ def structures(
 
 
 def _of_file(text: str) -> Network:
-    path, name = parted(text)
+    path, name = split_reference(text)
     network = read_models(path)[name].network
     if network is None:
         raise InputError(f"{text} is given by formulas, not by its elements: describe a network")

@@ -14,12 +14,12 @@ from disting.catalogs.network_files import recall
 from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_list_or_network
 from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
-from disting.cli.workers import Work, announced, engine_for
-from disting.errors import InputError, listed
+from disting.cli.workers import Work, announce, engine_for
+from disting.errors import InputError, enumeration
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.experiments.places import parse_experiment
-from disting.general.any_model import of_network, unnamed
+from disting.general.any_model import of_network, without_names
 from disting.general.identifiability import PARAMETERS
 from disting.model.chain import LEGEND, text_drawing
 from disting.model.family import Family
@@ -75,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
     also = [_one_model(text) for text in options.also]
     if also or (options.identifiability and family.n_masses not in SHIPPED_SIZES):
         work = Work.UNDER_EXPERIMENTS if also else Work.IDENTIFIABILITY
-        announced(work, {family.n_masses: len(family) * max(1, len(also))}, options.jobs)
+        announce(work, {family.n_masses: len(family) * max(1, len(also))}, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         asked = bool(also) or options.ranks or options.identifiability or family.n_masses <= AT_ONCE
         # no dependences are shown, which are dear
@@ -120,7 +120,7 @@ def _of_list(source: Listed, options: argparse.Namespace) -> int:
         raise InputError("--also belongs to chains: a model of a list has no masses to name")
     refuse_chain_options(options)
     models = listed_models(source)
-    asked = [(unnamed(model),) for model in models]
+    asked = [(without_names(model),) for model in models]
     with engine_for(options) as (engine, pool, progress):
         if isinstance(source, str):
             recall(source, engine)
@@ -141,10 +141,10 @@ def _of_network(network: Network, options: argparse.Namespace) -> int:
         )
     model = of_network(network)
     with engine_for(options) as (engine, _, _progress):
-        identifiability = engine.answer(PARAMETERS, (unnamed(model),), engine.settings)
+        identifiability = engine.answer(PARAMETERS, (without_names(model),), engine.settings)
     print(f"{model.name}  {in_letters(model, MOST_TERMS, '')}")
     if network.unseen:
-        print(f"what cannot be seen, as no way leads through it: {listed(network.unseen)}")
+        print(f"what cannot be seen, as no way leads through it: {enumeration(network.unseen)}")
     print(identifiability.sentence)
     return 0
 

@@ -19,23 +19,23 @@ from disting.cli.arguments import (
     is_damped,
 )
 from disting.cli.model_names import is_network, structures
-from disting.cli.output import emitted, written_file
+from disting.cli.output import emit, written_file
 from disting.cli.workers import engine_for
 from disting.conditions.side import AnySide
-from disting.errors import InputError, listed, printable
+from disting.errors import InputError, enumeration, printable
 from disting.experiments.menu import Costs, Item
 from disting.general.any_model import of_network
 from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.model.kinds import COSTS, PRICES
-from disting.model.names import chains_named, name_of, read
+from disting.model.names import name_of, read, read_together
 from disting.network.element import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine
 from disting.verdict.network_placement import further_networks
-from disting.verdict.next_experiments import Further, further, places_of
+from disting.verdict.next_experiments import Menu, menu_for, places_of
 from disting.verdict.next_words import (
     CSV_COLUMNS,
-    AnyFurther,
+    AnyMenu,
     anywhere,
     conclusion,
     in_words,
@@ -97,14 +97,14 @@ def run(options: argparse.Namespace) -> int:
         if isinstance(group, str):
             print(group)
             return 0
-        advice = _shipped(group, is_damped(options), costs) or further(
+        advice = _shipped(group, is_damped(options), costs) or menu_for(
             group, engine, costs=costs, executor=pool, progress=progress
         )
     return _written(
         options,
         _of_all([advice]),
         json.dumps(to_dict(advice), indent=1),
-        told(advice),
+        menu_text(advice),
     )
 
 
@@ -114,7 +114,7 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
     networks = [network for network in named if isinstance(network, Network)]
     if len(networks) < 2:
         raise InputError(
-            f"{listed(options.models)} is one network: name all that are to be told apart;"
+            f"{enumeration(options.models)} is one network: name all that are to be told apart;"
             " 'disting equivalents .. --family ..' finds those that behave alike"
         )
     names = [network.name for network in networks]
@@ -130,22 +130,22 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
         options,
         _of_all([advice]),
         json.dumps(to_dict(advice), indent=1),
-        told(advice),
+        menu_text(advice),
     )
 
 
 def _written(options: argparse.Namespace, lines: Table, plain: str, text: str) -> int:
     """The table, the JSON and the text, each where it is asked for."""
     if options.csv:
-        emitted(options.csv, _table(lines))
+        emit(options.csv, _table(lines))
     if options.json:
-        emitted(options.json, plain + "\n")
+        emit(options.json, plain + "\n")
     if "-" not in (options.csv, options.json):
         print(printable(text))
     return 0
 
 
-def _of_all(all_advice: Iterable[AnyFurther]) -> Table:
+def _of_all(all_advice: Iterable[AnyMenu]) -> Table:
     """Every experiment at every pair of places."""
     return [
         CSV_COLUMNS,
@@ -155,28 +155,28 @@ def _of_all(all_advice: Iterable[AnyFurther]) -> Table:
 
 def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     """Of the structures that a fit left; only here are the libraries of fits loaded."""
-    from disting.cli.next_fit import in_text, networks_onward, onward, plain, table
+    from disting.cli.next_fit import chain_advice, in_text, network_advice, plain, table
 
     with engine_for(options) as (engine, pool, progress):
-        networks = networks_onward(options, costs, engine, pool, progress)
+        networks = network_advice(options, costs, engine, pool, progress)
         if networks:
-            text = "\n\n".join([*networks.sentences, *map(told, networks.groups)])
+            text = "\n\n".join([*networks.sentences, *map(menu_text, networks.groups)])
             written = json.dumps(networks.to_dict(), indent=1)
             return _written(options, _of_all(networks.groups), written, text)
-        lead = onward(options, costs, engine, pool, progress)
+        lead = chain_advice(options, costs, engine, pool, progress)
     menus = [line for group in lead.groups for line in ("", *_told(group, brief=True))]
     domain = ["", DOMAIN.format(place="mass"), BRIEF] if lead.groups else []
     written = json.dumps(plain(lead), indent=1, ensure_ascii=False, allow_nan=False)
     return _written(options, table(lead), written, in_text(lead, [*domain, *menus]))
 
 
-def told(advice: AnyFurther) -> str:
+def menu_text(advice: AnyMenu) -> str:
     """The menu for each structure, cheapest first, with what its words mean."""
     legend = [LEGEND] if isinstance(advice.structures[0], Chain) else []
     return "\n".join(_told(advice, ["", *legend, DOMAIN.format(place=advice.place)]))
 
 
-def _told(advice: AnyFurther, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
+def _told(advice: AnyMenu, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
     """The menu of each structure; `brief`: only where something on it is surely enough."""
     width = max(map(len, advice.names))
     structures: tuple[Chain | Network, ...] = advice.structures
@@ -219,7 +219,7 @@ def _table(lines: Iterable[Sequence[str]]) -> str:
     return text.getvalue()
 
 
-def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further[Chain] | None:
+def _shipped(group: list[Named], damped: bool, costs: Costs) -> Menu[Chain] | None:
     """The look-up of a shipped catalogue, where all structures are of it."""
     n = group[0][1].n_masses
     if any(chain.lag or chain.dead_time for _, chain in group):
@@ -235,7 +235,7 @@ def _shipped(group: list[Named], damped: bool, costs: Costs) -> Further[Chain] |
 def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
     """The structures to tell apart, or the sentence that says that there is nothing to do."""
     texts = list(dict.fromkeys(options.models))
-    chains = chains_named(texts, damped=is_damped(options))
+    chains = read_together(texts, damped=is_damped(options))
     again = next((i for i, chain in enumerate(chains) if chain in chains[:i]), None)
     if again is not None:
         first = texts[chains.index(chains[again])]
@@ -264,14 +264,14 @@ def _told_apart(sides: Sequence[AnySide], engine: Engine) -> str:
 
 def _all_like(name: str, damped: bool) -> list[Named] | str:
     """The group of a shipped catalogue."""
-    (chain,) = chains_named([name], damped=damped)
+    (chain,) = read_together([name], damped=damped)
     n, dampers = chain.n_masses, bool(chain.ground_dampers)
     sizes = DAMPER_SIZES if dampers else SHIPPED_SIZES
     if n not in sizes or chain.lag or chain.dead_time:
         raise InputError(
             f"groups are known of the catalogues of {SHIPPED_SIZES[0]} to {SHIPPED_SIZES[-1]}"
             f" masses, with dampers to the ground of {DAMPER_SIZES[0]} to {DAMPER_SIZES[-1]}, not"
-            f" for {listed([name])}: name all structures that are to be told apart"
+            f" for {enumeration([name])}: name all structures that are to be told apart"
         )
     groups = _damper_groups(n, damped) if dampers else _groups(n, damped)
     for members in groups:

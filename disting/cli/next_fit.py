@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from disting.cli.output import complain
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.fit.plan.fit_file import Named, is_of_networks, left_by, named_by
-from disting.fit.plan.next_experiment import bench_of, foretold, stood
+from disting.fit.plan.fit_file import FitRecord, is_of_networks, left_by, named_by
+from disting.fit.plan.next_experiment import bench_of, predictions, stood
 from disting.fit.results.networks import BAR
 from disting.network.network import Network
-from disting.report.fit.left_first import again, first_sentence
+from disting.report.fit.left_first import first_sentence, repeat_command
 from disting.report.fit.left_words import (
     MEASURED_COLUMNS,
-    Onward,
+    ChainAdvice,
     left_rows,
     left_to_dict,
     measured_in_words,
@@ -26,26 +26,26 @@ from disting.report.fit.left_words import (
 )
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.network_placement import further_networks
-from disting.verdict.next_experiments import Further, further
+from disting.verdict.next_experiments import Menu, menu_for
 from disting.verdict.next_words import CSV_COLUMNS, to_dict
 
 AGAIN = "then fit the new measurement, NEW, together with these data:"
 
 
 @dataclass(frozen=True, slots=True)
-class NetworksOnward:
+class NetworkAdvice:
     """The networks that a fit of `source` left: `noise` names those that noise alone leaves
     together, the selected one first; `groups`: those that no data of these ports tell apart.
     """
 
     source: str
     noise: tuple[str, ...]
-    groups: tuple[Further[Network], ...]
+    groups: tuple[Menu[Network], ...]
 
     @property
     def sentences(self) -> list[str]:
         """The answer."""
-        texts = [f"the data of {self.source} leave {listed(self.noise, BAR)}"]
+        texts = [f"the data of {self.source} leave {enumeration(self.noise, BAR)}"]
         if len(self.noise) > 1:
             command = f"disting plan {shlex.quote(self.source)}"
             texts.append(f"how much more of the same measurement tells these apart: {command}")
@@ -63,13 +63,13 @@ class NetworksOnward:
         }
 
 
-def networks_onward(
+def network_advice(
     options: argparse.Namespace,
     costs: Costs,
     engine: Engine,
     executor: Executor | None,
     progress: Progress,
-) -> NetworksOnward | None:
+) -> NetworkAdvice | None:
     """What to measure next on the networks that the named fit left; None where it is a fit of
     chains. Raises InputError.
     """
@@ -88,7 +88,7 @@ def networks_onward(
         for survivor in left
         if survivor.same
     ]
-    return NetworksOnward(source, tuple(survivor.network.name for survivor in left), tuple(groups))
+    return NetworkAdvice(source, tuple(survivor.network.name for survivor in left), tuple(groups))
 
 
 def _source(options: argparse.Namespace) -> str:
@@ -102,13 +102,13 @@ def _source(options: argparse.Namespace) -> str:
     return str(source)
 
 
-def onward(
+def chain_advice(
     options: argparse.Namespace,
     costs: Costs,
     engine: Engine,
     executor: Executor | None,
     progress: Progress,
-) -> Onward:
+) -> ChainAdvice:
     """All that is known of the structures that the named fit left; raises InputError."""
     source = _source(options)
     named = named_by(Path(source))
@@ -122,13 +122,13 @@ def onward(
     groups = []
     for members in standing.groups:
         chosen = [(named.left[k].name, named.left[k].chain) for k in members]
-        groups.append(further(chosen, engine, costs=costs, executor=executor, progress=progress))
+        groups.append(menu_for(chosen, engine, costs=costs, executor=executor, progress=progress))
     bench = bench_of(named)
-    seen = foretold(named.left, bench, engine.settings, costs) if bench else None
-    return Onward(source, named, standing, tuple(groups), seen, costs)
+    seen = predictions(named.left, bench, engine.settings, costs) if bench else None
+    return ChainAdvice(source, named, standing, tuple(groups), seen, costs)
 
 
-def _warn(source: str, named: Named) -> None:
+def _warn(source: str, named: FitRecord) -> None:
     if not named.explained:
         complain(
             f"warning: none of the structures of {source} explains its data: the true one may not"
@@ -142,23 +142,23 @@ def _warn(source: str, named: Named) -> None:
         )
 
 
-def table(lead: Onward) -> Iterator[Sequence[str]]:
+def table(lead: ChainAdvice) -> Iterator[Sequence[str]]:
     """Every experiment at every pair of places, with what the data of the fit say of it."""
     yield (*CSV_COLUMNS, *MEASURED_COLUMNS)
     yield from left_rows(lead)
 
 
-def plain(lead: Onward) -> dict[str, object]:
+def plain(lead: ChainAdvice) -> dict[str, object]:
     """Plain data, ready for JSON."""
-    return left_to_dict(lead) | {"first": first_sentence(lead), "again": again(lead)}
+    return left_to_dict(lead) | {"first": first_sentence(lead), "again": repeat_command(lead)}
 
 
-def in_text(lead: Onward, menus: Sequence[str]) -> str:
+def in_text(lead: ChainAdvice, menus: Sequence[str]) -> str:
     """What to measure first, the structures that are left, and the menus of those that cannot be
     told apart.
     """
     if len(lead.left) == 1:
         return first_sentence(lead)
     first = [first_sentence(lead), ""] if lead.seen else []
-    last = ["", AGAIN, f"  {again(lead)}"] if again(lead) else []
+    last = ["", AGAIN, f"  {repeat_command(lead)}"] if repeat_command(lead) else []
     return "\n".join([*first, *set_in_words(lead), "", *measured_in_words(lead), *menus, *last])

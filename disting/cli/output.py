@@ -169,7 +169,7 @@ class Output:
         return getattr(self._stream, name)
 
 
-def emitted(where: str, text: str) -> None:
+def emit(where: str, text: str) -> None:
     """Write data to a file, or to standard output for -; raises InputError where a file cannot be
     written, OSError where standard output cannot.
     """
@@ -177,7 +177,7 @@ def emitted(where: str, text: str) -> None:
 
 
 def emitted_lines(where: str, lines: Iterable[str]) -> None:
-    """As `emitted`, line by line as they come."""
+    """As `emit`, line by line as they come."""
     if where == "-":
         _to_standard_output(lines)
         return

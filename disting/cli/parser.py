@@ -11,7 +11,7 @@ from typing import Any
 from disting.cli.commands import COMMANDS, Command, Group
 from disting.cli.output import complain
 from disting.conditions.rule import RULES
-from disting.errors import LONGEST_ECHO, shown
+from disting.errors import LONGEST_ECHO, short
 from disting.files import __version__
 
 DESCRIPTION = (
@@ -114,7 +114,7 @@ class _Parser(argparse.ArgumentParser):
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             names = list(map(str, action.choices))
-            said = f"{shown(value)} is none of {', '.join(names)}{near(str(value), names)}"
+            said = f"{short(value)} is none of {', '.join(names)}{near(str(value), names)}"
             raise argparse.ArgumentError(action, said)
 
     def _print_message(self, message: str, file: Any = None) -> None:

@@ -11,14 +11,14 @@ import numpy as np
 
 from disting.cli.arguments import is_damped
 from disting.cli.model_names import structures, values_of
-from disting.cli.output import complain, emitted
+from disting.cli.output import complain, emit
 from disting.cli.workers import engine_for
 from disting.errors import InputError, printable
 from disting.files import Format
 from disting.fit.noise.scatter import scatter
-from disting.fit.plan.design import Designed, designed, designed_to_dict
+from disting.fit.plan.design import Design, design, designed_to_dict
 from disting.fit.plan.fit_file import (
-    Named,
+    FitRecord,
     NamedNetworks,
     is_of_networks,
     named_by,
@@ -36,7 +36,7 @@ from disting.network.element import Sort
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.write import write_plan
 
-AnyNamed = Named | NamedNetworks
+AnyNamed = FitRecord | NamedNetworks
 LINES = 120
 MOST_REPEATS = 1000  # beyond, a scatter is known
 
@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
             model, values, rival, engine=engine, executor=pool, progress=progress
         )
         progress("spectrum", 0, 1)
-        best = designed(the_plan)
+        best = design(the_plan)
     _emit(options, designed_to_dict(the_plan, best))
     if options.json != "-":
         print(printable("\n".join(plan_in_words(the_plan, best, effort.source))))
@@ -83,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _write(options: argparse.Namespace, the_plan: Plan, best: Designed | None) -> None:
+def _write(options: argparse.Namespace, the_plan: Plan, best: Design | None) -> None:
     if best is None:
         raise InputError("there is nothing to measure, so nothing is written: leave --out away")
     command = write_plan(the_plan, best, options.out)
@@ -131,7 +131,7 @@ def _reverse(the_plan: Plan | None) -> dict[str, Any]:
 def _emit(options: argparse.Namespace, plain: dict[str, Any]) -> None:
     if options.json:
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-        emitted(options.json, text)
+        emit(options.json, text)
 
 
 def _effort(

@@ -17,7 +17,7 @@ from disting.cli.arguments import Listed, add_out, add_work, size_or_list
 from disting.cli.parser import parser
 from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import LISTS, list_of
-from disting.cli.workers import announced, announced_family, engine_for, pairs_by_size, pairs_work
+from disting.cli.workers import announce, announce_family, engine_for, pairs_by_size, pairs_work
 from disting.errors import InputError
 from disting.files import write_whole
 from disting.general.model_files import ModelList
@@ -75,16 +75,16 @@ def run(options: argparse.Namespace) -> int:
 def _model_list(options: argparse.Namespace, models: ModelList, file: Listed, name: str) -> None:
     """Write the page of a file of models, or of a family of networks."""
     from disting.report import ladenheim
-    from disting.report.listing import Listing, judged
+    from disting.report.listing import Listing, judge
     from disting.report.model_list import write_model_list
 
     title = models.title or Path(file).stem
     if isinstance(file, str) and file not in SHIPPED:
-        announced_family(file, options.jobs)
+        announce_family(file, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)
-        decided = judged(models, engine, executor=pool, progress=progress)
+        decided = judge(models, engine, executor=pool, progress=progress)
     shown = Listing(decided, title, name)
     site = bool(options.masses)
     paths = write_model_list(shown, options.out, site=site)
@@ -103,7 +103,7 @@ def _catalogues(options: argparse.Namespace) -> None:
     choices = _choices(options)
     for damped in choices:
         new = [n for n in options.masses if n not in SHIPPED_SIZES]
-        announced(pairs_work(damped), pairs_by_size(new, across=False), options.jobs)
+        announce(pairs_work(damped), pairs_by_size(new, across=False), options.jobs)
     with engine_for(options) as (engine, pool, progress):
         catalogs = [
             _catalog(n, damped, engine, pool, progress)

@@ -17,7 +17,7 @@ from typing import TextIO, cast
 
 from disting.cli.output import Output, complain, say_what_can_be_said
 from disting.cli.parser import parser
-from disting.errors import DistingError, shown
+from disting.errors import DistingError, short
 from disting.model.family import Family
 
 SIZES = range(1, 9)  # that are offered: of 9 masses there are a thousand models
@@ -121,9 +121,9 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 def _kept(options: Namespace) -> str:
     """What there is to say of the cache, which is done without where somebody asks for that."""
-    from disting.store.database_file import MEMORY, NOWHERE, located
+    from disting.store.database_file import MEMORY, NOWHERE, locate
 
-    without = getattr(options, "no_cache", False) or located(None) in (NOWHERE, MEMORY)
+    without = getattr(options, "no_cache", False) or locate(None) in (NOWHERE, MEMORY)
     return "" if without else "; what was finished is kept in the cache"
 
 
@@ -174,7 +174,7 @@ def _not_lost(lost: "sys.UnraisableHookArgs") -> None:
 def _name(of_file: object) -> str:
     """In full, but for one that no system would take."""
     name = str(of_file or "")
-    return name if len(name) <= LONGEST_PATH else shown(name)
+    return name if len(name) <= LONGEST_PATH else short(name)
 
 
 def _drop_what_cannot_be_written() -> None:

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from disting.cli.arguments import add_damped, add_notation, add_quantity, refuse
-from disting.cli.output import emitted, written_file
-from disting.errors import InputError, shown
+from disting.cli.output import emit, written_file
+from disting.errors import InputError, short
 from disting.model.chain import Chain, Sensor
 from disting.network.element import Sort
 from disting.network.network import Network
@@ -121,7 +121,7 @@ def run(options: argparse.Namespace) -> int:
         response = series.response(
             quantity, period=options.samples, lines=lines if spectrum else None
         )
-        emitted(name, csv_text(response))
+        emit(name, csv_text(response))
         if name != "-":
             low, high = response.frequency[0], response.frequency[-1]
             print(f"{len(response)} lines from {low:g} to {high:g} Hz in {name}")
@@ -185,5 +185,5 @@ def _friction(text: str) -> tuple[int, float]:
         return int(mass), float(force)
     except ValueError:
         raise argparse.ArgumentTypeError(
-            f"friction is written like 1=0.3, not {shown(text)}"
+            f"friction is written like 1=0.3, not {short(text)}"
         ) from None

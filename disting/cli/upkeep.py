@@ -3,7 +3,7 @@
 import argparse
 import json
 
-from disting.cli.output import emitted
+from disting.cli.output import emit
 from disting.files import Format, __version__, schema
 from disting.store import Store
 
@@ -19,7 +19,7 @@ def add_schema_arguments(parser: argparse.ArgumentParser) -> None:
 def print_schema(options: argparse.Namespace) -> int:
     """Print a schema, or what there is."""
     if options.name:
-        emitted("-", json.dumps(schema(NAMES[options.name]), indent=1, ensure_ascii=False) + "\n")
+        emit("-", json.dumps(schema(NAMES[options.name]), indent=1, ensure_ascii=False) + "\n")
         return 0
     for name, file_format in NAMES.items():
         print(f"{name}: {file_format.description}")

@@ -19,9 +19,9 @@ from disting.cli.arguments import (
     sizes_or_list,
     whole,
 )
-from disting.cli.output import emitted, keep_apart, written_file
+from disting.cli.output import emit, keep_apart, written_file
 from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
-from disting.cli.workers import announced, announced_family, engine_for, pairs_by_size, pairs_work
+from disting.cli.workers import announce, announce_family, engine_for, pairs_by_size, pairs_work
 from disting.conditions.inclusion import ONE_SIDED, Sense
 from disting.conditions.side import AnySide
 from disting.errors import InputError, in_row
@@ -75,9 +75,9 @@ def run(options: argparse.Namespace) -> int:
         refuse_chain_options(options)
     models = list_of(file) if file else None
     if isinstance(file, str) and file not in SHIPPED:
-        announced_family(file, options.jobs)
+        announce_family(file, options.jobs)
     if not file:
-        announced(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
+        announce(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)
@@ -88,9 +88,9 @@ def run(options: argparse.Namespace) -> int:
         if options.prove:
             decided = prove_all(decided, progress=progress)
     if options.csv:
-        emitted(options.csv, decisions_csv(decided))
+        emit(options.csv, decisions_csv(decided))
     if options.json:
-        emitted(options.json, decisions_json(decided))
+        emit(options.json, decisions_json(decided))
     if "-" not in (options.csv, options.json):
         print("\n".join([_summary(decided), *(_groups(decided) if file else ())]))
         print(joint_in_words(family_safety(decided)))

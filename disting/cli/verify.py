@@ -11,7 +11,7 @@ from disting.cli.arguments import (
     add_notation,
     add_quantity,
 )
-from disting.cli.decision import file_named
+from disting.cli.decision import verdict_file
 from disting.errors import InputError
 from disting.verdict.verification import Standing, verify
 
@@ -42,6 +42,6 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"name the other model too, such as: disting verify {options.what[0]} 3:4")
     if is_file and options.also:
         raise InputError("the file names its experiments: leave --also away")
-    verification = verify(options.what[0] if is_file else file_named(options.what, options))
+    verification = verify(options.what[0] if is_file else verdict_file(options.what, options))
     print(f"{' and '.join(options.what)}: {verification.text}")
     return STATUS[verification.standing]

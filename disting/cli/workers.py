@@ -17,7 +17,7 @@ from threading import TIMEOUT_MAX, Event, Thread
 from time import monotonic, process_time
 
 from disting.cli.output import complain
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.model.family import Family
 from disting.store import Store
 from disting.verdict.engine import Engine, Progress
@@ -74,7 +74,7 @@ FAMILIES = {
 """Seconds of one core for all pairs of a family of networks, where they are decided anew."""
 
 
-def announced_family(name: str, jobs: int = 1) -> None:
+def announce_family(name: str, jobs: int = 1) -> None:
     """Tell of the pairs of a family of networks, where they take long."""
     seconds = FAMILIES.get(name, 0.0) / max(jobs, 1)
     if seconds > LONG:
@@ -84,7 +84,7 @@ def announced_family(name: str, jobs: int = 1) -> None:
         )
 
 
-def announced(work: Work, counts: Mapping[int, int], jobs: int = 1) -> None:
+def announce(work: Work, counts: Mapping[int, int], jobs: int = 1) -> None:
     """Tell of so many things by number of masses, where they take long; nothing is asked."""
     seconds = sum(count * work.value.of(n) for n, count in counts.items()) / max(jobs, 1)
     if seconds > LONG:
@@ -183,7 +183,7 @@ def _seconds(text: str) -> float:
         seconds = 0.0
     if not 0 < seconds <= TIMEOUT_MAX:
         raise InputError(
-            f"{VARIABLE} is off, or the seconds between two lines such as 60, not {shown(text)}"
+            f"{VARIABLE} is off, or the seconds between two lines such as 60, not {short(text)}"
         )
     return seconds
 

@@ -9,7 +9,7 @@ from collections.abc import Hashable
 
 from disting.algebra.certainty import Certainty, Grade, grade_of
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
-from disting.behaviour.profile import Profile, Unsearched
+from disting.behaviour.profile import NoMatroid, Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import DEGREES, DEPENDENCES, FORM, INVARIANTS, RANK, Rule
@@ -102,8 +102,8 @@ def condition_5(left: Profile, right: Profile) -> Finding:
     """
     if left.form != right.form or left.rank != right.rank:
         return Finding(DEPENDENCES, Outcome.INAPPLICABLE, note="condition 3 or 4 fails")
-    if isinstance(left.matroid, Unsearched) or isinstance(right.matroid, Unsearched):
-        reasons = [p.matroid.reason for p in (left, right) if isinstance(p.matroid, Unsearched)]
+    if isinstance(left.matroid, NoMatroid) or isinstance(right.matroid, NoMatroid):
+        reasons = [p.matroid.reason for p in (left, right) if isinstance(p.matroid, NoMatroid)]
         return Finding(DEPENDENCES, Outcome.ABANDONED, note=reasons[0])
     mine, theirs = _restricted(left, left.matroid), _restricted(right, right.matroid)
     outcome, evidence = (

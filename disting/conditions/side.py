@@ -20,7 +20,7 @@ from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Premise
 from disting.model.protocol import Columns, Model
-from disting.model.question import Answerer, Domain, Models, Question, Settings, computed
+from disting.model.question import Answerer, Domain, Models, Question, Settings, compute
 from disting.model.structure import Structure
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]
@@ -41,7 +41,7 @@ class Side(ABC, Generic[S]):
     subject: S
     settings: Settings = field(default_factory=Settings)
     source: Callable[[Model, Representation, int, Settings], Profile] = profile
-    answerer: Answerer = computed
+    answerer: Answerer = compute
     _known: dict[tuple[Representation, int], Profile] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )

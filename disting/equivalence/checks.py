@@ -28,8 +28,8 @@ from flint import acb, acb_poly, ctx, fmpq, fmpq_poly
 from disting.algebra.symbols import RationalFunction, symbols, variables
 from disting.behaviour.transfer import plain_receptance
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
-from disting.experiments.places import Named, Places, move, parse_experiment, ways
-from disting.fibres.synthesis.task import Values
+from disting.experiments.places import PlacedExperiment, Places, move, parse_experiment, ways
+from disting.fibres.synthesis.task import SolutionValues
 from disting.model.chain import Chain
 
 COORDINATE = 256  # bits of a random coordinate
@@ -84,7 +84,7 @@ def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[s
     return bool(f_num * g_den == g_num * f_den)
 
 
-def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Values) -> float:
+def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: SolutionValues) -> float:
     """Upper bound of the largest relative difference of a coefficient, denominators made monic.
 
     Relative to the coefficient of the left model, or to its largest one where that coefficient is
@@ -95,7 +95,7 @@ def difference(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Values) -> f
         return max(_relative(*pair) for pair in pairs)
 
 
-def _coefficients(chain: Chain, values: Values) -> Iterator[list[acb]]:
+def _coefficients(chain: Chain, values: SolutionValues) -> Iterator[list[acb]]:
     """Numerator and denominator, coefficients from low to high."""
     lifted = {name: acb_poly([acb(value)]) for name, value in values.items()}
     num, den = plain_receptance(chain.structure, lifted, acb_poly([0, 1]), acb_poly([1]))
@@ -131,14 +131,14 @@ class Bench:
             if own_chain is not None and other_chain is not None:
                 yield own_chain, other_chain
 
-    def agrees(self, point: Values, values: Values) -> bool:
+    def agrees(self, point: SolutionValues, values: SolutionValues) -> bool:
         """Whether all transfer functions are the same: exact for rational values, and that none
         certainly differs for balls.
         """
         coefficients = (c for gap, _ in self._crossed(point, values) for c in gap.coeffs())
         return all(c.contains(0) if isinstance(c, acb) else not c for c in coefficients)
 
-    def deviation(self, point: Values, values: Values) -> float:
+    def deviation(self, point: SolutionValues, values: SolutionValues) -> float:
         """Upper bound of the largest coefficient of N2 D1 - N1 D2, relative to that of N1 D2, of
         all transfer functions that are not zero.
         """
@@ -152,7 +152,7 @@ class Bench:
                 worst = max(worst, rest / largest if largest else 0.0)
         return worst
 
-    def _crossed(self, point: Values, values: Values) -> Iterator[tuple[Any, Any]]:
+    def _crossed(self, point: SolutionValues, values: SolutionValues) -> Iterator[tuple[Any, Any]]:
         ring = acb_poly if any(isinstance(v, acb) for v in values.values()) else fmpq_poly
         with ctx.workprec(BITS):
             for own_entry, other_entry in zip(self.given.entries, self.other.entries, strict=True):
@@ -166,7 +166,7 @@ def benches(chain: Chain, other: Chain, also: Sequence[str | Experiment]) -> Ite
     """Yield every way to place the experiments in the other chain; in the given one they are where
     they are named. Raises InputError.
     """
-    asked = [parse_experiment(e) if isinstance(e, str) else Named(e) for e in also]
+    asked = [parse_experiment(e) if isinstance(e, str) else PlacedExperiment(e) for e in also]
     used = {i for own_machine in asked for i in own_machine.experiment.masses}
     own = tuple((i, i) for i in sorted(used)) if other == chain else ()
     lefts = [Experiment(), *(own_machine.experiment for own_machine in asked)]
@@ -180,7 +180,7 @@ def benches(chain: Chain, other: Chain, also: Sequence[str | Experiment]) -> Ite
         yield Bench(own_machine, other_machine, places)
 
 
-def _response(entry: Entry, values: Values, ring: type) -> tuple[Any, Any]:
+def _response(entry: Entry, values: SolutionValues, ring: type) -> tuple[Any, Any]:
     lifted = {name: ring([value]) for name, value in values.items()}
     lifted |= {n: ring([fmpq(x.numerator, x.denominator)]) for n, x in entry.known.items()}
     num, den = plain_receptance(entry, lifted, ring([0, 1]), ring([1]))

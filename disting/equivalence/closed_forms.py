@@ -13,9 +13,9 @@ from disting.algebra.symbols import RationalFunction, symbols
 from disting.equivalence.maps import explicit_map
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import on_one_variable
-from disting.general.closed_form import ClosedForm, confirmed
-from disting.general.elimination import numbered
-from disting.general.field import Field, Values
+from disting.general.closed_form import ClosedForm, confirm
+from disting.general.elimination import fix_free
+from disting.general.field import Assignment, Field
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.sections import Section
@@ -48,7 +48,7 @@ def closed_forms(model: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
             the_closed_forms = _solved(this_model, two)
     if not the_closed_forms:
         raise NoFormulas("none that is known is positive")
-    return tuple(confirmed(form, this_model, two) for form in the_closed_forms)
+    return tuple(confirm(form, this_model, two) for form in the_closed_forms)
 
 
 def by_name(model: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm]:
@@ -100,7 +100,7 @@ def _of_cases(model: AnyModel, other: AnyModel) -> Iterator[ClosedForm]:
         yield _of_section(Field(model.parameters), the_way, section)
     ring = the_way.parted.search.ring
     for left in the_way.parted.others:
-        case = numbered(ring, left)
+        case = fix_free(ring, left)
         unknown = ring.occurring(case.equations)
         degree = max(int(e.degrees()[i]) for e in case.equations for i in unknown)
         if (len(case.equations), len(unknown)) != (1, 1) or degree > QUADRATIC:
@@ -151,7 +151,7 @@ def _values(
     the_way: Way,
     values: Sequence[RationalFunction],
     functions: dict[int, RationalFunction],
-) -> Values:
+) -> Assignment:
     return tuple(
         (name, _lifted(field, v.num, functions) / _lifted(field, v.den, functions))
         for name, v in zip(the_way.other.parameters, values, strict=True)

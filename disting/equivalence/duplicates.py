@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 
 from disting.algebra.notation import text
 from disting.equivalence.closed_forms import MOST_SOLVED, by_name
-from disting.errors import ContradictionError, InputError, listed, of_type
+from disting.errors import ContradictionError, InputError, enumeration, of_type
 from disting.evidence.general import Explicit
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.general.any_model import of_network, on_one_variable, unnamed
-from disting.general.closed_form import ClosedForm, confirmed
+from disting.general.any_model import of_network, on_one_variable, without_names
+from disting.general.closed_form import ClosedForm, confirm
 from disting.general.formulas import fit, of_way
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel, MatrixModel
@@ -22,8 +22,8 @@ from disting.general.synthesis import NoFormulas
 from disting.general.values_of_parts import by_parts
 from disting.general.which_models import way
 from disting.model.chain import Chain
-from disting.model.names import chains_named, name_of
-from disting.model.presentation import Shown, plural, summary
+from disting.model.names import name_of, read_together
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Domain
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
@@ -31,8 +31,8 @@ from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.network_placement import further_networks
-from disting.verdict.next_experiments import further
-from disting.verdict.next_words import AnyFurther, to_dict
+from disting.verdict.next_experiments import menu_for
+from disting.verdict.next_words import AnyMenu, to_dict
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import Given, refuse_ports
@@ -52,7 +52,7 @@ class Assignment(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Duplicate(Shown):
+class Duplicate(NotebookTable):
     """`name` shows what `kept` shows, for all values of the verdict's domain but special ones where
     the verdict leaves such out.
 
@@ -90,7 +90,7 @@ ROOT = ("name", "of", "from", "to")
 
 
 @dataclass(frozen=True)
-class Gate(Shown):
+class Gate(NotebookTable):
     """What is known of candidates before any of them is fitted.
 
     `groups`: names of the models that are the same, the one to be kept first; `duplicates`: the
@@ -102,7 +102,7 @@ class Gate(Shown):
     groups: tuple[tuple[str, ...], ...]
     duplicates: tuple[Duplicate, ...]
     parameters: Mapping[str, ParameterIdentifiability]
-    next: Mapping[str, AnyFurther]
+    next: Mapping[str, AnyMenu]
 
     def __repr__(self) -> str:
         the_text = f"{plural(len(self.decisions.subjects), 'model')}, {len(self.kept)} kept"
@@ -185,7 +185,7 @@ def gate(
     again = [m.name for i, m in enumerate(made) if m.name in {x.name for x in made[:i]}]
     if again or not made:
         raise InputError(
-            f"two models are called {listed(again[:1])}: give each its own name"
+            f"two models are called {enumeration(again[:1])}: give each its own name"
             if again
             else "there are no models"
         )
@@ -202,7 +202,7 @@ def gate(
         tuple(tuple(made[i].name for i in group) for group in groups),
         tuple(duplicate(decided, matched, g[0], i) for g in groups for i in g[1:]),
         {
-            m.name: engine.answer(PARAMETERS, (unnamed(m),), engine.settings)
+            m.name: engine.answer(PARAMETERS, (without_names(m),), engine.settings)
             for i, m in enumerate(made)
             if i not in dropped
         },
@@ -215,7 +215,7 @@ def model_of(model: Given) -> AnyModel:
     InputError.
     """
     if isinstance(model, str):
-        model = network_of(model) if notations_of(model) else chains_named([model])[0]
+        model = network_of(model) if notations_of(model) else read_together([model])[0]
     if isinstance(model, Network):
         return of_network(model)
     if isinstance(model, Chain):
@@ -255,7 +255,7 @@ def _by_parts(left: AnyModel, right: AnyModel) -> tuple[Assignment, ...]:
         first = by_parts(model, two)[0]
     except NoFormulas:
         return ()
-    return _assignments([confirmed(first, model, two)])
+    return _assignments([confirm(first, model, two)])
 
 
 def _assignments(forms: Iterable[ClosedForm]) -> tuple[Assignment, ...]:
@@ -264,14 +264,14 @@ def _assignments(forms: Iterable[ClosedForm]) -> tuple[Assignment, ...]:
     )
 
 
-def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs | None) -> AnyFurther | None:
+def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs | None) -> AnyMenu | None:
     """What to measure next, where all are networks of one kind or chains of one size."""
     chains = [m.chain for m in models if isinstance(m, Model) and m.chain]
     networks = [m.network for m in models if m.network]
     names = [m.name for m in models]
     try:
         if len(chains) == len(models):
-            return further(list(zip(names, chains, strict=True)), engine, costs=costs)
+            return menu_for(list(zip(names, chains, strict=True)), engine, costs=costs)
         if len(networks) == len(models):
             named: list[tuple[str, Network]] = list(zip(names, networks, strict=True))
             return further_networks(named, engine, costs=costs)

@@ -14,10 +14,18 @@ from numbers import Number
 
 from flint import fmpq
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.names import EXTRAS, MOST_DIGITS, chain_of, extended, is_too_long, name_of, sized
+from disting.model.names import (
+    EXTRAS,
+    MOST_DIGITS,
+    chain_of,
+    extend,
+    is_too_long,
+    name_of,
+    with_masses,
+)
 from disting.network.network import Network
 
 Value = Number | str
@@ -52,7 +60,7 @@ def _named(to: Family | str, source_chain: Chain) -> tuple[Chain, ...]:
     match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
     if match is None:
         return (chain_of(to, family, masses=source_chain.n_masses),)
-    plain = [extended(chain, match[3]) for chain in sized(family, int(match[1])).models]
+    plain = [extend(chain, match[3]) for chain in with_masses(family, int(match[1])).models]
     return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
 
 
@@ -107,7 +115,7 @@ def assignments(texts: list[str]) -> dict[str, str]:
         if not (name and equals and value):
             raise InputError(
                 "values are written name=number, separated by commas, such as m1=1,k12=3/4, not"
-                f" {shown(part)}"
+                f" {short(part)}"
             )
         if name in the_texts:
             raise InputError(f"{name} is given twice")
@@ -119,10 +127,10 @@ def _fraction(name: str, value: Value) -> fmpq:
     text = str(value).strip()
     if is_too_long(text):
         limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as its power of ten"
-        raise InputError(f"{name} = {shown(text)}: a value has {limits}; choose other units")
+        raise InputError(f"{name} = {short(text)}: a value has {limits}; choose other units")
     exact = _number(text)
     if exact is None:
-        raise InputError(f"{name} = {shown(value)}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
+        raise InputError(f"{name} = {short(value)}: a number such as 2, 0.5, 3/4 or 1e-3 is needed")
     return fmpq(exact.numerator, exact.denominator)
 
 

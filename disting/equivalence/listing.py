@@ -16,7 +16,7 @@ from disting.experiments.places import Places
 from disting.fibres.synthesis.task import Fibre, Status, target
 from disting.files import Format
 from disting.model.chain import Chain, text_drawing
-from disting.model.presentation import Shown, summary
+from disting.model.presentation import NotebookTable, summary
 
 
 class Signs(StrEnum):
@@ -113,7 +113,7 @@ class Listing:
 
 
 @dataclass(frozen=True, slots=True)
-class Equivalents(Shown):
+class Equivalents(NotebookTable):
     """The given model, its exact values, and a listing for each structure looked at.
 
     `proportional`: all of two or more springs have the same ratio k/d, which makes more structures
@@ -206,7 +206,7 @@ def among(chains: Sequence[Chain]) -> str:
     return f"{count} of {sizes} mass{'es' * (sizes != '1')}, {', '.join(kind)}, looked at"
 
 
-def not_covered(chain: Chain, other: Chain) -> str:
+def obstacle(chain: Chain, other: Chain) -> str:
     """Why the synthesis does not apply to this pair, or nothing."""
     if other.n_masses > chain.n_masses:
         return "a structure with more masses would need poles that cancel, which is not covered"

@@ -20,7 +20,7 @@ from disting.equivalence.inputs import Value, point_of
 from disting.equivalence.theorems import Image, expansions, images
 from disting.errors import ContradictionError
 from disting.model.chain import Chain
-from disting.model.names import chains_named, name_of
+from disting.model.names import name_of, read_together
 from disting.model.presentation import summary
 
 EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
@@ -112,7 +112,7 @@ def explicit_map(
     k01' = k12*(m1 + m2)**2/m2**2
     d01' = d12*(m1 + m2)**2/m2**2
     """
-    chain, other = chains_named([chain, other], damped=damped)
+    chain, other = read_together([chain, other], damped=damped)
     image = next(_candidates(chain, other), None)
     if image is None:
         return None

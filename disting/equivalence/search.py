@@ -22,7 +22,7 @@ from disting.equivalence.listing import (
     Listing,
     Origin,
     Signs,
-    not_covered,
+    obstacle,
     sentence,
     special,
     under_all,
@@ -40,7 +40,7 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Fibre, Point, Solution, Status, target
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.names import chains_named, name_of
+from disting.model.names import name_of, read_together
 from disting.model.question import Answer
 
 
@@ -74,7 +74,7 @@ def equivalents(
     'all there are'
     """
     beside = [] if isinstance(to, str) else [to[1] if isinstance(to, Family) else to]
-    chain = chains_named([model, *beside], damped=damped)[0]
+    chain = read_together([model, *beside], damped=damped)[0]
     point = point_of(chain, values)
     others = chains_of(to, chain)
     if others[0].sensor is not chain.sensor:
@@ -194,7 +194,7 @@ def _fibre(chain: Chain, point: Point, other: Chain) -> Fibre:
     plain = replace(other, dead_time=False)
     plain_values = {name: point[name] for name in chain.parameters if name != "Td"}
     the_fibre = fibre(plain, target(chain.structure, plain_values), confirm=False)
-    why = not_covered(chain, other)
+    why = obstacle(chain, other)
     if the_fibre.status is Status.DEGENERATE and why:
         return Fibre(Status.NOT_COVERED, reason=why)
     late = {"Td": acb(point["Td"])} if other.dead_time else {}

@@ -233,7 +233,7 @@ _OBSTACLES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Excluded(Kind):
+class Exclusion(Kind):
     """NEVER: the statement of that `name`, see `positivity.obstacles`; at the rational `point`, if
     one is needed, balls are looked at.
     """

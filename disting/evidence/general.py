@@ -5,7 +5,7 @@ and without one; constants.
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from disting.errors import listed
+from disting.errors import enumeration
 from disting.evidence.kind import Carrier, Claim, Kind, Labels, PointText
 from disting.model.question import Domain, Relation
 
@@ -80,7 +80,7 @@ class Explicit(OverDomain):
 def _told(formula: Formula, small: Labels) -> str:
     _, where, values, root = formula
     said = ", ".join(f"{name} = {value}" for name, value in values if name not in small)
-    said = f"values near {said}, {listed(small)} being small" if small else said
+    said = f"values near {said}, {enumeration(small)} being small" if small else said
     which = "a" if where else "the first"  # of several, where the inequalities name one
     said += f" with {root[0]} {which} root of {root[1]} from {root[2]} to {root[3]}" if root else ""
     return said + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")

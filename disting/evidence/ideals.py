@@ -16,7 +16,7 @@ SAME = 0  # in place of the number of coefficients of a row
 
 
 @dataclass(frozen=True, slots=True)
-class Solved(Kind):
+class Solutions(Kind):
     """At the prime and point of each label the searched model has the parameters `solutions` with
     the same transfer function.
 
@@ -46,7 +46,7 @@ class Solved(Kind):
 
 
 @dataclass(frozen=True, slots=True)
-class Refuted(Kind):
+class Refutation(Kind):
     """At the prime and point of each label the equations of the fibre have no solution: 1 is a
     combination of degree `degree`.
 
@@ -83,7 +83,7 @@ class Vanishing(Kind):
     index: int
 
 
-Shown = Vanishing | Solved
+FibreEvidence = Vanishing | Solutions
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ class RowStep:
 
     split: str
     part: str
-    shown: Shown
+    shown: FibreEvidence
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,7 @@ class ByRows(Kind):
     @property
     def is_member(self) -> bool:
         """Whether it speaks for inclusion."""
-        return bool(self.steps) and all(isinstance(s.shown, Solved) for s in self.steps)
+        return bool(self.steps) and all(isinstance(s.shown, Solutions) for s in self.steps)
 
     @property
     def inside(self) -> Inside:
@@ -149,7 +149,7 @@ class ByRows(Kind):
 
 
 @dataclass(frozen=True, slots=True)
-class Shared(Kind):
+class NoShares(Kind):
     """No way to share out the roots of N at the prime and point of `label` leaves parameters of
     the searched row.
 
@@ -223,7 +223,7 @@ def _times(count: int, what: str) -> str:
 
 def _step(data: dict[str, Any]) -> RowStep:
     shown = {name: value for name, value in data.items() if name not in ("split", "part")}
-    return RowStep(str(data["split"]), str(data["part"]), read(shown, get_args(Shown)))
+    return RowStep(str(data["split"]), str(data["part"]), read(shown, get_args(FibreEvidence)))
 
 
 def _told(step: RowStep, searched: str) -> str:
@@ -234,7 +234,7 @@ def _told(step: RowStep, searched: str) -> str:
                 f"Markov parameter {step.shown.index} of {row} is a product of elements and had to"
                 " be zero, or the reverse"
             )
-        case Solved():
+        case Solutions():
             statement = (
                 f"{row} was solved for {len(step.shown.labels)} random receptances modulo random"
                 " primes"

@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar, get_args
 from disting.evidence.across_sizes import AcrossSizes
 from disting.evidence.conditions import ByConditions, Counts
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
-from disting.evidence.ideals import ByRows, FullRows, Refuted, Shared, Solved
+from disting.evidence.ideals import ByRows, FullRows, NoShares, Refutation, Solutions
 from disting.evidence.kind import read
 from disting.evidence.limits import (
     FullImage,
@@ -26,8 +26,10 @@ from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesse
 from disting.evidence.substitutes import OfGeneralModels
 from disting.model.question import Membership
 
-E = TypeVar("E", bound=FibreAt | Solved | Refuted | ByRows, covariant=True)
-ByDecision = Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solved | Refuted | Shared
+E = TypeVar("E", bound=FibreAt | Solutions | Refutation | ByRows, covariant=True)
+ByDecision = (
+    Theorem | DeadTime | FibreAt | FibreUnder | FullRows | Solutions | Refutation | NoShares
+)
 Evidence = (
     ByConditions | ByDecision | BothWays | RealFactors | RealWitnesses | OddFibres | OfGeneralModels
 )
@@ -44,8 +46,8 @@ InclusionEvidence = (
     | RowsInside
     | ByRows
     | FibreAt
-    | Solved
-    | Refuted
+    | Solutions
+    | Refutation
 )
 
 

@@ -17,7 +17,7 @@ MOST_MARKOV = 1000  # of a file that somebody else wrote: each costs a row
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class ModelSamples:
     """What one model reveals: `draw` gives samples of so many Markov parameters after G_0;
     `degrees` of numerator and denominator, of several transfer functions one pair after the other.
     """
@@ -54,20 +54,20 @@ class SeenPair:
     with the elements of both.
     """
 
-    left: Seen
-    right: Seen
+    left: ModelSamples
+    right: ModelSamples
     renames: Callable[[dict[str, str]], bool]
     found_again: Callable[[Any], bool]
     numberings: Callable[[bool], Iterable[dict[int, int]]] = lambda left_is_part: ()
-    united: Callable[[], Seen | None] = lambda: None
+    united: Callable[[], ModelSamples | None] = lambda: None
 
     @property
-    def sides(self) -> tuple[Seen, Seen]:
+    def sides(self) -> tuple[ModelSamples, ModelSamples]:
         """Left and right."""
         return self.left, self.right
 
 
-def seen(model: Model, seed: str = "verify") -> Seen:
+def samples_of(model: Model, seed: str = "verify") -> ModelSamples:
     """A model at fresh points, the same for all questions."""
 
     @cache
@@ -75,7 +75,7 @@ def seen(model: Model, seed: str = "verify") -> Seen:
         """Samples in this representation."""
         return tuple(samples(model, representation, count, POINTS, seed))
 
-    return Seen(model.parameters, tuple(chain.from_iterable(model.degrees)), draw)
+    return ModelSamples(model.parameters, tuple(chain.from_iterable(model.degrees)), draw)
 
 
 def markov_count(labels: Labels) -> int:

@@ -11,7 +11,7 @@ from math import sqrt
 from typing import Any, ClassVar, Self, get_args
 
 from disting.algebra.certainty import Certainty, withhold
-from disting.evidence.decision import Excluded, Theorem
+from disting.evidence.decision import Exclusion, Theorem
 from disting.evidence.kind import Kind, PointText, plain_fields, read
 
 Z95 = 1.96  # quantile of the normal distribution for 95 %
@@ -139,7 +139,7 @@ class OnlyOne(Kind):
     experiment: int
 
 
-PositiveEvidence = Theorem | Excluded | EmptyFibre | Interlacing | Points | BoxMap | OnlyOne
+PositiveEvidence = Theorem | Exclusion | EmptyFibre | Interlacing | Points | BoxMap | OnlyOne
 
 
 class Share(StrEnum):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from disting.errors import listed
+from disting.errors import enumeration
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, Inequality, NoEquivalent, Witnesses
 from disting.evidence.kind import Carrier, Claim, Kind, Labels
@@ -28,7 +28,7 @@ class OfSubstitutes(Kind):
 
 
 @dataclass(frozen=True, slots=True)
-class Replaced(OfSubstitutes):
+class Replacement(OfSubstitutes):
     """What is true of two networks that give the same transfer functions as these for all positive
     values, special ones aside: `left` and `right` are those networks, the simplest ones or others
     as texts have them, `inner` is the evidence on them. One that is `larger` may give more: that
@@ -111,8 +111,8 @@ class OfPart(OfSubstitutes):
         """What is left out, and what is known of the rest."""
         whole, names = (left, ("E", right)) if self.left_is_part else (right, (left, "E"))
         return (
-            f"E is {whole} without {listed(self.missing)}, which gives an open set of functions:"
-            f" {whole} gives those around them, with small values of these elements."
+            f"E is {whole} without {enumeration(self.missing)}, which gives an open set of"
+            f" functions: {whole} gives those around them, with small values of these elements."
             f" {self.inner.sentence(*names)}"
         )
 
@@ -125,8 +125,8 @@ def witnesses_in(evidence: "OfNetworks") -> Witnesses | None:
 
 
 OfNetworks = (
-    Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replaced | AtInverse | OfPart
+    Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replacement | AtInverse | OfPart
 )
 OfGeneralModels = (
-    Witnesses | Explicit | NoEquivalent | Inequality | Constants | Replaced | AtInverse | OfPart
+    Witnesses | Explicit | NoEquivalent | Inequality | Constants | Replacement | AtInverse | OfPart
 )

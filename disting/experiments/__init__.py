@@ -7,7 +7,7 @@ the other.
 
 >>> from disting import Chain
 >>> from disting.experiments import move, parse_experiment, ways
->>> asked = parse_experiment("sensor=2")  # a Named experiment
+>>> asked = parse_experiment("sensor=2")  # a PlacedExperiment
 >>> ways(Chain(2), Chain(2), [asked])  # each of them Places
 [((2, 1),), ((2, 2),)]
 >>> move(asked.experiment, ((2, 1),))
@@ -20,7 +20,7 @@ from disting.experiments.changes import GENERIC as GENERIC, Change as Change
 from disting.experiments.experiment import Experiment as Experiment, MeasuredChain as MeasuredChain
 from disting.experiments.measured_evidence import confirms as confirms
 from disting.experiments.places import (
-    Named as Named,
+    PlacedExperiment as PlacedExperiment,
     Places as Places,
     move as move,
     parse_experiment as parse_experiment,

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from disting.algebra.certainty import residues
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.model.kinds import CHANGES, Kind
 from disting.model.names import is_too_long
 
@@ -44,7 +44,7 @@ class Change(Generic[P]):
         if self.kind.takes_size:
             object.__setattr__(self, "size", number(self.kind.name, self.size))
         elif self.size is not None:
-            raise InputError(f"a {self.kind.name} takes no size, not {shown(self.size)}")
+            raise InputError(f"a {self.kind.name} takes no size, not {short(self.size)}")
 
     @property
     def text(self) -> str:
@@ -115,17 +115,17 @@ def number(what: str, size_given: object) -> Fraction:
         size = Fraction(size_given if isinstance(size_given, Fraction) else _plain(size_given))
     except (ValueError, ZeroDivisionError):
         raise InputError(
-            f"a known {what} is a positive number or {GENERIC}, not {shown(size_given)}"
+            f"a known {what} is a positive number or {GENERIC}, not {short(size_given)}"
         ) from None
     if size <= 0:
-        raise InputError(f"a known {what} is positive, not {shown(str(size_given))}")
+        raise InputError(f"a known {what} is positive, not {short(str(size_given))}")
     return size
 
 
 def _masses(masses: object) -> list[Any]:
     listed = [masses] if isinstance(masses, int) else masses
     if not isinstance(listed, Iterable):
-        raise InputError(f"a locked mass is a whole number, not {shown(masses)}")
+        raise InputError(f"a locked mass is a whole number, not {short(masses)}")
     return list(listed)
 
 
@@ -134,7 +134,7 @@ def _sizes(sizes: object) -> list[tuple[Any, object]]:
     try:
         return [(mass, size) for mass, size in listed]  # type: ignore[attr-defined]
     except (TypeError, ValueError):
-        raise InputError(f"known sizes are written {{mass: size}}, not {shown(sizes)}") from None
+        raise InputError(f"known sizes are written {{mass: size}}, not {short(sizes)}") from None
 
 
 def _plain(size_given: object) -> str:

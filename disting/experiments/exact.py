@@ -61,7 +61,13 @@ from disting.conditions.rule import EXACT
 from disting.evidence.positive import Empirical, OnlyOne, Points, PositiveFinding, Share
 from disting.experiments.equal_machines import same_by_rows
 from disting.experiments.experiment import MeasuredChain
-from disting.experiments.listing import Listed, by_list, listable, listed_at, without_dead_time
+from disting.experiments.listing import (
+    ExperimentFibre,
+    by_list,
+    listable,
+    listed_at,
+    without_dead_time,
+)
 from disting.experiments.maps import match_maps
 from disting.fibres.ideals import Limits, StackedMap, Terms, decide_matched
 from disting.fibres.ideals.fibre_ideal import draw_point, jacobian
@@ -132,7 +138,7 @@ def _by_points(machine: MeasuredChain, other: MeasuredChain, settings: Settings)
 
 def _seen(
     machine: MeasuredChain, other: MeasuredChain, seed: str
-) -> Iterator[tuple[Answer, Listed]]:
+) -> Iterator[tuple[Answer, ExperimentFibre]]:
     """Yield whether random positive points have a positive equivalent, each with its list."""
     at = next((at for at, _, _ in listable(machine, other)), None)
     if at is None:

@@ -13,7 +13,7 @@ from functools import cached_property
 from itertools import pairwise
 
 from disting.behaviour.transfer import touched_rows
-from disting.errors import ConstraintViolation, InputError, shown
+from disting.errors import ConstraintViolation, InputError, short
 from disting.experiments.changes import Change, changes_of, in_order
 from disting.model.chain import AS_IT_IS, Chain, Sensor
 from disting.model.kinds import CHANGES, Kind
@@ -56,7 +56,7 @@ class Experiment:
         for change in listed:
             if type(change.place) is not int or change.place < 1:
                 raise InputError(
-                    f"the place of a {change.kind.name} is mass 1, 2, .., not {shown(change.place)}"
+                    f"the place of a {change.kind.name} is mass 1, 2, .., not {short(change.place)}"
                 )
         for name, value in (
             ("force", _place("force", force)),
@@ -285,9 +285,9 @@ def _place(what: str, place: object) -> Place | None:
     ends = tuple(place) if isinstance(place, tuple | list) else (place, 0)
     wrong = any(isinstance(i, bool) or not isinstance(i, int) or i < 0 for i in ends)
     if len(ends) != 2 or wrong:
-        raise InputError(f"a {what} is at a mass or between two, not {shown(place)}")
+        raise InputError(f"a {what} is at a mass or between two, not {short(place)}")
     if ends[0] == ends[1]:
-        raise InputError(f"a {what} has two different ends, not twice {shown(ends[0])}")
+        raise InputError(f"a {what} has two different ends, not twice {short(ends[0])}")
     return ends[0], ends[1]
 
 
@@ -296,5 +296,5 @@ def _quantity(quantity: object) -> Sensor:
         return Sensor(str(quantity))
     except ValueError:
         raise InputError(
-            f"a sensor shows position, velocity or acceleration, not {shown(quantity)}"
+            f"a sensor shows position, velocity or acceleration, not {short(quantity)}"
         ) from None

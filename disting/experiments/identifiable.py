@@ -18,7 +18,7 @@ from dataclasses import replace
 
 from disting.algebra.certainty import enough
 from disting.experiments.experiment import MeasuredChain
-from disting.experiments.listing import Listed, lists, without_dead_time
+from disting.experiments.listing import ExperimentFibre, lists, without_dead_time
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import stacked_map
 from disting.fibres.synthesis.decide import safety_of_point
@@ -28,8 +28,8 @@ from disting.questions.identifiability.levels import (
     Local,
     ParameterIdentifiability,
     by_parameter,
-    decoded,
-    encoded,
+    decode,
+    encode,
     joint,
     local,
 )
@@ -76,13 +76,13 @@ def _local(measured: MeasuredChain, settings: Settings) -> Local:
     return replace(ranked, safety=ranked.safety - lost) if ranked.safety else ranked
 
 
-def _bounds(listed: Listed) -> bool:
+def _bounds(listed: ExperimentFibre) -> bool:
     """Whether generic points have no more solutions than are left here: all are simple."""
     return all(s.confirmation is Confirmation.SUBSYSTEM for s in listed.fibre.solutions)
 
 
 def _counted(
-    measured: MeasuredChain, ranked: Local, listed: Listed, settings: Settings
+    measured: MeasuredChain, ranked: Local, listed: ExperimentFibre, settings: Settings
 ) -> ParameterIdentifiability:
     """From a list: at most so many vectors fit, and one if it is the point alone."""
     most = len(listed.kept)
@@ -107,6 +107,4 @@ def _by_ideal(
     )
 
 
-IDENTIFIABLE = Question(
-    "identifiability under experiments", identifiability_under, encoded, decoded
-)
+IDENTIFIABLE = Question("identifiability under experiments", identifiability_under, encode, decode)

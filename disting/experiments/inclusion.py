@@ -24,9 +24,9 @@ from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.model.kinds import Kind
 from disting.model.minors import embeddings, is_minor, minors
 from disting.questions.inclusion.profiles import (
+    by_missing_elements,
     by_profiles,
     exceed,
-    missing,
     order,
     without_dead_time,
 )
@@ -138,7 +138,7 @@ def _found(
     small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
 ) -> Iterator[InclusionFinding]:
     """Yield what settles CLOSURE, the cheapest first."""
-    yield from (missing(places, first) for places in places_in(small, large))
+    yield from (by_missing_elements(places, first) for places in places_in(small, large))
     if small.chain.dead_time and not large.chain.dead_time:
         yield without_dead_time(first)
     mine, theirs = profile_of(small), profile_of(large)

@@ -54,7 +54,7 @@ REMEMBERED = 64  # fibres
 
 
 @dataclass(frozen=True, slots=True)
-class Listed:
+class ExperimentFibre:
     """At the point `values` of the given chain: all solutions of experiment `at` (from 0), and
     for each the first experiment whose transfer function it certainly misses, None if there is
     none.
@@ -111,7 +111,7 @@ def lists(
     *,
     confirm: bool = False,
     shared: bool = False,
-) -> Iterator[Listed]:
+) -> Iterator[ExperimentFibre]:
     """Yield lists at random points, one for each experiment that can be listed; `confirm` has
     solutions tested for being simple.
     """
@@ -132,7 +132,7 @@ def listed_at(
     values: dict[str, fmpq],
     *,
     confirm: bool = False,
-) -> Listed | None:
+) -> ExperimentFibre | None:
     """All solutions of one experiment at a point; None for an infinite or an open list."""
     chain, other_chain = machine.alone(at), searched.alone(at)
     if chain is None or other_chain is None:
@@ -142,7 +142,7 @@ def listed_at(
     if not whole or whole_fibre.tests.boundary or whole_fibre.tests.uncovered:
         return None
     missed = (missed_by(machine, values, searched, s, whole_fibre) for s in whole_fibre.solutions)
-    return Listed(values, at, whole_fibre, tuple(missed))
+    return ExperimentFibre(values, at, whole_fibre, tuple(missed))
 
 
 def listable(machine: MeasuredChain, searched: MeasuredChain) -> Iterator[tuple[int, Chain, Chain]]:

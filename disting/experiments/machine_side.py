@@ -25,7 +25,7 @@ from disting.experiments.exact import exact_finding, positive_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.machine_model import MachineModel, is_renaming
-from disting.experiments.measured_evidence import confirms, confirms_inclusion, exact_again
+from disting.experiments.measured_evidence import confirms, confirms_inclusion, recheck
 from disting.model.chain import Premise
 from disting.model.question import Domain, Question
 from disting.questions.same.exact import resting_on_ranks
@@ -102,7 +102,7 @@ class ComparedMachine(Side[MeasuredChain]):
         """What `exact` finds with evidence of this kind."""
         if not comparable(self, other):
             return None
-        finding = exact_again(evidence, self.measured, other.measured, self.settings)
+        finding = recheck(evidence, self.measured, other.measured, self.settings)
         profiles = self.transfer_profile, other.transfer_profile
         return None if finding is None else resting_on_ranks(finding, *profiles)
 

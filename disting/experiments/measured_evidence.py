@@ -12,11 +12,11 @@ from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, MissingElements
-from disting.evidence.model_samples import Seen, SeenPair, seen
+from disting.evidence.model_samples import ModelSamples, SeenPair, samples_of
 from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
 from disting.evidence.real import BothWays
 from disting.experiments.exact import answer_of
@@ -71,7 +71,7 @@ def _found_again(evidence: Kind, left: MeasuredChain, right: MeasuredChain) -> b
             return confirms_missing(evidence, left, right)
         case FibreUnder():
             return _missed(evidence, left, right)
-        case Solved() | Refuted():
+        case Solutions() | Refutation():
             # normalised coordinates are those of a chain alone
             return not evidence.is_normalised and find_again(evidence, *match_maps(left, right))
         case BothWays():
@@ -88,7 +88,7 @@ def confirms_inclusion(
     return confirms(evidence, left, right)
 
 
-def exact_again(
+def recheck(
     evidence: Evidence, left: MeasuredChain, right: MeasuredChain, settings: Settings
 ) -> Finding | None:
     """What evidence of this kind says of two measured chains of equal ranks and degrees: the list
@@ -97,13 +97,13 @@ def exact_again(
     match evidence:
         case FibreUnder():
             return by_list(left, right, settings)
-        case Solved() | Refuted():
+        case Solutions() | Refutation():
             return by_labels(evidence, *match_maps(left, right), settings.seed)
     return None
 
 
-def _seen(measured: MeasuredChain) -> Seen:
-    return seen(MachineModel(measured))
+def _seen(measured: MeasuredChain) -> ModelSamples:
+    return samples_of(MachineModel(measured))
 
 
 def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChain) -> bool:

@@ -15,7 +15,7 @@ from typing import Any
 from flint import nmod_poly
 
 from disting.behaviour.sample import draw_point
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.experiments.changes import GENERIC
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain
 from disting.experiments.machine_model import MachineModel, residues_of
@@ -72,10 +72,10 @@ class Costs:
     def __post_init__(self) -> None:
         unknown = [name for name in self.of if name not in PRICES]
         if unknown:
-            raise InputError(f"costs are those of {', '.join(PRICES)}, not of {shown(unknown[0])}")
+            raise InputError(f"costs are those of {', '.join(PRICES)}, not of {short(unknown[0])}")
         wrong = [name for name, cost in self.of.items() if not (isfinite(cost) and cost > 0)]
         if wrong:
-            cost = shown(self.of[wrong[0]])
+            cost = short(self.of[wrong[0]])
             raise InputError(f"the cost of {wrong[0]} is a positive number, not {cost}")
         object.__setattr__(self, "of", COSTS | dict(self.of))
 
@@ -92,7 +92,7 @@ class Costs:
             try:
                 costs[name] = float(value)
             except ValueError:
-                raise InputError(f"costs are written sensor=3,lock=1, not {shown(part)}") from None
+                raise InputError(f"costs are written sensor=3,lock=1, not {short(part)}") from None
         return Costs(costs)
 
     def cost(self, kind: Kind) -> float:

@@ -12,7 +12,7 @@ from itertools import permutations
 from math import perm
 from typing import Any
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.experiments.changes import Change, read_changes
 from disting.experiments.experiment import Experiment
 from disting.model.chain import Chain
@@ -28,14 +28,14 @@ FORM = (
 
 
 @dataclass(frozen=True, slots=True)
-class Named:
+class PlacedExperiment:
     """An experiment in masses of the left chain, and what is known of the right one."""
 
     experiment: Experiment
     places: Places = ()
 
 
-def parse_experiment(text: str) -> Named:
+def parse_experiment(text: str) -> PlacedExperiment:
     """What `sensor=3/2,lock=1` says; raises InputError.
 
     >>> parse_experiment("sensor=3/2-1,lock=1").places
@@ -55,7 +55,7 @@ def parse_experiment(text: str) -> Named:
         key, _, value = part.strip().partition("=")
         kind = BY_NAME.get(key)
         if not value or (kind is None and key != "quantity"):
-            raise InputError(f"{FORM}, not {shown(text)}")
+            raise InputError(f"{FORM}, not {short(text)}")
         if kind is not None and not kind.is_port:
             changes += read_changes(kind, value, mass)
             continue
@@ -68,11 +68,11 @@ def parse_experiment(text: str) -> Named:
             ends = tuple(map(mass, value.split("-")))
             ports[key] = ends if len(ends) > 1 else ends[0]
     agreed = _agreed(places)
-    return Named(Experiment(**ports, changes=changes), agreed)
+    return PlacedExperiment(Experiment(**ports, changes=changes), agreed)
 
 
 def ways(
-    left: Chain, right: Chain, asked: Sequence[Named], fixed_places: Places = ()
+    left: Chain, right: Chain, asked: Sequence[PlacedExperiment], fixed_places: Places = ()
 ) -> list[Places]:
     """Every way to say which masses of the right chain the named ones of the left chain are;
     raises InputError.
@@ -91,8 +91,8 @@ def ways(
     count = perm(len(free), len(open_ones))
     if not count:
         raise InputError(
-            f"the right model has {right.n_masses} masses, so masses {listed(map(str, used))} of"
-            " the left one cannot all be different ones of it"
+            f"the right model has {right.n_masses} masses, so masses {enumeration(map(str, used))}"
+            " of the left one cannot all be different ones of it"
         )
     if count > MOST_WAYS:
         raise InputError(
@@ -113,7 +113,7 @@ def move(experiment: Experiment, places: Places) -> Experiment:
 def _mass(text: str, places: list[tuple[int, int]]) -> int:
     match = re.fullmatch(r"(\d{1,3})(?:/(\d{1,3}))?", text.strip())
     if not match:
-        raise InputError(f"a place is a mass such as 3, or 3/2 for left/right, not {shown(text)}")
+        raise InputError(f"a place is a mass such as 3, or 3/2 for left/right, not {short(text)}")
     left = int(match[1])
     if match[2] is not None:
         places.append((left, int(match[2])))

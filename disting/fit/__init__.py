@@ -3,11 +3,11 @@ paper).
 
 >>> import numpy as np
 >>> from disting import Chain
->>> from disting.fit import figure_1, predicted, select
+>>> from disting.fit import figure_1, predict, select
 >>> from disting.measurement import FrequencyResponse
 >>> drive, omega = Chain(2, damped=True, ground_dampers=(1,)), 2 * np.pi * np.geomspace(5, 200, 100)
 >>> values = {"m1": 0.02, "m2": 0.01, "k12": 500.0, "d12": 0.1, "b1": 0.3}
->>> data = FrequencyResponse(omega, predicted(drive, values, omega))
+>>> data = FrequencyResponse(omega, predict(drive, values, omega))
 >>> found = select(data, figure_1([1, 2]))
 >>> print(found.selected.chain, round(found.selected.estimate.parameters["k12"], 6))
 2 masses, gap 0, force 1-0, sensor 1-0, damped, ground dampers 1 500.0
@@ -60,13 +60,13 @@ True
 
 Margins of a controller around it, and how much measuring excludes a Rival, as it is Designed:
 
->>> from disting.fit import Controller, designed, gain, margins, plan
+>>> from disting.fit import Controller, design, gain, margins, plan
 >>> p = np.array([best.estimate.parameters[name] for name in drive.parameters])
 >>> margins(drive, p, Controller(P=0.5, loop="velocity")).stable
 True
 >>> asked = plan(drive, values, Chain(2, damped=True), omega, np.full(100, 0.05))  # a Plan
->>> measured = FrequencyResponse(asked.rival.cost.measured.omega, predicted(drive, values, omega))
->>> asked.power > 0.5, gain(asked.rival, measured) > 100, designed(asked).rate
+>>> measured = FrequencyResponse(asked.rival.cost.measured.omega, predict(drive, values, omega))
+>>> asked.power > 0.5, gain(asked.rival, measured) > 100, design(asked).rate
 (True, True, 1000.0)
 """
 
@@ -92,13 +92,13 @@ from disting.fit.judge.practical import (
 from disting.fit.judge.readings import Reading as Reading
 from disting.fit.noise.covariance import Noise as Noise
 from disting.fit.noise.scatter import Scatter as Scatter
-from disting.fit.plan.design import Designed as Designed, designed as designed
+from disting.fit.plan.design import Design as Design, design as design
 from disting.fit.plan.power import Plan as Plan, plan as plan
 from disting.fit.plan.rival import Rival as Rival, gain as gain
 from disting.fit.results.export import (
-    Exported as Exported,
+    NumberedStructure as NumberedStructure,
     control_script as control_script,
-    predicted as predicted,
+    predict as predict,
     state_space as state_space,
     to_control as to_control,
     to_control_transfer_function as to_control_transfer_function,
@@ -137,14 +137,14 @@ from disting.fit.search.cost import (
 from disting.fit.search.estimate import Estimate as Estimate, Task as Task
 from disting.fit.search.exchange import estimates as estimates
 from disting.fit.search.joint import (
-    Further as Further,
+    FurtherResponse as FurtherResponse,
     JointCost as JointCost,
     JointPlant as JointPlant,
 )
 from disting.fit.search.plant import Plant as Plant
 from disting.fit.search.setup import Setup as Setup
 from disting.fit.select import select as select
-from disting.model.presentation import offered as _offered
+from disting.model.presentation import public_names as _offered
 
 
 def __dir__() -> list[str]:

@@ -13,12 +13,12 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.fit.judge.exclusion import basis_of, limit, statistic
-from disting.fit.judge.explanation import explained, noises, scatters, together
-from disting.fit.noise.covariance import expected
+from disting.fit.judge.explanation import explain, merge, noises, scatters
+from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.data import Whitened
+from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
@@ -93,8 +93,8 @@ def fit_networks(
         progress("networks", done, len(chosen))
         plant = network_plant(asked[i], [response.omega for response in data])
         starts = random_starts(plant, data[0], STARTS, np.random.default_rng((SEED, i)))
-        pairs.append((plant, searched(plant, cost, starts).p))
-    scatter = together(scatters(cost, [plant.response(p) for plant, p in pairs]))
+        pairs.append((plant, search_from(plant, cost, starts).p))
+    scatter = merge(scatters(cost, [plant.response(p) for plant, p in pairs]))
     fits = [
         replace(
             _judged(plant, p, cost, scatter, subjects[i].rank),
@@ -149,7 +149,7 @@ def _first_of_same(decided: Decisions, count: int) -> list[int]:
     return first
 
 
-def searched(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
+def search_from(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
     """The best values found from starts, shape (n_s, n_p).
 
     Logarithms lead, whatever the cost: from far away distances in the complex plane see the peaks
@@ -176,12 +176,12 @@ def _judged(
     plant: AnyNetworkPlant, start: Real, cost: AnyCost, scatter: Scatter, rank: int
 ) -> FittedNetwork:
     """Brought to the last digit in units of the scatter, and seen beside it."""
-    whitened = Whitened(cost, scatter)
+    whitened = WhitenedCost(cost, scatter)
     p, _ = fine(plant, whitened, Box(np.zeros(len(plant.parameters)), plant.highest), start)
     residual, columns = whitened.of(plant, p)
     ones = np.ones(len(residual))
-    missed = expected(columns, ones)
-    seen = explained(cost, residual, missed, scatter)
+    missed = expected_deviation(columns, ones)
+    seen = explain(cost, residual, missed, scatter)
     level = seen.chi2
     return FittedNetwork(
         network=plant.network,

@@ -18,27 +18,27 @@ from disting.fit.judge.alternatives import (
     limits_of,
     representatives,
 )
-from disting.fit.judge.candidate import FOLDS, Candidate, Scatters, judged, witnessed
-from disting.fit.judge.choice import Choice, akaike_weighted, choice
+from disting.fit.judge.candidate import FOLDS, Candidate, Scatters, judge, observed_scatters
+from disting.fit.judge.choice import Choice, choice, with_akaike_weights
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.joint_verdicts import (
     alternatives_under_all,
-    learning,
-    located,
+    informative,
+    locate,
     representatives_under_all,
 )
 from disting.fit.judge.members import Member, members
 from disting.fit.judge.practical import Thresholds
 from disting.fit.judge.reading import other_quantities
-from disting.fit.judge.readings import Reading, pilot, readings, signed
+from disting.fit.judge.readings import Reading, better_sign, pilot, readings
 from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import statements
 from disting.fit.results.selection import Selection
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.data import Weighing, checked
+from disting.fit.search.data import Weights, check
 from disting.fit.search.estimate import Estimate, Method, Task, one_thread
-from disting.fit.search.exchange import SEARCHED, body, estimates, polished
-from disting.fit.search.joint import AnyCost, Further, JointCost
+from disting.fit.search.exchange import SEARCHED, body, estimates, polish
+from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
@@ -56,7 +56,7 @@ def select(
     candidates: Sequence[Chain],
     *,
     test: FrequencyResponse | None = None,
-    further: Sequence[Further] = (),
+    further: Sequence[FurtherResponse] = (),
     home: Chain | None = None,
     alike: bool = False,
     thresholds: Thresholds | None = None,
@@ -90,19 +90,19 @@ def select(
     `estimates`. An engine with a store resumes interrupted work. Raises InputError.
 
     `further`: responses of the same machine that are fitted together with `train`, one parameter
-    vector for all; each counts in units of its own scatter (`Weighing`). Candidates without their
+    vector for all; each counts in units of its own scatter (`Weights`). Candidates without their
     places are left out, and a response that is zero in every candidate: nothing is learned from it.
     `home`: the chain whose masses the places of `further` name; of a candidate with other masses,
     springs or ports every choice of places is fitted, and the best is taken
-    (`joint_verdicts.located`).
+    (`joint_verdicts.locate`).
     """
-    train, test, further = checked(train, test, further, candidates, most_lines)
-    candidates, further, zero = learning(candidates, further, home)
+    train, test, further = check(train, test, further, candidates, most_lines)
+    candidates, further, zero = informative(candidates, further, home)
     work = Work(engine or Engine(store=Store.none()), executor, progress)
-    weighing = Weighing(Cost(train, case or Case.LOGARITHM, weights), test, further, lines, alike)
+    weighing = Weights(Cost(train, case or Case.LOGARITHM, weights), test, further, lines, alike)
     task = Task(weighing.training(), sign or 1, bounds or {}, fixed or {}, seed)
-    task = task if sign else signed(task, _at_home(candidates, home))
-    task = located(task, candidates, home, work.engine.store) if home else task
+    task = task if sign else better_sign(task, _at_home(candidates, home))
+    task = locate(task, candidates, home, work.engine.store) if home else task
     search, judging = _tried(task, candidates, weighing)
     same_as = _represented(candidates, search, work.engine) if prune else {}
     fitted = [c for c in candidates if c not in same_as]
@@ -167,11 +167,13 @@ def _fits(
     )
     searched = [each[c] for c in candidates]
     if not likely:
-        return Fits(search, searched, search, searched, test, witnessed(searched, search, test))
+        return Fits(
+            search, searched, search, searched, test, observed_scatters(searched, search, test)
+        )
     shown, test = replace(search, cost=search.cost.windowed()), test and test.windowed()
-    scatters = witnessed(searched, shown, test)
+    scatters = observed_scatters(searched, shown, test)
     task = replace(shown, cost=shown.cost.likely(scatters[0]))
-    the_estimates = polished(searched, task, store, executor, progress)
+    the_estimates = polish(searched, task, store, executor, progress)
     return Fits(search, searched, task, the_estimates, test and test.likely(scatters[1]), scatters)
 
 
@@ -215,9 +217,9 @@ def _selection(
 def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
     """Which candidate is taken, which others are left, and whether any explains the data."""
     task, test, scatters = fits.task, fits.test, fits.known
-    fitted = judged(fits.found, task, test, scatters, settings)
+    fitted = judge(fits.found, task, test, scatters, settings)
     fitted = [replace(c, reasons=reasons(c, task, terms.thresholds, terms.rule)) for c in fitted]
-    return choice(akaike_weighted(fitted, task), task, test, scatters, terms.rule, settings)
+    return choice(with_akaike_weights(fitted, task), task, test, scatters, terms.rule, settings)
 
 
 def _members(
@@ -236,7 +238,7 @@ def _at_home(candidates: Sequence[Chain], home: Chain | None) -> Sequence[Chain]
 
 
 def _tried(
-    task: Task, candidates: Sequence[Chain], weighing: Weighing
+    task: Task, candidates: Sequence[Chain], weighing: Weights
 ) -> tuple[Task, AnyCost | None]:
     """The task, its responses weighed by how their lines scatter about the best of a few candidates
     (`pilot`), and the cost on test data, weighed so too.

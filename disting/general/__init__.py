@@ -1,13 +1,13 @@
 """General parametric models: any rational transfer functions with parameters, with one input and
 one output or with several, compared as chains are.
 
->>> from disting.general import Model, alternatives, as_chain, unnamed
+>>> from disting.general import Model, alternatives, as_chain, without_names
 >>> lag = Model.from_transfer_function("k", "T*s + 1", name="lag")
 >>> other = Model.from_transfer_function("a", "b*s + c", name="other")
 >>> found = alternatives(lag, {"k": 2, "T": 3}, other)
 >>> found.extent.value, len(found.equivalents)  # of Extent, each an Equivalent
 ('family', 3)
->>> unnamed(lag) == unnamed(Model.from_transfer_function("k", "1 + T*s")), as_chain(lag)
+>>> without_names(lag) == without_names(Model.from_transfer_function("k", "1 + T*s")), as_chain(lag)
 (True, None)
 
 What data determine of one of them, a GlobalIdentifiability and a LocalIdentifiability:
@@ -29,7 +29,7 @@ True
 
 from disting.evidence.general import Witnesses as Witnesses
 from disting.general.alternatives import Alternatives as Alternatives, alternatives as alternatives
-from disting.general.any_model import as_chain as as_chain, unnamed as unnamed
+from disting.general.any_model import as_chain as as_chain, without_names as without_names
 from disting.general.equivalent import Equivalent as Equivalent
 from disting.general.fibre import Extent as Extent
 from disting.general.formulas import is_explicit as is_explicit, is_without as is_without

@@ -18,7 +18,7 @@ from disting.conditions.finding import Outcome
 from disting.errors import InputError, of_type
 from disting.general.any_model import on_one_variable
 from disting.general.equivalent import Equivalent, rational
-from disting.general.fibre import Extent, Fibre, solved
+from disting.general.fibre import Extent, Fibre, solve
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.target import Target, joint_equations, rational_values, target
@@ -31,7 +31,7 @@ OTHER_ZEROS = "not the same transfer functions of both are zero"
 AT_ONCE = Bounds()
 AT_MOST = Bounds(2000, 5000, 100_000, 300)
 
-Values = tuple[tuple[str, Fraction], ...]
+PointValues = tuple[tuple[str, Fraction], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class Alternatives:
 
     model: str
     other: str
-    values: Values
+    values: PointValues
     extent: Extent
     equivalents: tuple[Equivalent, ...] = ()
     free: tuple[str, ...] = ()
@@ -167,7 +167,7 @@ def alternatives(
     )
 
 
-def _targets(model: AnyModel, values: Values) -> list[Target]:
+def _targets(model: AnyModel, values: PointValues) -> list[Target]:
     return [target(replace(entry, name=model.name), values) for entry in model.entries]
 
 
@@ -176,7 +176,7 @@ def _solved(
 ) -> Fibre:
     """At once, or in a process of its own."""
     try:
-        return solved(equations, parameters, seed, AT_ONCE)
+        return solve(equations, parameters, seed, AT_ONCE)
     except TooLarge:
-        ended = run_limited(solved, (equations, parameters, seed, AT_MOST), seconds)
+        ended = run_limited(solve, (equations, parameters, seed, AT_MOST), seconds)
         return ended.value or Fibre(Extent.UNKNOWN, reason=ended.reason)

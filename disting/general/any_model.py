@@ -20,7 +20,7 @@ from disting.fibres.ideals import (
 )
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model, Terms
-from disting.general.powers import Cell, Powers, in_v, out_of_v, weighted
+from disting.general.powers import Cell, Powers, in_v, out_of_v, separating_weights
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.network.element import Sort
@@ -32,7 +32,7 @@ M = TypeVar("M", Model, AnyModel)
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
-def measured(models: Iterable[Chain | AnyModel]) -> str:
+def measurand(models: Iterable[Chain | AnyModel]) -> str:
     """What is measured of them: of circuits an impedance, of anything else a response."""
     networks = [None if isinstance(m, Chain) else m.network for m in models]
     return "impedance" if all(map(_has_impedance, networks)) else "response"
@@ -71,7 +71,9 @@ def on_one_variable(models: Sequence[M]) -> list[M]:
         return [m if m.powers.halves == halves else in_powers(m, Powers(halves)) for m in models]
     cells = [_doubled(cell, m.powers.halves < halves) for m in models for cell in cells_of(m)]
     size = len(wide.powers.weights)
-    powers = weighted([_padded(cell, size) for cell in cells], halves, wide.powers.exponents)
+    powers = separating_weights(
+        [_padded(cell, size) for cell in cells], halves, wide.powers.exponents
+    )
     return [in_powers(m, powers) for m in models]
 
 
@@ -133,14 +135,14 @@ def _padded(cell: Cell, size: int) -> Cell:
     return top, bottom
 
 
-def unnamed(model: AnyModel, name: str = "model") -> AnyModel:
+def without_names(model: AnyModel, name: str = "model") -> AnyModel:
     """The transfer functions alone, whatever they are called and however they were made."""
     return replace(model, name=name)
 
 
 def as_network(model: AnyModel, name: str) -> AnyModel:
     """The same as the network that it is, whatever that is called."""
-    the_model = unnamed(model, name)
+    the_model = without_names(model, name)
     if model.network is not None:
         object.__setattr__(the_model, "network", replace(model.network, name="network"))
     return the_model

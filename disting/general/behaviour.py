@@ -38,7 +38,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.model.protocol import ZERO, Columns, Degrees
 
-Known = Fraction | None
+KnownValue = Fraction | None
 """The value of an invariant that is proven constant, or None."""
 
 
@@ -136,7 +136,7 @@ def summary_size(
     return Size(twice * max(s.degree for s in sizes), twice * max(s.bits for s in sizes))
 
 
-def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> tuple[int, list[int]]:
+def evaluate(terms: Terms, point: Sequence[int], modulus: int) -> tuple[int, list[int]]:
     """Value and gradient of a polynomial at a point without zeros."""
     total, slopes = 0, [0] * len(point)
     for exponents, number in terms:
@@ -156,7 +156,7 @@ def evaluated(terms: Terms, point: Sequence[int], modulus: int) -> tuple[int, li
 def _quotient(model: Model, point: Sequence[int], modulus: int) -> Quotient:
     """The transfer function in lowest terms at the point, with its derivatives."""
     sides = [
-        [evaluated(terms, point, modulus) for terms in side]
+        [evaluate(terms, point, modulus) for terms in side]
         for side in (model.numerator_terms, model.denominator_terms)
     ]
     if not sides[1][-1][0]:
@@ -174,7 +174,7 @@ def _products(model: Model, point: Sequence[int], modulus: int) -> list[tuple[in
     lead = coefficients[-1]
     total = sum(number for _, number in lead)
     return times_lead(
-        [evaluated(terms, point, modulus) for terms in coefficients],
+        [evaluate(terms, point, modulus) for terms in coefficients],
         Fraction(total or 1, len(lead)),
         modulus,
     )
@@ -217,7 +217,7 @@ def _constants(model: Model, markov: int | None) -> dict[str, Fraction]:
 
 
 def known_invariants(
-    top: list[Known], bottom: list[Known], markov: int | None
+    top: list[KnownValue], bottom: list[KnownValue], markov: int | None
 ) -> dict[str, Fraction]:
     """The same from what is known of the coefficients over the leading one."""
     sides = {"b": top, "a": bottom[:-1]} if markov is None else {"G": _series(top, bottom, markov)}
@@ -228,7 +228,7 @@ def known_invariants(
     return {name: value for name, value in named if value is not None}
 
 
-def _ratio(terms: Terms, lead: Terms) -> Known:
+def _ratio(terms: Terms, lead: Terms) -> KnownValue:
     """The number q with terms = q lead, if there is one."""
     if not terms:
         return Fraction(0)
@@ -239,10 +239,12 @@ def _ratio(terms: Terms, lead: Terms) -> Known:
     return q if same else None
 
 
-def _series(top: Sequence[Known], bottom: Sequence[Known], count: int) -> list[Known]:
+def _series(
+    top: Sequence[KnownValue], bottom: Sequence[KnownValue], count: int
+) -> list[KnownValue]:
     m = len(bottom) - 1
     start = max(m, len(top) - 1)
-    numbers: list[Known] = []
+    numbers: list[KnownValue] = []
     for k in range(start - m + count + 1):
         terms = [_product(bottom[m - j], numbers[k - j]) for j in range(1, min(k, m) + 1)]
         first = top[start - k] if 0 <= start - k < len(top) else Fraction(0)
@@ -252,7 +254,7 @@ def _series(top: Sequence[Known], bottom: Sequence[Known], count: int) -> list[K
     return numbers
 
 
-def _product(a: Known, b: Known) -> Known:
+def _product(a: KnownValue, b: KnownValue) -> KnownValue:
     if a == 0 or b == 0:
         return Fraction(0)
     return a * b if a is not None and b is not None else None

@@ -51,7 +51,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.certainty import residues
 from disting.algebra.symbols import RationalFunction
-from disting.general.elimination import Case, branches, placed, unknown_factors
+from disting.general.elimination import Case, branches, substitute, unknown_factors
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
 from disting.model.question import Domain
@@ -93,7 +93,7 @@ def orders(unknowns: Sequence[int]) -> Iterator[tuple[int, ...]]:
         yield tuple(x for _, x in sorted(zip(keys, unknowns, strict=True)))
 
 
-def searched(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Search:
+def search_cases(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Search:
     """All cases of the equivalents of `model` in `other`, unknowns solved for in this order of
     preference; raises TooMuch.
 
@@ -224,7 +224,7 @@ def _place(search: Search, case: Case, at: int, rest: fmpz_mpoly, factor: fmpz_m
     nonzero = unknown_factors(ring, (factor, rest) if positive else (factor,))
     asked = (*case.positive, ring.generators[at]) if positive else case.positive
     own_case = replace(case, positive=asked, nonzero=(*case.nonzero, *nonzero))
-    the_case = placed(ring, own_case, at, RationalFunction(-rest, factor))
+    the_case = substitute(ring, own_case, at, RationalFunction(-rest, factor))
     if isinstance(the_case, Case):
         _open(search, the_case)
     else:

@@ -31,7 +31,7 @@ from disting.general.model import Terms
 POINTS = 2
 DRAWS = 512  # of a point, until all discriminants are squares
 Residue = Any  # of a prime
-Written = Callable[[RationalFunction], str]
+Writer = Callable[[RationalFunction], str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ class ClosedForm:
             f" positive=True)\n{steps}equivalent = {{\n{values}}}"
         )
 
-    def _named(self, written: Written, root: Callable[..., str]) -> Iterator[tuple[str, str]]:
+    def _named(self, written: Writer, root: Callable[..., str]) -> Iterator[tuple[str, str]]:
         """Yield the steps: a value, a root, or as the other root what is left of -b/a."""
         for step in self.steps:
             if not step.root:
@@ -135,7 +135,7 @@ def _latex_root(b: str, discriminant: str, twice: str) -> str:
     return rf"\frac{{{b} + \sqrt{{{discriminant}}}}}{{{twice}}}"
 
 
-def confirmed(form: ClosedForm, model: AnyModel, other: AnyModel) -> ClosedForm:
+def confirm(form: ClosedForm, model: AnyModel, other: AnyModel) -> ClosedForm:
     """The same with its error bound; raises ContradictionError where it is wrong."""
     own_model, other_model = on_one_variable([model, other])
     once = _size(form, own_model, other_model)

@@ -34,7 +34,7 @@ MOST = 3000  # numbers that are looked for
 DEGREE = 2  # of the products m of monomials
 ROUNDED = 10**9  # largest denominator of one
 Exponents = tuple[int, ...]
-Polynomial = dict[Exponents, Fraction]
+TermsOf = dict[Exponents, Fraction]
 
 
 def excludes(model: Model, values: dict[str, Fraction], other: Model, degree: int = DEGREE) -> bool:
@@ -74,22 +74,20 @@ def _monomials(model: Model) -> list[Exponents]:
     return sorted({e for terms in _coefficients(model) for e, _ in terms})
 
 
-def _is_positive(products: list[Polynomial]) -> bool:
+def _is_positive(products: list[TermsOf]) -> bool:
     """Whether a combination is found all of whose coefficients are positive."""
     places = {e: at for at, e in enumerate(sorted({e for p in products for e in p}))}
     numbers = _numbers(products, places)
     if numbers is None:
         return False
-    total: Polynomial = defaultdict(Fraction)
+    total: TermsOf = defaultdict(Fraction)
     for number, terms in zip(numbers, products, strict=True):
         for e, c in terms.items():
             total[e] += number * c
     return all(total[e] > 0 for e in places)
 
 
-def _scaled(
-    model: Model, values: dict[str, Fraction], other: Model
-) -> tuple[Polynomial, ...] | None:
+def _scaled(model: Model, values: dict[str, Fraction], other: Model) -> tuple[TermsOf, ...] | None:
     """All c_i/g_i; None where the models have other coefficients, or at p fewer or common roots."""
     mine, theirs = _coefficients(model), _coefficients(other)
     if [bool(t) for t in mine] != [bool(t) for t in theirs]:
@@ -112,12 +110,12 @@ def _coefficients(model: Model) -> tuple[Terms, ...]:
     return (*model.numerator_terms, *model.denominator_terms)
 
 
-def _products(rows: Sequence[Polynomial], monomials: Sequence[Exponents]) -> Iterator[Polynomial]:
+def _products(rows: Sequence[TermsOf], monomials: Sequence[Exponents]) -> Iterator[TermsOf]:
     """Yield all m f_ij, over their largest coefficient; those that cancel are kept as 0, as
     they do not near by.
     """
     for first, other in combinations(rows, 2):
-        terms: Polynomial = defaultdict(Fraction)
+        terms: TermsOf = defaultdict(Fraction)
         for row, sign in ((first, 1), (other, -1)):
             for e, c in row.items():
                 terms[e] += sign * c
@@ -127,7 +125,7 @@ def _products(rows: Sequence[Polynomial], monomials: Sequence[Exponents]) -> Ite
 
 
 def _numbers(
-    products: Sequence[Polynomial], places: dict[Exponents, int]
+    products: Sequence[TermsOf], places: dict[Exponents, int]
 ) -> tuple[Fraction, ...] | None:
     """Numbers by which they add up to coefficients of 1 or more, rounded; None without any."""
     import numpy as np  # imported late: all three take longer than most of what is asked

@@ -163,7 +163,7 @@ class Case:
     nonzero: tuple[fmpz_mpoly, ...] = ()
 
 
-def placed(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | str:
+def substitute(ring: Orthant, case: Case, at: int, by: RationalFunction) -> Case | str:
     """A case with one unknown replaced by a fraction whose denominator is not zero; else what
     would have to hold and fails.
     """
@@ -189,7 +189,7 @@ def unknown_factors(ring: Orthant, polynomials: Iterable[fmpz_mpoly]) -> tuple[f
     return tuple(f for i, f in enumerate(every) if f not in every[:i])
 
 
-def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], RationalFunction]) -> Case:
+def choose(ring: Orthant, case: Case, at: int, values: Callable[[int], RationalFunction]) -> Case:
     """A case with an unknown of no equation and no inequality replaced by the first of values(1),
     values(2), .. that may be.
 
@@ -197,17 +197,17 @@ def chosen(ring: Orthant, case: Case, at: int, values: Callable[[int], RationalF
     most, if it is not zero.
     """
     numbers = range(1, 2 + sum(int(c.degrees()[at]) for c in case.nonzero))
-    return next(c for k in numbers if isinstance(c := placed(ring, case, at, values(k)), Case))
+    return next(c for k in numbers if isinstance(c := substitute(ring, case, at, values(k)), Case))
 
 
-def numbered(ring: Orthant, case: Case) -> Case:
+def fix_free(ring: Orthant, case: Case) -> Case:
     """A case whose unknowns of no equation and no inequality are numbers at which no `nonzero`
     polynomial is zero.
     """
     left = ring.occurring((*case.equations, *case.positive))
     for at in ring.unknowns:
         if at not in left and at not in dict(case.solved):
-            case = chosen(
+            case = choose(
                 ring, case, at, lambda k: RationalFunction(ring.number(k), ring.number(1))
             )
     return case
@@ -229,7 +229,7 @@ def inequalities(
     """
     kept: list[fmpz_mpoly] = []
     for polynomial in polynomials:
-        shorter = shortened(ring, polynomial)
+        shorter = simplify(ring, polynomial)
         if shorter is None or any(x == -shorter or ring.sign(x + shorter) < 0 for x in kept):
             return (), polynomial
         if not shorter.is_one() and shorter not in kept:
@@ -237,7 +237,7 @@ def inequalities(
     return tuple(kept), None
 
 
-def shortened(ring: Orthant, polynomial: fmpz_mpoly) -> fmpz_mpoly | None:
+def simplify(ring: Orthant, polynomial: fmpz_mpoly) -> fmpz_mpoly | None:
     """What has to be positive for a polynomial to be, 1 where it always is; None where it never
     is.
     """

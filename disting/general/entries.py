@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.general.expression import Power, Product, Sum, Tree, names, tree
 
 MOST_SYMBOLS = 300
@@ -88,7 +88,7 @@ def refuse_namesakes(*parts: object) -> None:
     for symbol in _symbols(parts):
         if entry.setdefault(symbol.name, symbol) != symbol:
             raise InputError(
-                f"two different symbols are called {shown(symbol.name)}; use one of them"
+                f"two different symbols are called {short(symbol.name)}; use one of them"
             )
 
 
@@ -188,19 +188,19 @@ def parameters_of(entries: Iterable[Tree], variable: str = "") -> tuple[str, ...
         raise InputError(f"a model has {MOST_SYMBOLS} parameters at most, not {len(the_names)}")
     foreign = [name for name in the_names if not (name.isascii() and name.isprintable() and name)]
     if foreign:
-        raise InputError(f"names of parameters are ASCII, not {shown(foreign[0])}")
+        raise InputError(f"names of parameters are ASCII, not {short(foreign[0])}")
     return the_names
 
 
 def refuse_name(name: object) -> None:
     """Raises InputError for what no sentence can hold in one line."""
     if not isinstance(name, str) or not name.isprintable():
-        raise InputError(f"the name of a model has printable characters only, not {shown(name)}")
+        raise InputError(f"the name of a model has printable characters only, not {short(name)}")
 
 
 def frequency(s: object) -> str:
     """The name of the frequency variable; raises InputError."""
     name = tree(s)
     if not isinstance(name, str):
-        raise InputError(f"the frequency variable is a symbol or its name, not {shown(s)}")
+        raise InputError(f"the frequency variable is a symbol or its name, not {short(s)}")
     return name

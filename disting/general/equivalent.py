@@ -52,7 +52,7 @@ class Equivalent:
         return all(len(c) <= 1 for c in self.coordinates)
 
     def __str__(self) -> str:
-        return ", ".join(f"{name} = {spelled(x)}" for name, x in self.values.items())
+        return ", ".join(f"{name} = {spell(x)}" for name, x in self.values.items())
 
     def _value(self, at: int) -> Fraction | float | complex:
         exact, number = self.coordinates[at], self.numbers[at]
@@ -103,7 +103,7 @@ def _equivalent(
     factor: fmpz_poly, root: acb, reduced: list[fmpq_poly], parameters: tuple[str, ...]
 ) -> Equivalent | None:
     """The zero at one root; None if a ball is too wide to tell a sign."""
-    images = [evaluated(g, root) for g in reduced]
+    images = [evaluate(g, root) for g in reduced]
     signs = [_sign(g, x) for g, x in zip(reduced, images, strict=True)]
     if root.imag.is_zero() and None in signs:
         return None
@@ -115,7 +115,7 @@ def _equivalent(
     )
 
 
-def evaluated(polynomial: fmpq_poly, at: acb) -> acb:
+def evaluate(polynomial: fmpq_poly, at: acb) -> acb:
     """Value at a ball, by Horner's rule."""
     total = 0 * at
     for c in reversed(polynomial.coeffs()):
@@ -137,7 +137,7 @@ def sign_at(polynomial: fmpq_poly, at: Equivalent) -> int:
         with ctx.workprec(bits):
             isolated: list[Any] = fmpz_poly(list(at.polynomial)).complex_roots()
             balls = [root for root, _ in isolated if root.imag.is_zero() and _meets(root, at)]
-            signs = {_sign(polynomial, evaluated(polynomial, ball)) for ball in balls}
+            signs = {_sign(polynomial, evaluate(polynomial, ball)) for ball in balls}
         if len(balls) == 1 and None not in signs:
             return signs.pop() or 0
         bits *= 2
@@ -160,6 +160,6 @@ def _interval(ball: arb) -> tuple[Fraction, Fraction]:
     return middle - radius, middle + radius
 
 
-def spelled(number: Fraction | float | complex) -> str:
+def spell(number: Fraction | float | complex) -> str:
     """A value as text: a fraction exactly, others rounded to 6 digits."""
     return str(number) if isinstance(number, Fraction) else f"{number:.6g}"

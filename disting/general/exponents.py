@@ -23,7 +23,7 @@ Parts = tuple[int, ...]
 """Powers of s and of every s^n."""
 
 
-def determined(cells: Sequence[Cell], size: int) -> tuple[int, tuple[int, ...]]:
+def count_determined(cells: Sequence[Cell], size: int) -> tuple[int, tuple[int, ...]]:
     """How many combinations of so many exponents the functions determine, and which single ones.
 
     Only combinations c with c.e = const for all powers e of all s^n of both sides are not: a change

@@ -26,7 +26,7 @@ from typing import Any
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.symbols import RationalFunction
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 
 HIGHEST_POWER = 1000
 DEEPEST = 100  # operations within each other
@@ -102,10 +102,10 @@ TOKEN = re.compile(
 END = ""
 
 
-def parsed(text: str) -> Tree:
+def parse(text: str) -> Tree:
     """Tree of a text; raises InputError.
 
-    >>> parsed("k1/2")
+    >>> parse("k1/2")
     Product(parts=('k1', Power(base=Fraction(2, 1), exponent=-1)))
     """
     if len(text) > LONGEST_TEXT:
@@ -134,13 +134,13 @@ class _Reader:
             )
         else:
             reason = "is no expression; write it as in Python, such as 'k12*s/(m1 + m2)**2'"
-        return InputError(f"{shown(self.text)} {reason}")
+        return InputError(f"{short(self.text)} {reason}")
 
     def sum(self, depth: int) -> Tree:
         """Terms with + and - between them."""
         if depth > DEEPEST:
             raise InputError(
-                f"{shown(self.text)} is nested too deeply: {DEEPEST} parentheses within each other"
+                f"{short(self.text)} is nested too deeply: {DEEPEST} parentheses within each other"
                 " are read"
             )
         parts = [self._product(depth)]
@@ -166,7 +166,7 @@ class _Reader:
         base = self._atom(depth)
         if self.next == "**":
             self._taken()
-            base = power(base, self._exponent(depth + 1), shown(self.text))
+            base = power(base, self._exponent(depth + 1), short(self.text))
         return negative(base) if is_negative else base
 
     def _exponent(self, depth: int) -> int:
@@ -174,7 +174,7 @@ class _Reader:
             raise self.error()
         exponent = self._signed(depth)
         if not isinstance(exponent, Fraction) or exponent.denominator != 1:
-            raise InputError(f"{shown(self.text)}: exponents are whole numbers")
+            raise InputError(f"{short(self.text)}: exponents are whole numbers")
         return int(exponent)
 
     def _atom(self, depth: int) -> Tree:
@@ -194,7 +194,7 @@ class _Reader:
         digits, _, exponent = token.lower().partition("e")
         if len(digits) > MOST_DIGITS or len(exponent) > 9 or abs(int(exponent or 0)) > MOST_DIGITS:
             raise InputError(
-                f"{shown(token)}: a number has {MOST_DIGITS} digits and zeros at most; choose other"
+                f"{short(token)}: a number has {MOST_DIGITS} digits and zeros at most; choose other"
                 " units"
             )
         try:
@@ -229,7 +229,7 @@ def tree(entry: object) -> Tree:
         case bool():
             raise InputError(f"an entry is a number or an expression, not {entry}")
         case str():
-            return parsed(entry)
+            return parse(entry)
         case float():
             return _of_float(entry)
         case _ if hasattr(entry, "is_Symbol"):
@@ -268,9 +268,9 @@ def _of_sympy(expression: Any, depth: int = 0) -> Tree:
         return Product(tuple(_of_sympy(part, depth + 1) for part in expression.args))
     if getattr(expression, "is_Pow", False) and expression.exp.is_Integer:
         return power(
-            _of_sympy(expression.base, depth + 1), int(expression.exp), shown(str(expression))
+            _of_sympy(expression.base, depth + 1), int(expression.exp), short(str(expression))
         )
-    raise InputError(f"{shown(str(expression))[1:-1]} is no rational expression in its symbols")
+    raise InputError(f"{short(str(expression))[1:-1]} is no rational expression in its symbols")
 
 
 def polynomial_text(polynomial: fmpz_mpoly, names: Sequence[str]) -> str:

@@ -58,7 +58,7 @@ class Fibre:
     reason: str = ""
 
 
-def solved(
+def solve(
     equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
 ) -> Fibre:
     """The solutions of the equations in t and the parameters; raises TooLarge."""

@@ -31,14 +31,14 @@ from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.errors import InputError
 from disting.general.any_model import in_powers
 from disting.general.equivalent import Equivalent, sign_at
-from disting.general.fibre import Extent, solved, without_zeros
+from disting.general.fibre import Extent, solve, without_zeros
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
 from disting.general.target import Target, fibre_equations, rational_values, target
 from disting.model.question import Domain
 from disting.network.element import Port
-from disting.network.graph import moved, seen_by_blocks
+from disting.network.graph import move, seen_by_blocks
 from disting.network.network import Network
 
 REMEMBERED = 512
@@ -47,7 +47,7 @@ Values = dict[str, Fraction]
 PLACES = [place_name(i) for i in range(MOST_EXPONENTS)]
 
 
-def having(model: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...] | None:
+def find_equivalent(model: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...] | None:
     """A positive equivalent (rounded) in the other model of a point around which all have some;
     None where that is not shown.
     """
@@ -62,7 +62,7 @@ def having(model: AnyModel, values: Values, other: AnyModel) -> tuple[float, ...
     return next((tuple(x.real for x in e.numbers) for e in regular), None)
 
 
-def lacking(model: AnyModel, values: Values, other: AnyModel) -> bool:
+def has_none(model: AnyModel, values: Values, other: AnyModel) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as is
     shown.
     """
@@ -116,7 +116,7 @@ def positive(goal: Target, other: Model, thorough: bool = False) -> tuple[Equiva
     """
     equations = fibre_equations(goal, other)
     try:
-        fibre = solved(equations, other.parameters, "list", Bounds())
+        fibre = solve(equations, other.parameters, "list", Bounds())
     except TooLarge:
         every = (
             without_zeros(equations[:-1], other.parameters, "list", Bounds()) if thorough else None
@@ -166,14 +166,14 @@ def one_less(whole: Network, at: int, contracted: bool) -> Network | None:
     if places[force.plus] == places[force.minus]:
         return None
     rest = [e for i, e in enumerate(whole.elements) if i != at]
-    kept = [m for e in rest if (m := moved(e, places)) is not None]
+    kept = [m for e in rest if (m := move(e, places)) is not None]
     ports = [Port(places[p.plus], places[p.minus]) for p in (force, sensor)]
     seen = [kept[i] for i in sorted(seen_by_blocks(kept, ports[:1], ports[1:]))]
     if not seen:
         return None
     if not any(0 in (*e.nodes, 0)[:2] for e in seen):  # it floats: one end becomes its ground
         places = {i: i for e in seen for i in e.nodes} | {ports[0].minus: 0}
-        seen = [m for e in seen if (m := moved(e, places)) is not None]
+        seen = [m for e in seen if (m := move(e, places)) is not None]
         ports = [Port(places[p.plus], places[p.minus]) for p in ports]
     return Network(tuple(seen), (ports[0],), (ports[1],), whole.order)
 

@@ -25,7 +25,7 @@ MOST_NAMES = 60
 LARGEST = 2000  # terms of a polynomial that is factored
 Poly = tuple[Any, ...]
 """Coefficients of x^0, x^1, .."""
-Values = tuple[tuple[str, RationalFunction], ...]
+Assignment = tuple[tuple[str, RationalFunction], ...]
 """By the names of parameters."""
 
 
@@ -47,8 +47,8 @@ class Step:
 
     def renamed(self, name: str, by: Sequence[fmpz_mpoly]) -> "Step":
         """The same in other names."""
-        root = tuple(composed(c, by) for c in self.root)
-        return Step(name, composed(self.value, by), root, self.sign)
+        root = tuple(compose(c, by) for c in self.root)
+        return Step(name, compose(self.value, by), root, self.sign)
 
     @property
     def discriminant(self) -> RationalFunction:
@@ -192,7 +192,7 @@ class Field(Arithmetic):
         self.steps.append(Step(f"{start}{number}", value, root, sign))
         return self[f"{start}{number}"]
 
-    def written(self, values: Values) -> tuple[tuple[Step, ...], Values]:
+    def written(self, values: Assignment) -> tuple[tuple[Step, ...], Assignment]:
         """The steps that values are made of, numbered anew, and the values: one that is a name that
         occurs nowhere else is written out.
         """
@@ -216,7 +216,7 @@ class Field(Arithmetic):
         by = list(images.values())
         return (
             tuple(s.renamed(str(images[s.name]), by) for s in steps.values()),
-            tuple((name, composed(v, by)) for name, v in kept.items()),
+            tuple((name, compose(v, by)) for name, v in kept.items()),
         )
 
     def _needed(self, values: Iterable[RationalFunction]) -> tuple[Step, ...]:
@@ -254,7 +254,7 @@ class Field(Arithmetic):
         ]
 
 
-def composed(value: RationalFunction, by: Sequence[fmpz_mpoly]) -> RationalFunction:
+def compose(value: RationalFunction, by: Sequence[fmpz_mpoly]) -> RationalFunction:
     """The value with other symbols in place of those of its ring."""
     ring = value.num.context()
     return RationalFunction(*(side.compose(*by, ctx=ring) for side in (value.num, value.den)))

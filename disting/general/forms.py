@@ -22,10 +22,10 @@ from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import BOTH, Explicit, Inequality, NoEquivalent, Witnesses
 from disting.evidence.kind import Labels
-from disting.evidence.model_samples import seen
-from disting.evidence.substitutes import AtInverse, OfNetworks, OfPart, OfSubstitutes, Replaced
+from disting.evidence.model_samples import samples_of
+from disting.evidence.substitutes import AtInverse, OfNetworks, OfPart, OfSubstitutes, Replacement
 from disting.general.admissible import admissible_finding
-from disting.general.any_model import of_network, on_one_variable, unnamed, with_names
+from disting.general.any_model import of_network, on_one_variable, with_names, without_names
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import confirms_models
 from disting.general.network_model import behaviour_of
@@ -54,10 +54,10 @@ class Forms:
         pairs = [(m.network, form.network) for m, form in zip(models, self.models, strict=True)]
         return all(a and b and same_drawing(a, b) for a, b in pairs)
 
-    def evidence(self, inner: OfNetworks) -> Replaced:
+    def evidence(self, inner: OfNetworks) -> Replacement:
         """What evidence on them says of the others."""
         left, right = (model.name for model in self.models)
-        return Replaced(left, right, *self.larger, inner)
+        return Replacement(left, right, *self.larger, inner)
 
 
 def by_forms(
@@ -95,7 +95,7 @@ def by_inverse(
     if finding is None:
         finding = _answered(*models, seed, effort)
     if isinstance(
-        finding.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replaced
+        finding.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replacement
     ):
         evidence = AtInverse(models[0].name, models[1].name, finding.evidence)
         return replace(finding, evidence=evidence)
@@ -145,12 +145,12 @@ def forms_of(left: AnyModel, right: AnyModel, larger: bool) -> Forms | None:
 
 def _rank(model: AnyModel) -> int:
     """At least so large is the dimension of its functions: a rank modulo a prime."""
-    return seen(behaviour_of(model)).rank(Representation.TF)
+    return samples_of(behaviour_of(model)).rank(Representation.TF)
 
 
 def _with_network(model: AnyModel, network: Network) -> AnyModel:
     """Its transfer functions alone, also where they are those of a chain."""
-    plain = unnamed(model, network.name)
+    plain = without_names(model, network.name)
     object.__setattr__(plain, "network", network)
     return plain
 
@@ -160,7 +160,7 @@ def confirms_forms(
 ) -> bool:
     """Whether these networks stand for both, and what is said of them is true."""
     inner = evidence.inner
-    if isinstance(evidence, Replaced):
+    if isinstance(evidence, Replacement):
         models = _stand_for(evidence, left, right)
     elif isinstance(evidence, OfPart):
         part = without(left if evidence.left_is_part else right, evidence.missing)
@@ -179,7 +179,7 @@ def confirms_forms(
 
 
 def _stand_for(
-    evidence: Replaced, left: AnyModel, right: AnyModel
+    evidence: Replacement, left: AnyModel, right: AnyModel
 ) -> tuple[AnyModel, AnyModel] | None:
     """The networks that it names, if they stand for both: the simplest ones, or such as texts have
     them.
@@ -204,9 +204,9 @@ def of_equals(finding: Finding, left: str, right: str) -> Finding:
     if not isinstance(evidence, OfNetworks):
         note = with_names(finding.note, left, right)
         return replace(finding, note=f"of {left} and {right}, which give the same, {note}")
-    if isinstance(evidence, Replaced) and not (evidence.left_larger or evidence.right_larger):
+    if isinstance(evidence, Replacement) and not (evidence.left_larger or evidence.right_larger):
         return finding  # their simplest networks are those of the others
-    return replace(finding, evidence=Replaced(left, right, False, False, evidence))
+    return replace(finding, evidence=Replacement(left, right, False, False, evidence))
 
 
 def by_parts(

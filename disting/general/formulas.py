@@ -14,7 +14,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.orthant import THOROUGH, Effort
 from disting.general.sections import Section
-from disting.general.which_models import Way, ways_again
+from disting.general.which_models import Way, ways_by_all
 from disting.model.question import Domain
 
 
@@ -82,7 +82,7 @@ def _covers(
         return False
     (zero,) = small
     if not zero:
-        ways = ways_again(model, other, Domain(evidence.domain))
+        ways = ways_by_all(model, other, Domain(evidence.domain))
         return any(way.covering or way.path() for way in ways)
     if not (isinstance(model, Model) and isinstance(other, Model)):
         return False
@@ -98,7 +98,7 @@ def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
 def is_without(evidence: NoEquivalent, left: AnyModel, right: AnyModel) -> bool:
     """Whether the cases found anew are all closed."""
     model, other = (left, right) if evidence.left_given else (right, left)
-    return any(way.never for way in ways_again(model, other, Domain(evidence.domain)))
+    return any(way.never for way in ways_by_all(model, other, Domain(evidence.domain)))
 
 
 def _of_section(left_given: bool, way: Way, section: Section) -> Formula:

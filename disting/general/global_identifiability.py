@@ -22,14 +22,14 @@ from flint import fmpz_mpoly, nmod_mat
 
 from disting.algebra.certainty import Certainty, prime, residues
 from disting.algebra.symbols import RationalFunction
-from disting.general.behaviour import evaluated
-from disting.general.cases import ORDERS, Search, orders, searched
+from disting.general.behaviour import evaluate
+from disting.general.cases import ORDERS, Search, orders, search_cases
 from disting.general.elimination import Case
 from disting.general.expression import text_of
 from disting.general.identifiability import LocalIdentifiability, local_identifiability
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant, TooMuch
-from disting.model.presentation import Shown, summary
+from disting.model.presentation import NotebookTable, summary
 from disting.model.question import Domain, Question, Settings
 
 CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two
@@ -37,7 +37,7 @@ SETTINGS = Settings()
 
 
 @dataclass(frozen=True, slots=True)
-class GlobalIdentifiability(Shown):
+class GlobalIdentifiability(NotebookTable):
     """`count` of complex parameter vectors with one generic transfer function: None if infinite or
     not known.
 
@@ -158,7 +158,7 @@ def _best(ring: Orthant, model: AnyModel, tries: int) -> Search | None:
     searches: list[Search] = []
     for order in islice(orders(ring.unknowns), tries):
         try:
-            searches.append(searched(ring, model, model, order))
+            searches.append(search_cases(ring, model, model, order))
         except TooMuch:
             continue
         if not any(case.equations for case in searches[-1].cases):
@@ -274,5 +274,5 @@ def _gradient(ratio: RationalFunction, point: list[int], modulus: int) -> list[i
         [(tuple(map(int, e)), int(c)) for e, c in side.to_dict().items()]
         for side in (ratio.num, ratio.den)
     ]
-    (top, above), (bottom, below) = (evaluated(tuple(side), point, modulus) for side in sides)
+    (top, above), (bottom, below) = (evaluate(tuple(side), point, modulus) for side in sides)
     return [(a * bottom - b * top) % modulus for a, b in zip(above, below, strict=True)]

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty, grade_of
 from disting.errors import of_type
 from disting.general.any_model import cells_of, map_of
-from disting.general.exponents import determined, may_be_others
+from disting.general.exponents import count_determined, may_be_others
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import OTHER_ORDER, ComparedModel
 from disting.general.network_model import behaviour_of
@@ -21,8 +21,8 @@ from disting.model.question import Question, Settings
 from disting.questions.identifiability.levels import (
     ParameterIdentifiability,
     by_parameter,
-    decoded,
-    encoded,
+    decode,
+    encode,
     local,
 )
 from disting.questions.identifiability.parts import Level
@@ -110,7 +110,7 @@ def _with_exponents(
     """
     powers = model.powers
     names, size = powers.exponents, len(powers.weights)
-    rank, single = determined(cells_of(model), size)
+    rank, single = count_determined(cells_of(model), size)
     levels = dict(identifiability.levels) | dict.fromkeys(
         sorted((*names, *powers.unseen)), Level.NOT
     )
@@ -136,4 +136,4 @@ def _with_exponents(
     )
 
 
-PARAMETERS = Question("parameters of general models", parameter_identifiability, encoded, decoded)
+PARAMETERS = Question("parameters of general models", parameter_identifiability, encode, decode)

@@ -38,9 +38,9 @@ REMEMBERED = 256
 MOST = 400  # edges of a cone, while they are listed
 SPREADS = (4, 8, 12)  # values are powers of two below 2^4, 2^8, 2^12
 POINTS = 48  # of each
-Pair = tuple[int, int]
+CoefficientPair = tuple[int, int]
 Row = tuple[int, ...]
-Form = tuple[tuple[Pair, int], ...]
+Form = tuple[tuple[CoefficientPair, int], ...]
 """Numbers f_ij by pairs of coefficients, in the order of `relations.coefficients`."""
 Labelled = tuple[tuple[int, str, str], ...]
 """Numbers f_ij with the names of both coefficients."""
@@ -148,7 +148,7 @@ def _polynomials(model: Model) -> list[fmpz_mpoly]:
     return [context.from_dict(dict(terms)) for terms in coefficients(model) if terms]
 
 
-def _products(model: Model) -> dict[Pair, dict[Row, int]]:
+def _products(model: Model) -> dict[CoefficientPair, dict[Row, int]]:
     """All c_i c_j by their monomials."""
     every = _polynomials(model)
     pairs = combinations_with_replacement(range(len(every)), 2)
@@ -158,9 +158,9 @@ def _products(model: Model) -> dict[Pair, dict[Row, int]]:
     }
 
 
-def _groups(products: dict[Pair, dict[Row, int]]) -> list[list[Pair]]:
+def _groups(products: dict[CoefficientPair, dict[Row, int]]) -> list[list[CoefficientPair]]:
     """Those of the products that are joined by monomials."""
-    groups = list[tuple[list[Pair], set[Row]]]()
+    groups = list[tuple[list[CoefficientPair], set[Row]]]()
     for pair, terms in products.items():
         joined = [group for group in groups if not group[1].isdisjoint(terms)]
         pairs = [pair, *(other for group in joined for other in group[0])]
@@ -233,6 +233,6 @@ def _whole(numbers: Sequence[object]) -> Row:
     return _shortest(int(x * common) for x in fractions)
 
 
-def _value(form: Iterable[tuple[Pair, int]], at: Sequence[Any]) -> Any:
+def _value(form: Iterable[tuple[CoefficientPair, int]], at: Sequence[Any]) -> Any:
     """A quadratic form at numbers or polynomials."""
     return sum((number * at[i] * at[j] for (i, j), number in form), at[0] * 0)

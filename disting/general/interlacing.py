@@ -49,7 +49,7 @@ Ring = dict[str, fmpz_mpoly]
 
 
 @dataclass(frozen=True, slots=True)
-class Interlaced:
+class MachineType:
     """Number of masses, which powers of s are in the numerator, and its sign."""
 
     masses: int
@@ -61,16 +61,16 @@ def sets_of(model: AnyModel) -> dict[str, object]:
     """What theorems on networks say that it gives, by their names: another model that gives the
     same is the same, None says nothing.
     """
-    return {REPLACEMENT: simplest_network(model), INTERLACING: interlaced(model)}
+    return {REPLACEMENT: simplest_network(model), INTERLACING: machine_type(model)}
 
 
-def interlaced(model: AnyModel) -> Interlaced | None:
+def machine_type(model: AnyModel) -> MachineType | None:
     """The functions of a machine of the theorem, None of any other.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
     >>> star, chain = "#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2"
-    >>> one, other = (interlaced(of_network(network_of(text))) for text in (star, chain))
+    >>> one, other = (machine_type(of_network(network_of(text))) for text in (star, chain))
     >>> one == other
     True
     """
@@ -97,7 +97,7 @@ def interlaced(model: AnyModel) -> Interlaced | None:
             zeros += int(number) * ring["x"] ** at * prod(ring[p] ** int(e) for p, e in powers)
     if not any(_are_zeros_of(zeros, chosen) for chosen in _choices(network, ring)):
         return None
-    return Interlaced(masses, other_parts, 1 if signs.pop() else -1)
+    return MachineType(masses, other_parts, 1 if signs.pop() else -1)
 
 
 def is_held_tree(network: Network) -> bool:

@@ -27,7 +27,7 @@ from flint import fmpz_mpoly
 from disting.algebra.certainty import residues
 from disting.algebra.symbols import RationalFunction, factorise
 from disting.general.counts import number_of_roots, remainder
-from disting.general.elimination import Case, numbered, placed
+from disting.general.elimination import Case, fix_free, substitute
 from disting.general.orthant import Orthant
 
 CHOICES = 12  # fractions that are tried for the unknown that is chosen
@@ -105,7 +105,7 @@ def by_count(ring: Orthant, case: Case) -> Path | None:
 
 
 def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case | None:
-    the_case = placed(ring, case, at, value)
+    the_case = substitute(ring, case, at, value)
     return the_case if isinstance(the_case, Case) and ring.occurring(the_case.equations) else None
 
 
@@ -156,7 +156,7 @@ def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | No
     """The path, unless a polynomial that must not be zero has a common root with the equation
     for all p.
     """
-    whole, equation = numbered(ring, case), _of_odd_roots(case.equations[0], at)
+    whole, equation = fix_free(ring, case), _of_odd_roots(case.equations[0], at)
     if any(c.gcd(equation).degrees()[at] for c in whole.nonzero):
         return None
     values = dict(whole.solved) | {at: RationalFunction(ring.generators[at], ring.number(1))}
@@ -253,7 +253,7 @@ def without_equations(ring: Orthant, case: Case) -> Case | None:
         return None
     for num, den in _candidates(ring):
         value = RationalFunction(num, den)
-        chosen = placed(ring, case, free[0], value)
+        chosen = substitute(ring, case, free[0], value)
         the_case = without_equations(ring, chosen) if isinstance(chosen, Case) else None
         if the_case:
             return the_case

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from disting.algebra.symbols import RationalFunction, symbols
-from disting.errors import InputError, listed, of_type, shown
+from disting.errors import InputError, enumeration, of_type, short
 from disting.general.entries import (
     frequency,
     parameters_of,
@@ -22,7 +22,7 @@ from disting.general.expansion import Expansion
 from disting.general.model import Model, entry_of, unwritten
 from disting.general.powers import PLAIN, Powers
 from disting.general.response import fraction, network_powers, network_ratios, transfer_functions
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.network.forests import counts_of
 from disting.network.network import Network
 
@@ -30,7 +30,7 @@ MOST_ENTRIES = 100
 
 
 @dataclass(frozen=True, slots=True)
-class MatrixModel(Shown):
+class MatrixModel(NotebookTable):
     """A matrix of transfer functions, made by `from_state_space`, `from_transfer_functions` or
     `from_network`.
 
@@ -184,7 +184,7 @@ def _shown(
     for name in of_type(names, list | tuple, wanted):
         if name not in parameters:
             raise InputError(
-                f"{shown(name)} is known, but no parameter; there are {listed(parameters)}"
+                f"{short(name)} is known, but no parameter; there are {enumeration(parameters)}"
             )
         context, zero = like[0].num.context(), like[0] - like[0]
         value = context.gen(context.names().index(name))

@@ -31,7 +31,7 @@ from disting.general.powers import PLAIN, Powers, Terms as Terms, cell_in, in_v
 from disting.general.response import fraction, network_powers, network_ratios, transfer_functions
 from disting.model.chain import Chain
 from disting.model.names import name_of, names_another
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.network.chains import as_chain, of_chain
 from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
@@ -40,7 +40,7 @@ TERMS = ("numerator_terms", "denominator_terms")
 
 
 @dataclass(frozen=True, slots=True)
-class Model(Shown):
+class Model(NotebookTable):
     """A transfer function in lowest terms, made by `from_state_space`, `from_transfer_function`,
     `from_network` or `from_chain`.
 

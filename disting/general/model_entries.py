@@ -5,8 +5,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any, NoReturn
 
-from disting.errors import InputError, listed, of_type, shown
-from disting.files import once
+from disting.errors import InputError, enumeration, of_type, short
+from disting.files import unique_keys
 from disting.general.any_model import as_chain, of_network
 from disting.general.expression import polynomial_text
 from disting.general.matrix_model import AnyModel, MatrixModel
@@ -44,7 +44,7 @@ def plain_of(content: bytes) -> object:
     try:
         return json.loads(
             content.decode("utf-8-sig"),
-            object_pairs_hook=once,
+            object_pairs_hook=unique_keys,
             parse_float=Number,
             parse_int=Number,
             parse_constant=_refuse_constant,
@@ -66,12 +66,12 @@ def _refuse_constant(text: str) -> NoReturn:
 
 def object_of(data: object, items: Iterable[str], what: str) -> Plain:
     """A JSON object with these keys only; raises InputError for anything else."""
-    keys = listed(f'"{key}"' for key in items)
+    keys = enumeration(f'"{key}"' for key in items)
     if not isinstance(data, dict):
         raise InputError(f"{what} is one object in braces with the keys {keys}")
     unknown = [key for key in data if key not in items]
     if unknown:
-        raise InputError(f"{shown(unknown[0])} is no key of {what}; known are {keys}")
+        raise InputError(f"{short(unknown[0])} is no key of {what}; known are {keys}")
     return data
 
 
@@ -79,7 +79,7 @@ def text_of(entry: Plain, key: str, default: str) -> str:
     """The text at a key; raises InputError for anything else."""
     value = entry.get(key, default)
     if type(value) is not str:
-        raise InputError(f'"{key}" is a text in quotation marks, not {shown(value)}')
+        raise InputError(f'"{key}" is a text in quotation marks, not {short(value)}')
     return value
 
 
@@ -155,7 +155,7 @@ def _of_flows(entry: Plain, variable: str, name: str) -> MatrixModel:
     nodes = {str(i) for flow in flows if isinstance(flow, list) for i in flow}
     lost = [i for i in start if i not in nodes - {"0"}]
     if lost:
-        raise InputError(f'"x0" has compartment {shown(lost[0])}, which none of the flows has')
+        raise InputError(f'"x0" has compartment {short(lost[0])}, which none of the flows has')
     asked = entry.get("input", [])
     inputs = asked if isinstance(asked, list) else [asked]
     plain = {key: value for key, value in entry.items() if key not in ("x0", "known")}
@@ -179,7 +179,7 @@ def _of_chain(entry: Plain, name: str) -> Model:
         raise InputError('"damped" is true or false')
     quantity = text_of(entry, "sensor", Sensor.ACCELERATION.value)
     if quantity not in tuple(Sensor):
-        raise InputError(f'"sensor" is {", ".join(Sensor)}, not {shown(quantity)}')
+        raise InputError(f'"sensor" is {", ".join(Sensor)}, not {short(quantity)}')
     reference = text_of(entry, "chain", "")
     masses = reference.partition(":")[0].strip()
     if masses.isdecimal() and int(masses[:9]) > LARGEST_CHAIN:

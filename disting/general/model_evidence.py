@@ -9,10 +9,10 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Constants, Explicit, Inequality, NoEquivalent, Witnesses
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
-from disting.evidence.model_samples import SeenPair, seen
+from disting.evidence.model_samples import SeenPair, samples_of
 from disting.fibres.ideals import Limits, find_again
 from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
@@ -24,7 +24,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
-from disting.general.which_models import ways_again
+from disting.general.which_models import ways_by_all
 from disting.model.question import Domain, Settings
 from disting.questions.same.exact import by_labels
 
@@ -41,8 +41,8 @@ def confirms_models(
     Raises NotSeenError where a contradiction takes too long.
     """
     pair = SeenPair(
-        left=seen(behaviour_of(left)),
-        right=seen(behaviour_of(right)),
+        left=samples_of(behaviour_of(left)),
+        right=samples_of(behaviour_of(right)),
         renames=partial(is_renamed, left, right),
         found_again=partial(_found_again, left=left, right=right),
         numberings=lambda left_is_part: numberings(
@@ -57,7 +57,7 @@ def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
     match evidence:
         case Constants():
             return _differ(evidence, left, right)
-        case Solved() | Refuted():
+        case Solutions() | Refutation():
             # normalised coordinates are those of a chain
             return not evidence.is_normalised and find_again(evidence, *maps_of(left, right), AGAIN)
         case Theorem():
@@ -73,13 +73,13 @@ def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
     return False  # it speaks of other models
 
 
-def exact_again(
+def recheck(
     evidence: Evidence, left: AnyModel, right: AnyModel, settings: Settings
 ) -> Finding | None:
     """What the ideals of such evidence say of two models of equal ranks and degrees: their labels
     are drawn again; None if it is of another kind.
     """
-    if not isinstance(evidence, Solved | Refuted):
+    if not isinstance(evidence, Solutions | Refutation):
         return None
     return by_labels(evidence, *maps_of(left, right), settings.seed)
 
@@ -130,11 +130,11 @@ def _has(
     near: tuple[float, ...],
     domain: Domain,
 ) -> bool:
-    if domain is Domain.POSITIVE and newton.having(model, values, other, near):
+    if domain is Domain.POSITIVE and newton.find_equivalent(model, values, other, near):
         return True
-    if domain is Domain.POSITIVE and fibre_lists.having(model, values, other):
+    if domain is Domain.POSITIVE and fibre_lists.find_equivalent(model, values, other):
         return True
-    return any(way.having(values) for way in ways_again(model, other, domain))
+    return any(way.having(values) for way in ways_by_all(model, other, domain))
 
 
 def _has_none(
@@ -147,9 +147,9 @@ def _has_none(
             for shown in (excludes_around, excludes)
         ):
             return True
-        if fibre_lists.lacking(model, values, other):
+        if fibre_lists.has_none(model, values, other):
             return True
-    return any(way.lacking(values) for way in ways_again(model, other, domain))
+    return any(way.lacking(values) for way in ways_by_all(model, other, domain))
 
 
 def is_inequality(evidence: Inequality, left: AnyModel, right: AnyModel) -> bool:

@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from disting.errors import InputError, listed, printable, shown
+from disting.errors import InputError, enumeration, printable, short
 from disting.files import Format, as_path, read_bounded, write_whole
 from disting.general.matrix_model import AnyModel
 from disting.general.model_entries import (
@@ -33,7 +33,7 @@ from disting.general.model_entries import (
     refuse_s,
     text_of,
 )
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
@@ -42,7 +42,7 @@ LONGEST_TITLE = 200
 
 
 @dataclass(frozen=True, slots=True)
-class ModelList(Shown):
+class ModelList(NotebookTable):
     """Models with different names, in order.
 
     >>> from disting import Model
@@ -61,7 +61,7 @@ class ModelList(Shown):
         doubled = sorted({name for name in names if names.count(name) > 1})
         if doubled:
             raise InputError(
-                f"{shown(doubled[0])} names {names.count(doubled[0])} models; give each its own"
+                f"{short(doubled[0])} names {names.count(doubled[0])} models; give each its own"
                 " name"
             )
         if self.title:
@@ -85,7 +85,8 @@ class ModelList(Shown):
             if model.name == name:
                 return model
         raise InputError(
-            f"no model is called {shown(name)}; there are {listed(m.name for m in self.models)}"
+            f"no model is called {short(name)};"
+            f" there are {enumeration(m.name for m in self.models)}"
         )
 
 
@@ -156,7 +157,7 @@ def models_of(data: object) -> ModelList:
     variable = text_of(whole, "s", "s")
     if not variable.isidentifier() or not variable.isascii():
         raise InputError(
-            f'"s" is the name of the frequency variable, such as "s", not {shown(variable)}'
+            f'"s" is the name of the frequency variable, such as "s", not {short(variable)}'
         )
     models = tuple(_model(entry, place, variable) for place, entry in enumerate(entries, 1))
     return ModelList(models, text_of(whole, "title", ""))
@@ -164,7 +165,7 @@ def models_of(data: object) -> ModelList:
 
 def _refuse_format(said: str) -> None:
     if said != Format.MODELS:
-        raise InputError(f'"format" is "{Format.MODELS}" or missing, not {shown(said)}')
+        raise InputError(f'"format" is "{Format.MODELS}" or missing, not {short(said)}')
 
 
 def _model(entry: object, place: int, variable: str) -> AnyModel:
@@ -178,7 +179,7 @@ def _model(entry: object, place: int, variable: str) -> AnyModel:
         model = of_kind(entry, name, variable)
         refuse_s(model)
     except InputError as reason:
-        raise InputError(f"model {shown(name)}: {reason}") from None
+        raise InputError(f"model {short(name)}: {reason}") from None
     return model
 
 
@@ -187,5 +188,5 @@ def _refuse_name(name: str, what: str, most: int) -> None:
     if not name.strip() or name != name.strip() or not name.isprintable() or len(name) > most:
         raise InputError(
             f"{what} has 1 to {most} printable characters, with no spaces around them, not"
-            f" {shown(name)}"
+            f" {short(name)}"
         )

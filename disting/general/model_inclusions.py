@@ -16,8 +16,8 @@ from disting.evidence.limits import Minor
 from disting.general.matrix_model import AnyModel
 from disting.general.network_model import behaviour_of
 from disting.model.question import Settings
-from disting.network.branches import branches, rest_of, taken_away
-from disting.network.minors import Places, is_minor, left_out, minors
+from disting.network.branches import branches, remainder, rest_of
+from disting.network.minors import Places, is_minor, minors, omitted_values
 from disting.network.network import Network
 from disting.questions.inclusion.profiles import by_profiles, inside, order
 
@@ -82,7 +82,7 @@ def _by_minors(small: AnyModel, large: AnyModel, left_is_part: bool) -> Inclusio
         return None
     part, whole = small.network.grounded, large.network.grounded
     places = next(minors(part, whole), None)
-    gone = taken_away(part, whole) if places is None else None
+    gone = remainder(part, whole) if places is None else None
     if places is not None:
         evidence = _minor(part, whole, places, left_is_part)
     elif gone is not None:
@@ -111,7 +111,7 @@ def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
 
 
 def _minor(part: Network, whole: Network, places: Places, left_is_part: bool) -> Minor:
-    return Minor(left_is_part, tuple(sorted(places.items())), *left_out(part, whole, places))
+    return Minor(left_is_part, tuple(sorted(places.items())), *omitted_values(part, whole, places))
 
 
 def _by_degrees(left: AnyModel, right: AnyModel) -> bool:

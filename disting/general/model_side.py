@@ -33,12 +33,12 @@ from disting.general.any_model import (
     cells_of,
     is_renamed,
     same,
-    unnamed,
     with_names,
+    without_names,
 )
 from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
-from disting.general.exponents import determined
+from disting.general.exponents import count_determined
 from disting.general.forms import ADMISSIBLY, confirms_forms
 from disting.general.interlacing import sets_of
 from disting.general.matrix_model import AnyModel
@@ -50,7 +50,7 @@ from disting.general.model_inclusions import (
     numberings,
 )
 from disting.general.network_model import NetworkModel, behaviour_of
-from disting.general.readings import readings, told
+from disting.general.readings import profile_text, readings
 from disting.general.replacement import same_in_units
 from disting.model.chain import Chain, Premise
 from disting.model.presentation import GENERIC
@@ -105,11 +105,11 @@ class ComparedModel(Side[AnyModel]):
         """The other orders of its exponents that profiles leave open, each with a renaming of its
         parameters that does the same, if there is one.
         """
-        own = told(self.transfer_profile)
+        own = profile_text(self.transfer_profile)
         pairs = list[tuple[tuple[str, ...], Renaming | None]]()
         for model in readings(self.subject):
             other = replace(self, subject=model)
-            if told(other.transfer_profile) == own:
+            if profile_text(other.transfer_profile) == own:
                 evidence = condition_6(self, other, True).evidence
                 renaming = evidence if isinstance(evidence, Renaming) else None
                 pairs.append((model.powers.exponents, renaming))
@@ -124,7 +124,7 @@ class ComparedModel(Side[AnyModel]):
     def rank(self) -> int:
         """Number of determinable parameters, exponents too."""
         size, rank = len(self.subject.powers.weights), self.transfer_profile.rank
-        return rank + determined(cells_of(self.subject), size)[0] if size else rank
+        return rank + count_determined(cells_of(self.subject), size)[0] if size else rank
 
     @property
     def n_elements(self) -> int | None:
@@ -209,7 +209,7 @@ class ComparedModel(Side[AnyModel]):
             return self.exact(other) if _applies(GEARS, self, other) else None
         if not comparable(self, other):
             return None
-        finding = model_evidence.exact_again(evidence, *_models(self, other), self.settings)
+        finding = model_evidence.recheck(evidence, *_models(self, other), self.settings)
         if finding is None:
             return None
         profiles = self.transfer_profile, other.transfer_profile
@@ -265,7 +265,7 @@ def positive_question(
 
 
 def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
-    return unnamed(left.subject), unnamed(right.subject)
+    return without_names(left.subject), without_names(right.subject)
 
 
 def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:

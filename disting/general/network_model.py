@@ -22,10 +22,10 @@ from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, coefficient_rows
 from disting.behaviour.chain_model import UNBOUNDED
 from disting.behaviour.sample import label, shared_poles
-from disting.general.any_model import unnamed
+from disting.general.any_model import without_names
 from disting.general.behaviour import (
     GeneralModel,
-    Known,
+    KnownValue,
     known_invariants,
     summary_size,
     times_lead,
@@ -139,7 +139,7 @@ def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:
         network_model = NetworkModel(plain.parameters, cells, halves)
         if is_known and _shares_poles(network_model):
             return network_model
-    return GeneralModel(unnamed(model))
+    return GeneralModel(without_names(model))
 
 
 def _shares_poles(model: NetworkModel) -> bool:
@@ -169,7 +169,7 @@ def _products(sides: Sides, counts: Counts, modulus: int) -> list[tuple[int, lis
     return times_lead(rows, counts.mean, modulus)
 
 
-def _ratios(counts: Counts) -> tuple[list[Known], list[Known]]:
+def _ratios(counts: Counts) -> tuple[list[KnownValue], list[KnownValue]]:
     """What is known of the coefficients over the leading one."""
     lost = counts.lost
     top, bottom = (

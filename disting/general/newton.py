@@ -62,7 +62,7 @@ class System:
     relations: tuple[Relation, ...]
 
 
-def having(
+def find_equivalent(
     model: AnyModel, values: Values, other: AnyModel, near: Sequence[float] = ()
 ) -> tuple[float, ...] | None:
     """A positive equivalent (rounded) in the other model of a point around which all have some:
@@ -72,7 +72,7 @@ def having(
     >>> from disting.network import network_of
     >>> star, loop = "1=2, 1=3; F1; S2", "1=2, 1=3, 2=3; F1; S2"
     >>> star, loop = (of_network(network_of(text)) for text in (star, loop))
-    >>> having(star, {name: Fraction(1) for name in star.parameters}, loop) is not None
+    >>> find_equivalent(star, {name: Fraction(1) for name in star.parameters}, loop) is not None
     True
     """
     if not (isinstance(model, Model) and isinstance(other, Model) and are_alike(model, other)):

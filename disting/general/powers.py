@@ -162,10 +162,10 @@ def powers_of(
     first, *_ = _orders(cells, seen)
     names = [exponents[j] for j in first]
     kept = [cell_in(ratio, names, size) for ratio in ratios]
-    return replace(weighted(kept, halves, names), unseen=unseen)
+    return replace(separating_weights(kept, halves, names), unseen=unseen)
 
 
-def weighted(cells: Sequence[Cell], halves: bool, names: Sequence[str]) -> Powers:
+def separating_weights(cells: Sequence[Cell], halves: bool, names: Sequence[str]) -> Powers:
     """Weights that keep all monomials of products of two sides apart, and both sides of each cell
     without a common factor but v.
     """

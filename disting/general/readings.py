@@ -26,14 +26,14 @@ def readings(model: AnyModel) -> list[AnyModel]:
     return [in_powers(model, model.powers, order) for order in orders(cells_of(model), size)]
 
 
-def settled(model: AnyModel, profile_of: ProfileOf) -> AnyModel:
+def normalise(model: AnyModel, profile_of: ProfileOf) -> AnyModel:
     """The model with its exponents in the order of the least profile, and of these in the one whose
-    coefficients are the least: that is a guess, of which `told` says that it is one.
+    coefficients are the least: that is a guess, of which `profile_text` says that it is one.
     """
     others = readings(model)
     if not others:
         return model
-    return min((model, *others), key=lambda m: (told(profile_of(m)), _shape(m)))
+    return min((model, *others), key=lambda m: (profile_text(profile_of(m)), _shape(m)))
 
 
 def _shape(model: AnyModel) -> list[list[tuple[int, int]]]:
@@ -42,7 +42,7 @@ def _shape(model: AnyModel) -> list[list[tuple[int, int]]]:
     return [sorted((sum(e), number) for e, number in terms) for side in sides for terms in side]
 
 
-def told(profile: Profile) -> str:
+def profile_text(profile: Profile) -> str:
     """All that conditions compare, as text."""
     p = profile
     return full_text((p.degrees, sorted(p.form), p.constants, p.rank, p.matroid))

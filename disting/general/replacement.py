@@ -49,7 +49,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import placed_network
 from disting.network.element import Element, Port
-from disting.network.graph import moved
+from disting.network.graph import move
 from disting.network.network import Network
 from disting.network.normal_form import Part, Power, normal_form
 from disting.network.simplest import same_but_for_gears, simplest
@@ -228,7 +228,7 @@ def _minor(elements: Sequence[Element], left_out: dict[int, bool], port: Port) -
             a, b = (places[i] for i in (*elements[at].nodes, 0)[:2])
             low, high = sorted((a, b))
             places = {i: low if j == high else j for i, j in places.items()}
-    kept = [moved(e, places) for i, e in enumerate(elements) if i not in left_out]
+    kept = [move(e, places) for i, e in enumerate(elements) if i not in left_out]
     other_port = Port(places[port.plus], places[port.minus])
     try:
         return Network(tuple(e for e in kept if e is not None), (other_port,), (other_port,))

@@ -41,12 +41,12 @@ VALUES = tuple(
     for n, d in ((1, 1), (1, 2), (2, 1), (1, 5), (5, 1), (1, 12), (12, 1), (1, 40), (40, 1))
 )
 
-Point = dict[int, Fraction]
+ParameterValues = dict[int, Fraction]
 """Numbers by position in the ring."""
 
 
 @dataclass(frozen=True, slots=True)
-class Parted:
+class CaseSearch:
     """What a search found, sections and other cases apart; `lead`: leading denominator
     coefficient of the searched model.
     """
@@ -57,7 +57,7 @@ class Parted:
     lead: fmpz_mpoly
 
 
-def having(parted: Parted, point: Point) -> tuple[float, ...] | None:
+def find_equivalent(parted: CaseSearch, point: ParameterValues) -> tuple[float, ...] | None:
     """Rounded parameters of an equivalent at a point with equivalents all around it, if one is
     found.
     """
@@ -72,14 +72,14 @@ def having(parted: Parted, point: Point) -> tuple[float, ...] | None:
     return None
 
 
-def searched_cases(parted: Parted) -> int:
-    """How many sections and cases are looked at by `having`: a case of more equations or
+def searched_cases(parted: CaseSearch) -> int:
+    """How many sections and cases are looked at by `find_equivalent`: a case of more equations or
     unknowns is not.
     """
     return len(parted.sections) + sum(_is_searched(parted, case) for case in parted.others)
 
 
-def lacking(parted: Parted, point: Point) -> bool:
+def has_none(parted: CaseSearch, point: ParameterValues) -> bool:
     """Whether no parameters near the point have an equivalent; False also where it is not seen."""
     if any(not value_at(g, point) for g in parted.search.generic):
         return False
@@ -88,7 +88,7 @@ def lacking(parted: Parted, point: Point) -> bool:
     return all(_is_void(parted, case, point) for case in parted.others)
 
 
-def _on(parted: Parted, section: Section, point: Point) -> tuple[float, ...] | None:
+def _on(parted: CaseSearch, section: Section, point: ParameterValues) -> tuple[float, ...] | None:
     if any(value_at(g, point) <= 0 for g in section.where):
         return None
     values = _valued(section.values, point)
@@ -98,11 +98,11 @@ def _on(parted: Parted, section: Section, point: Point) -> tuple[float, ...] | N
     return tuple(map(float, values)) if value_at(parted.lead, full) else None
 
 
-def _is_inside(parted: Parted, values: list[Fraction]) -> bool:
+def _is_inside(parted: CaseSearch, values: list[Fraction]) -> bool:
     return parted.search.ring.domain is not Domain.POSITIVE or min(values) > 0
 
 
-def _valued(values: tuple[RationalFunction, ...], point: Point) -> list[Fraction] | None:
+def _valued(values: tuple[RationalFunction, ...], point: ParameterValues) -> list[Fraction] | None:
     below = [value_at(v.den, point) for v in values]
     return (
         [value_at(v.num, point) / d for v, d in zip(values, below, strict=True)]
@@ -111,7 +111,7 @@ def _valued(values: tuple[RationalFunction, ...], point: Point) -> list[Fraction
     )
 
 
-def _in_case(parted: Parted, case: Case, point: Point) -> tuple[float, ...] | None:
+def _in_case(parted: CaseSearch, case: Case, point: ParameterValues) -> tuple[float, ...] | None:
     """An equivalent of a case that is no section: other unknowns at rational values, the last
     one in an interval.
     """
@@ -135,13 +135,13 @@ def _in_case(parted: Parted, case: Case, point: Point) -> tuple[float, ...] | No
     return None
 
 
-def _is_searched(parted: Parted, case: Case) -> bool:
+def _is_searched(parted: CaseSearch, case: Case) -> bool:
     free = parted.search.ring.occurring((*case.equations, *case.positive))
     return len(free) <= UNKNOWNS and len(case.equations) <= 1
 
 
 def _in_interval(
-    parted: Parted, case: Case, fixed: Point, at: int, sign: int
+    parted: CaseSearch, case: Case, fixed: ParameterValues, at: int, sign: int
 ) -> tuple[float, ...] | None:
     """Rounded parameters with the unknown `at` in an interval as described above, all others
     being fixed or solved for.
@@ -167,7 +167,7 @@ def _in_interval(
     return tuple(float(values[i]) for i in ring.unknowns)
 
 
-def _is_void(parted: Parted, case: Case, point: Point) -> bool:
+def _is_void(parted: CaseSearch, case: Case, point: ParameterValues) -> bool:
     ring = parted.search.ring
     free = ring.occurring((*case.equations, *case.positive))
     if not free or len(free) > UNKNOWNS:
@@ -177,7 +177,7 @@ def _is_void(parted: Parted, case: Case, point: Point) -> bool:
     return all(is_empty(box, len(free)) for box in boxes)
 
 
-def _box(case: Case, point: Point, free: tuple[int, ...], signs: tuple[int, ...]) -> Box:
+def _box(case: Case, point: ParameterValues, free: tuple[int, ...], signs: tuple[int, ...]) -> Box:
     """In the axes of both unknowns, or of their sum and quotient where no equation tells anything
     of both being infinite.
     """
@@ -200,7 +200,7 @@ def _degree(polynomial: fmpz_mpoly, free: tuple[int, ...]) -> int:
 
 
 def _grid(
-    polynomial: fmpz_mpoly, point: Point, free: tuple[int, ...], signs: tuple[int, ...]
+    polynomial: fmpz_mpoly, point: ParameterValues, free: tuple[int, ...], signs: tuple[int, ...]
 ) -> Grid:
     """Integer coefficients, up to a positive factor, of one or two unknowns at a point, the
     unknowns times their signs.

@@ -32,9 +32,9 @@ from disting.algebra.symbols import RationalFunction
 from disting.general.cases import Search
 from disting.general.elimination import (
     Case,
-    chosen,
+    choose,
+    fix_free,
     inequalities,
-    numbered,
     put_positive,
     unknown_factors,
 )
@@ -103,7 +103,7 @@ def _sign(part: tuple[int, list[int]], signs: tuple[int, ...]) -> int:
 
 
 def _section(ring: Orthant, case: Case) -> Section:
-    solved = dict(numbered(ring, case).solved)
+    solved = dict(fix_free(ring, case).solved)
     return Section(case.positive, tuple(solved[i] for i in ring.unknowns))
 
 
@@ -179,7 +179,7 @@ def _between(
             positive, failing = inequalities(ring, [*case.positive, *above, *below, *gap])
             if failing is None:
                 asked = replace(case, positive=positive)
-                yield chosen(ring, asked, at, partial(_inside, ring, low, high))
+                yield choose(ring, asked, at, partial(_inside, ring, low, high))
 
 
 def _difference(greater: Bound, smaller: Bound) -> fmpz_mpoly:
@@ -197,7 +197,7 @@ def _inside(ring: Orthant, low: Bound, high: Bound | None, weight: int) -> Ratio
     )
 
 
-def held(ring: Orthant, polynomial: fmpz_mpoly, section: Section) -> fmpz_mpoly:
+def sign_on(ring: Orthant, polynomial: fmpz_mpoly, section: Section) -> fmpz_mpoly:
     """A polynomial in the p with the sign of a polynomial in p and q on a section."""
     values = dict(zip(ring.unknowns, section.values, strict=True))
     for at, value in values.items():

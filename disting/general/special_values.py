@@ -23,7 +23,7 @@ from functools import lru_cache
 from flint import fmpz_mpoly
 
 from disting.algebra.symbols import symbols
-from disting.errors import listed
+from disting.errors import enumeration
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.network.exact import within
@@ -139,7 +139,7 @@ class SpecialValues:
 
     def sentence(self, left: str, right: str) -> str:
         """The same, and where the one that gives more has fewer poles."""
-        where = listed(f"{s.polynomial} = 0" for s in self.lower)
+        where = enumeration(f"{s.polynomial} = 0" for s in self.lower)
         outer = right if self.left_in_right else left
         few = f" {outer} has fewer poles where {where}." if where else ""
         return f"{self.in_short(left, right)}{few}"

@@ -18,7 +18,7 @@ from typing import Any
 
 from disting.general.field import Arithmetic
 from disting.network.element import Element
-from disting.network.graph import joined
+from disting.network.graph import join
 from disting.network.network import Network
 
 THREE = 3
@@ -60,25 +60,25 @@ class Exchange:
         return {**values, **dict(zip(self.names, map(field.short, new), strict=True))}
 
 
-def unbridged(network: Network) -> tuple[Network, tuple[Exchange, ...]]:
+def without_bridges(network: Network) -> tuple[Network, tuple[Exchange, ...]]:
     """The network when each exchange is made that leaves fewer edges once those in series and
     parallel are joined, and the exchanges.
 
     >>> from disting.network.notation import network_of
-    >>> plain, (made,) = unbridged(network_of("C1 1 2; C2 1 3; R1 2 3; R2 2 0; R3 3 0"))
+    >>> plain, (made,) = without_bridges(network_of("C1 1 2; C2 1 3; R1 2 3; R2 2 0; R3 3 0"))
     >>> made.names, made.was_star, [e.nodes for e in plain.elements[2:]]
     (('R1', 'R2', 'R3'), False, [(4, 0), (4, 3), (4, 2)])
     """
     best = min(_exchanged(network), key=lambda made: _edges_left(made[0]), default=None)
     if best is None or _edges_left(best[0]) >= _edges_left(network):
         return network, ()
-    plain, more = unbridged(best[0])
+    plain, more = without_bridges(best[0])
     return plain, (best[1], *more)
 
 
 def _edges_left(network: Network) -> int:
     held = {i for p in network.ports for i in (p.plus, p.minus)}
-    return len(joined([(e.nodes, 1) for e in network.elements], held, sum, sum))
+    return len(join([(e.nodes, 1) for e in network.elements], held, sum, sum))
 
 
 def _exchanged(network: Network) -> Iterator[tuple[Network, Exchange]]:

@@ -18,14 +18,14 @@ from typing import Any, Protocol
 
 from disting.general.field import Arithmetic, Poly
 from disting.network.element import Element
-from disting.network.normal_form import Part, Power, in_parallel, in_series, turned
+from disting.network.normal_form import Part, Power, dual, in_parallel, in_series
 
 Cut = list[tuple[int, ...]]
 """For each branch the positions of its factors."""
-Values = dict[str, Any]
+FieldValues = dict[str, Any]
 
 
-class Shaped(Protocol):
+class BranchShape(Protocol):
     """What branches are shared among: those of one shape are alike."""
 
     @property
@@ -94,14 +94,14 @@ class Share:
     pole: bool
 
 
-def synthesized(
+def synthesize(
     field: Arithmetic,
     tree: Tree,
     top: Poly,
     bottom: Poly,
     kinds: tuple[Power | None, Power | None],
     view: str = "S",
-) -> Iterator[Values]:
+) -> Iterator[FieldValues]:
     """Yield the values at which the tree is top/bottom, one lot for each way to share the terms;
     `kinds`: that of a constant and that of a pole at 0, in `view` "S" of F, "P" of 1/(x F). Raises
     NoFormulas.
@@ -110,14 +110,14 @@ def synthesized(
         yield _value(field, tree.element, view, top, bottom)
         return
     if tree.form != view:
-        yield from synthesized(field, tree, *_inverse(field, top, bottom), kinds, tree.form)
+        yield from synthesize(field, tree, *_inverse(field, top, bottom), kinds, tree.form)
         return
     part, other = kinds if view == "S" else kinds[::-1]
     shares = [_share(t.part, view, part, other) for t in tree.inside]
     _chosen(field, tree.inside, shares)
     for parts in _parted(field, tree.inside, shares, top, bottom):
         pairs = [
-            list(synthesized(field, t, *f, kinds, view))
+            list(synthesize(field, t, *f, kinds, view))
             for t, f in zip(tree.inside, parts, strict=True)
         ]
         for chosen in product(*pairs):
@@ -126,7 +126,7 @@ def synthesized(
 
 def _share(part: Part, view: str, low: Power | None, high: Power | None) -> Share:
     if len(part.kinds) > 1:
-        part = part if part.form == view else turned(part)
+        part = part if part.form == view else dual(part)
     count = sum(n for _, n in part.terms)
     return Share(count, low in part.single, high in part.single)
 
@@ -146,7 +146,7 @@ def _inverse(field: Arithmetic, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
     return bottom, (field.zero, *top)
 
 
-def _value(field: Arithmetic, element: Element, view: str, top: Poly, bottom: Poly) -> Values:
+def _value(field: Arithmetic, element: Element, view: str, top: Poly, bottom: Poly) -> FieldValues:
     """Of a constant top/bottom, or a pole at 0."""
     constant = top[0] / bottom[-1]
     is_inverse = (view == "S") is not element.kind.divides
@@ -173,7 +173,7 @@ def _parted(
         pole = field.short(top[0] / bottom[1])
         left = left[1:]
         rest = field.plus(rest, left, -pole)[1:]
-    for terms in shared(field, [(i, trees[i], shares[i].terms) for i in many], rest, left):
+    for terms in share_terms(field, [(i, trees[i], shares[i].terms) for i in many], rest, left):
         pairs = list[tuple[Poly, Poly]]()
         for i, share in enumerate(shares):
             above, below = terms.get(i, ((), (field.one,)))
@@ -186,8 +186,8 @@ def _parted(
         yield pairs
 
 
-def shared(
-    field: Arithmetic, branches: Sequence[tuple[int, Shaped, int]], top: Poly, bottom: Poly
+def share_terms(
+    field: Arithmetic, branches: Sequence[tuple[int, BranchShape, int]], top: Poly, bottom: Poly
 ) -> Iterator[dict[int, tuple[Poly, Poly]]]:
     """Yield the terms of branches, by their places: of so many terms each."""
     if len(branches) < 2:
@@ -207,7 +207,7 @@ def shared(
 
 
 def _partitions(
-    field: Arithmetic, branches: Sequence[tuple[int, Shaped, int]], bottom: Poly
+    field: Arithmetic, branches: Sequence[tuple[int, BranchShape, int]], bottom: Poly
 ) -> Iterator[tuple[list[Poly], Cut]]:
     """Yield factors of a denominator and which of them each branch has; quadratic ones are split
     where that is needed.

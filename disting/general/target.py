@@ -18,7 +18,7 @@ from operator import add
 from flint import Ordering, fmpq, fmpq_mat, fmpq_poly, fmpz_mpoly_ctx
 
 from disting.algebra.groebner.modular import Sparse
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.general.expansion import Expansion
 from disting.general.expression import names, tree
 from disting.general.matrix_model import AnyModel
@@ -48,7 +48,7 @@ def rational_values(
     foreign = [str(name) for name in values if name not in model.parameters]
     if missing or foreign:
         said = [
-            f"{what} {listed(which)}"
+            f"{what} {enumeration(which)}"
             for what, which in (("no value for", missing), ("no parameter", foreign))
             if which
         ]
@@ -121,7 +121,7 @@ def _fmpq(number: Fraction) -> fmpq:
 def _number(name: str, entry: object) -> Fraction:
     written = tree(entry)
     if any(names(written)):
-        raise InputError(f"the value of {name} is a number, not {shown(entry)}")
+        raise InputError(f"the value of {name} is a number, not {short(entry)}")
     function = Expansion({}, fmpz_mpoly_ctx.get(("one",), Ordering.lex).constant(1)).value(written)
     return Fraction(
         int(function.num.leading_coefficient()) if not function.num.is_zero() else 0,

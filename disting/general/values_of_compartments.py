@@ -17,18 +17,18 @@ from typing import Any
 
 from disting.general.field import Arithmetic, Poly
 from disting.general.model import Model
-from disting.general.synthesis import NoFormulas, Values, shared
+from disting.general.synthesis import FieldValues, NoFormulas, share_terms
 from disting.network.network import Network
 
 NO_TREE = "they are not made of parts that replace each other"
 
 
 @dataclass(frozen=True, slots=True)
-class Hanging:
+class Subtree:
     """A compartment with those behind it."""
 
     node: int
-    inside: tuple["Hanging", ...]
+    inside: tuple["Subtree", ...]
 
     @property
     def count(self) -> int:
@@ -49,7 +49,7 @@ class Sums:
     both: dict[frozenset[int], Any]
 
 
-def values_of_tree(field: Arithmetic, model: Model, network: Network) -> Iterator[Values]:
+def values_of_tree(field: Arithmetic, model: Model, network: Network) -> Iterator[FieldValues]:
     """Yield the values of all flows, for each way to share terms; raises NoFormulas."""
     flows, leaks = _flows(network)
     (enter,), (show,) = network.inputs, network.outputs
@@ -82,11 +82,11 @@ def _flows(network: Network) -> tuple[dict[tuple[int, int], str], dict[int, str]
     return flows, leaks
 
 
-def _hanging(at: int, before: int, near: dict[int, list[int]]) -> Hanging:
-    return Hanging(at, tuple(_hanging(j, at, near) for j in near.get(at, ()) if j != before))
+def _hanging(at: int, before: int, near: dict[int, list[int]]) -> Subtree:
+    return Subtree(at, tuple(_hanging(j, at, near) for j in near.get(at, ()) if j != before))
 
 
-def _sums(field: Arithmetic, tree: Hanging, top: Poly, bottom: Poly) -> Iterator[Sums]:
+def _sums(field: Arithmetic, tree: Subtree, top: Poly, bottom: Poly) -> Iterator[Sums]:
     """Yield d_i and p_ij of a compartment and of all behind it, from G_i times any number."""
     above, below = ([field.short(c / side[-1]) for c in side] for side in (top, bottom))
     out = below[-2] - above[-2] if len(above) > 1 else below[-2]
@@ -94,7 +94,7 @@ def _sums(field: Arithmetic, tree: Hanging, top: Poly, bottom: Poly) -> Iterator
     rest = field.plus((field.zero, *above), tuple(above), out)  # (s + d) N
     rest = field.plus(rest, tuple(below), -field.one)[: len(above) - 1]
     branches = [(at, h, h.count) for at, h in enumerate(tree.inside)]
-    for terms in shared(field, branches, rest, tuple(above)):
+    for terms in share_terms(field, branches, rest, tuple(above)):
         inner_sums = [list(_sums(field, h, *terms[at])) for at, h, _ in branches]
         for chosen in product(*inner_sums):
             sums = Sums({tree.node: out}, {})

@@ -21,20 +21,20 @@ from disting.general.model import Model
 from disting.general.orthant import TooMuch
 from disting.general.powers import placed_network
 from disting.general.replacement import set_of
-from disting.general.star_triangle import Exchange, unbridged
+from disting.general.star_triangle import Exchange, without_bridges
 from disting.general.synthesis import (
+    FieldValues,
     NoFormulas,
     Tree,
-    Values,
     leaf,
     parallel,
     series,
-    synthesized,
+    synthesize,
 )
 from disting.general.values_of_compartments import values_of_tree
 from disting.network.element import Port
-from disting.network.gears import ungeared, units, unknown_ratios
-from disting.network.graph import joined
+from disting.network.gears import units, unknown_ratios, without_gears
+from disting.network.graph import join
 from disting.network.network import Network
 from disting.network.normal_form import Power
 
@@ -74,7 +74,7 @@ def _forms(model: AnyModel, other: AnyModel, field: Field) -> Iterator[ClosedFor
         yield ClosedForm(model.parameters, steps, written, choices=tuple(field.choices))
 
 
-def values_over(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[Values]:
+def values_over(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[FieldValues]:
     """Yield the values of the other network, for each way to share terms among its branches."""
     if other.network is not None and other.network.is_directed and isinstance(model, Model):
         yield from values_of_tree(field, model, other.network.grounded)
@@ -83,7 +83,7 @@ def values_over(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator
     yield from _of_graphs(field, model, other) if ways is None else ways
 
 
-def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[Values]:
+def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[FieldValues]:
     """Of networks without their gears, in the units that these make; ratios of the other network
     that are not known are chosen: 1.
     """
@@ -92,7 +92,7 @@ def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[
     for name, unit in _units(field, model.network, [field[n] for n in ratios]).items():
         known_values[name] = field[name] * unit
     back = _units(field, other.network, [field.one] * len(chosen))
-    (plain, made), (wanted, undone) = unbridged(own_network), unbridged(other_network)
+    (plain, made), (wanted, undone) = without_bridges(own_network), without_bridges(other_network)
     for exchange in made:
         known_values = exchange.forth(field, known_values)
     for values in _of_edges(field, known_values, plain, wanted):
@@ -101,7 +101,7 @@ def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[
         yield in_units | dict.fromkeys(chosen, field.one)
 
 
-def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) -> Values:
+def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) -> FieldValues:
     """Those that gears make, with these values for ratios that are not known."""
     unit_of = dict[str, Any]()
     for name, (number, powers) in (units(network) if network else {}).items():
@@ -115,29 +115,31 @@ def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) ->
 
 def _placed(model: AnyModel) -> tuple[Network, list[str]]:
     """What is seen of a network without gears, and the ratios that are not known."""
-    plain = model.network and ungeared(model.network)
+    plain = model.network and without_gears(model.network)
     if model.network is None or plain is None or plain.is_directed:
         raise NoFormulas("they are not made of parts that replace each other")
     powers = next(iter(model.entries)).powers
     return placed_network(plain, powers).grounded, unknown_ratios(model.network)
 
 
-def _of_one_port(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[Values] | None:
+def _of_one_port(
+    field: Arithmetic, model: AnyModel, other: AnyModel
+) -> Iterator[FieldValues] | None:
     """Of two one-ports of two kinds, None of others."""
     full_set = set_of(model)
     if full_set is None or full_set != set_of(other) or not isinstance(model, Model):
         return None
-    plain, exchanges = unbridged(_placed(other)[0])
+    plain, exchanges = without_bridges(_placed(other)[0])
     edges = _edges(plain)
     if len(edges) != 1:
         return None
     (tree,) = edges.values()
     low, high = sorted(full_set[1].kinds)
-    every = synthesized(field, tree, *function_of(field, model, low, high), (low, high))
+    every = synthesize(field, tree, *function_of(field, model, low, high), (low, high))
     return (_before(field, exchanges, values) for values in every)
 
 
-def _before(field: Arithmetic, exchanges: Sequence[Exchange], values: Values) -> Values:
+def _before(field: Arithmetic, exchanges: Sequence[Exchange], values: FieldValues) -> FieldValues:
     """The values before all exchanges; what is chosen of one of three elements is so of all."""
     for exchange in reversed(exchanges):
         values = exchange.back(field, values)
@@ -147,7 +149,7 @@ def _before(field: Arithmetic, exchanges: Sequence[Exchange], values: Values) ->
 
 def _edges(plain: Network) -> Edges:
     held = {i for p in plain.ports for i in (p.plus, p.minus)}
-    return joined([(e.nodes, leaf(e)) for e in plain.elements], held, series, parallel)
+    return join([(e.nodes, leaf(e)) for e in plain.elements], held, series, parallel)
 
 
 def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tuple[Poly, Poly]:
@@ -170,8 +172,8 @@ def function_of(field: Arithmetic, model: Model, low: Power, high: Power) -> tup
 
 
 def _of_edges(
-    field: Arithmetic, entry: Values, network: Network, other: Network
-) -> Iterator[Values]:
+    field: Arithmetic, entry: FieldValues, network: Network, other: Network
+) -> Iterator[FieldValues]:
     """Of networks that are one graph with parts at the edges, matched in the first way that gives
     formulas; `entry`: the given values.
     """
@@ -223,12 +225,12 @@ def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
     return graph
 
 
-def _of_part(field: Arithmetic, entry: Values, tree: Tree, other: Tree) -> list[Values]:
+def _of_part(field: Arithmetic, entry: FieldValues, tree: Tree, other: Tree) -> list[FieldValues]:
     """The values of one part in those of another one of the same set."""
     if len(tree.part.kinds) <= TWO:
         low, *more = sorted(tree.part.kinds)
         kinds = low, more[0] if more else None
-        return list(synthesized(field, other, *_composed(field, entry, tree, low), kinds))
+        return list(synthesize(field, other, *_composed(field, entry, tree, low), kinds))
     pairs = _paired(tree, other)
     the_pairs = [_of_part(field, entry, a, b) for a, b in pairs]
     return [
@@ -250,7 +252,7 @@ def _paired(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
     return pairs
 
 
-def _composed(field: Arithmetic, entry: Values, tree: Tree, low: Power) -> tuple[Poly, Poly]:
+def _composed(field: Arithmetic, entry: FieldValues, tree: Tree, low: Power) -> tuple[Poly, Poly]:
     """F(x) of branches of two kinds, of which one has the power `low`."""
     zero, unit = field.zero, field.one
     if tree.element is not None:

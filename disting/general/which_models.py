@@ -12,14 +12,20 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice
 
-from disting.general.cases import orders, searched
+from disting.general.cases import orders, search_cases
 from disting.general.counts import at_roots, number_of_roots
 from disting.general.elimination import Case
 from disting.general.intermediate_value import Path, by_count, odd_path, path, without_equations
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import BRIEF, THOROUGH, Effort, Orthant, TooMuch
-from disting.general.robust import Parted, Point, having, lacking, searched_cases
-from disting.general.sections import Section, cover, held, sections
+from disting.general.robust import (
+    CaseSearch,
+    ParameterValues,
+    find_equivalent,
+    has_none,
+    searched_cases,
+)
+from disting.general.sections import Section, cover, sections, sign_on
 from disting.model.question import Domain
 
 FEW = 5  # orders of the unknowns
@@ -33,7 +39,7 @@ class Way:
 
     given: AnyModel
     other: AnyModel
-    parted: Parted
+    parted: CaseSearch
     covering: tuple[Section, ...]
 
     @property
@@ -68,7 +74,7 @@ class Way:
         """An equivalent (rounded) of a point around which all have some, as far as is seen."""
         self.parted.search.ring.begin()
         try:
-            return having(self.parted, self._point(values))
+            return find_equivalent(self.parted, self._point(values))
         except TooMuch:
             return None
 
@@ -76,11 +82,11 @@ class Way:
         """Whether no point around this one has an equivalent, as far as is seen."""
         self.parted.search.ring.begin()
         try:
-            return lacking(self.parted, self._point(values))
+            return has_none(self.parted, self._point(values))
         except TooMuch:
             return False
 
-    def _point(self, values: dict[str, Fraction]) -> Point:
+    def _point(self, values: dict[str, Fraction]) -> ParameterValues:
         return {i: values[name] for i, name in enumerate(self.given.parameters)}
 
 
@@ -104,7 +110,7 @@ def way(model: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THORO
     sizes = len(model.parameters), len(other.parameters)
     if effort.unknowns is not None and max(sizes) > effort.unknowns:
         return None
-    ring, best = Orthant(*sizes, domain, effort=effort), list[Parted]()
+    ring, best = Orthant(*sizes, domain, effort=effort), list[CaseSearch]()
     for count, order in enumerate(islice(orders(ring.unknowns), effort.orders)):
         ring.begin()
         try:
@@ -121,7 +127,7 @@ def way(model: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THORO
     return Way(model, other, left, _covering(left))
 
 
-def ways_again(model: AnyModel, other: AnyModel, domain: Domain) -> Iterator[Way]:
+def ways_by_all(model: AnyModel, other: AnyModel, domain: Domain) -> Iterator[Way]:
     """Yield what is known one way by each effort: what one of them found the other one may not, as
     it solves in another order.
     """
@@ -131,7 +137,7 @@ def ways_again(model: AnyModel, other: AnyModel, domain: Domain) -> Iterator[Way
             yield the_way
 
 
-def _with_roots(parted: Parted) -> Parted:
+def _with_roots(parted: CaseSearch) -> CaseSearch:
     """The same without cases that have no root, inequalities as they are at the roots."""
     search, kept = parted.search, list[Case]()
     for left in parted.others:
@@ -147,7 +153,7 @@ def _with_roots(parted: Parted) -> Parted:
     return replace(parted, others=tuple(kept))
 
 
-def _has_single_roots(parted: Parted) -> bool:
+def _has_single_roots(parted: CaseSearch) -> bool:
     ring = parted.search.ring
     return all(
         len(c.equations) == len(ring.occurring((*c.equations, *c.positive))) == 1
@@ -155,15 +161,15 @@ def _has_single_roots(parted: Parted) -> bool:
     )
 
 
-def _left(parted: Parted) -> tuple[int, int]:
+def _left(parted: CaseSearch) -> tuple[int, int]:
     ring = parted.search.ring
     return len(parted.others), sum(
         len(ring.occurring((*c.equations, *c.positive))) for c in parted.others
     )
 
 
-def _parted(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]) -> Parted:
-    search = searched(ring, model, other, order)
+def _parted(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]) -> CaseSearch:
+    search = search_cases(ring, model, other, order)
     the_sections, others = list[Section](), list[Case]()
     for case in search.cases:
         if case.equations:
@@ -172,10 +178,10 @@ def _parted(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, .
             parts, left = sections(search, case)
             the_sections += parts
             others += left
-    return Parted(search, tuple(the_sections), tuple(others), ring.lead(other))
+    return CaseSearch(search, tuple(the_sections), tuple(others), ring.lead(other))
 
 
-def _covering(parted: Parted) -> tuple[Section, ...]:
+def _covering(parted: CaseSearch) -> tuple[Section, ...]:
     """Sections that cover all generic p, none if these do not or a polynomial is too large to tell.
 
     At a section lead(q) and, over positive numbers, the values are not zero for generic p (see
@@ -189,13 +195,13 @@ def _covering(parted: Parted) -> tuple[Section, ...]:
     ]
     try:
         every = (*parted.sections, *_by_choice(parted))
-        good = [s for s in every if not any(held(ring, g, s).is_zero() for g in asked)]
+        good = [s for s in every if not any(sign_on(ring, g, s).is_zero() for g in asked)]
         return next(((s,) for s in good if not s.where), tuple(good)) if cover(ring, good) else ()
     except TooMuch:
         return ()
 
 
-def _by_choice(parted: Parted) -> Iterator[Section]:
+def _by_choice(parted: CaseSearch) -> Iterator[Section]:
     """Sections for all p from cases that could not be written as sections wholly."""
     ring = parted.search.ring
     for case in parted.others:

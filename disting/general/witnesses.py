@@ -18,8 +18,8 @@ from disting.evidence.general import Inequality, Witnesses
 from disting.evidence.kind import PointText
 from disting.general import fibre_lists, newton
 from disting.general.combination import excludes, is_tried
-from disting.general.equivalent import spelled
-from disting.general.fibre import Extent, solved
+from disting.general.equivalent import spell
+from disting.general.fibre import Extent, solve
 from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
@@ -72,10 +72,10 @@ def by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesse
     """
     having, lacking = list[Example](), list[Example]()
     for left_given, model, other, values in _in_turn(left, right, seed, count):
-        the_values = fibre_lists.having(model, values, other)
+        the_values = fibre_lists.find_equivalent(model, values, other)
         if the_values:
             having.append(example(left_given, values, other, the_values))
-        elif fibre_lists.lacking(model, values, other):
+        elif fibre_lists.has_none(model, values, other):
             lacking.append(example(left_given, values))
         if having and lacking:
             return witnesses_of(left, right, having[0], lacking[0], Domain.POSITIVE)
@@ -122,7 +122,7 @@ def by_numbers(
     if having is None:
         return None
     for left_given, model, other, values in _in_turn(left, right, seed, count):
-        if not is_tried(other) or newton.having(model, values, other):
+        if not is_tried(other) or newton.find_equivalent(model, values, other):
             continue
         if excludes(model, values, other, degree):
             lacking = example(left_given, values)
@@ -137,7 +137,7 @@ def common_point(left: AnyModel, right: AnyModel, starts: int = STARTS) -> Examp
         return None
     for left_given, values, near in common_points(left, right, starts):
         model, other = (left, right) if left_given else (right, left)
-        the_values = newton.having(model, values, other, near)
+        the_values = newton.find_equivalent(model, values, other, near)
         if the_values:
             return example(left_given, values, other, the_values)
     return None
@@ -159,7 +159,7 @@ def _count(model: AnyModel, other: AnyModel, point: PointText) -> int:
         return -2
     goal = target(model, rational_values(model, dict(point)))
     try:
-        fibre = solved(fibre_equations(goal, other), other.parameters, "count", Bounds())
+        fibre = solve(fibre_equations(goal, other), other.parameters, "count", Bounds())
     except TooLarge:
         return -2
     return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(fibre.extent, len(fibre.equivalents))
@@ -173,5 +173,5 @@ def example(
 ) -> Example:
     """A point of the left model or the right one, with its rounded equivalent in the other one."""
     names = other.parameters if other else ()
-    near = ((name, spelled(x)) for name, x in zip(names, equivalent, strict=True))
+    near = ((name, spell(x)) for name, x in zip(names, equivalent, strict=True))
     return left_given, tuple((name, str(x)) for name, x in values.items()), tuple(near)

@@ -26,7 +26,7 @@ from disting.measurement.repeats import are_opposite as are_opposite, mean_of as
 from disting.measurement.response import FrequencyResponse as FrequencyResponse, Signal as Signal
 from disting.measurement.scaling import in_si as in_si
 from disting.measurement.time_series import TimeSeries as TimeSeries
-from disting.model.presentation import offered as _offered
+from disting.model.presentation import public_names as _offered
 
 
 def __dir__() -> list[str]:

@@ -51,11 +51,11 @@ def nearest(ordered: Real, wanted: Real) -> NDArray[np.intp]:
     return np.where(wanted - ordered[above - 1] <= ordered[above] - wanted, above - 1, above)
 
 
-def evenly(ordered: Real, count: int) -> NDArray[np.intp]:
+def spread(ordered: Real, count: int) -> NDArray[np.intp]:
     """Indices, rising and all different, of `count` of the rising numbers `ordered`, as near as can
     be to numbers spaced evenly over their range.
 
-    >>> evenly(np.array([0.0, 5.0, 6.0, 7.0, 8.0, 9.0]), 4).tolist()
+    >>> spread(np.array([0.0, 5.0, 6.0, 7.0, 8.0, 9.0]), 4).tolist()
     [0, 1, 2, 5]
     """
     steps = np.arange(count)
@@ -65,7 +65,7 @@ def evenly(ordered: Real, count: int) -> NDArray[np.intp]:
     return np.minimum(apart, len(ordered) - count + steps)
 
 
-def applied(function: Callable[[Real], Real], array: Real | None) -> Real | None:
+def apply(function: Callable[[Real], Real], array: Real | None) -> Real | None:
     """The function's value, or None for None."""
     return None if array is None else function(array)
 

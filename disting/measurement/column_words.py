@@ -95,7 +95,7 @@ def meaning(header: str) -> Column:
     >>> meaning("f [Furlong]").unknown, meaning("Amplitude (Vpp)").role.value
     ('Furlong', 'level of a signal')
     """
-    name, stated = parted(header)
+    name, stated = split_unit(header)
     role = _role(name) or _role_of_unit(stated or header)
     if LOGARITHM.search(header) and Role.FREQUENCY in (role, _role(stated or "")):
         return Column(Role.FREQUENCY, unknown=header.strip())
@@ -115,10 +115,10 @@ def meaning(header: str) -> Column:
     return _with_unit(role, stated, name)
 
 
-def parted(header: str) -> tuple[str, str | None]:
+def split_unit(header: str) -> tuple[str, str | None]:
     """Name of a column and the unit that is stated behind it, None where there is none.
 
-    >>> parted("Gain (rad/s^2/(Nm))"), parted("f/Hz"), parted("Re G_mot")
+    >>> split_unit("Gain (rad/s^2/(Nm))"), split_unit("f/Hz"), split_unit("Re G_mot")
     (('Gain', 'rad/s^2/(Nm)'), ('f', 'Hz'), ('Re G_mot', None))
     """
     text = header.strip()

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.column_words import Column, Role, meaning
 from disting.measurement.response import ASSUMED_ACCELERATION
 from disting.measurement.table import Table
@@ -112,7 +112,7 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
     return the_groups
 
 
-def chosen(
+def choose(
     table: Table, columns: list[Column], the_groups: Sequence[Group], asked: str | int | None
 ) -> Group:
     """The first response, or that of the column asked for; one that belongs to none is taken as
@@ -127,11 +127,11 @@ def chosen(
         columns[at] = Column(Role.GAIN, columns[at].unit, columns[at].unknown)
         return Group({Role.GAIN: at, Role.PHASE: next((i for i in phases if i > at), phases[-1])})
     if own is None:
-        firsts = listed(table.named(group.first) for group in the_groups)
+        firsts = enumeration(table.named(group.first) for group in the_groups)
         raise misread(
             table,
             columns,
-            f"{table.origin}: column {shown(asked)} belongs to no response; responses begin at"
+            f"{table.origin}: column {short(asked)} belongs to no response; responses begin at"
             f" {firsts}",
         )
     return own
@@ -204,7 +204,7 @@ def _word(column: Column) -> str:
 
 def _given(table: Table, asked: Sequence[str]) -> list[Column]:
     if not isinstance(asked, Sequence):
-        raise InputError(f"columns are named by words, not by {shown(asked)}")
+        raise InputError(f"columns are named by words, not by {short(asked)}")
     words = [asked] if isinstance(asked, str) else list(asked)
     if len(words) != len(table.headers):
         raise InputError(
@@ -215,7 +215,7 @@ def _given(table: Table, asked: Sequence[str]) -> list[Column]:
 
 def _of_word(word: str) -> Column:
     if not isinstance(word, str):
-        raise InputError(f"columns are named by words, not by {shown(word)}")
+        raise InputError(f"columns are named by words, not by {short(word)}")
     if word in WORDS:
         return WORDS[word]
     for role, kind in ((Role.GAIN, LEVELS[1:]), (Role.PHASE, PHASES)):
@@ -223,10 +223,10 @@ def _of_word(word: str) -> Column:
         if unit is not None:
             return Column(role, unit)
     if omega_per(word) is None:
-        kinds = listed((*FREQUENCIES, *LEVELS[1:], *PHASES))
+        kinds = enumeration((*FREQUENCIES, *LEVELS[1:], *PHASES))
         raise InputError(
             f"columns are named by {', '.join(WORDS)}, or by the unit of a frequency, gain or"
-            f" phase ({kinds}); {shown(word)} is none"
+            f" phase ({kinds}); {short(word)} is none"
         )
     return Column(Role.FREQUENCY, word)
 

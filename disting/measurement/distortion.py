@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.measurement.arrays import Complex, Real, applied
+from disting.measurement.arrays import Complex, Real, apply
 from disting.model.presentation import plural, summary
 
 ROUNDING = 1e-9  # share of the response that is not worth a word
@@ -58,7 +58,7 @@ class Distortion:
     def times(self, factor: Real | float) -> "Distortion":
         """The same in another unit."""
         return replace(
-            self, level=self.level * factor, noise=applied(lambda noise: noise * factor, self.noise)
+            self, level=self.level * factor, noise=apply(lambda noise: noise * factor, self.noise)
         )
 
 

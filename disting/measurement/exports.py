@@ -18,7 +18,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.table import Table
 
 NAME, RATE, UNIT = "Name", "SampleTime[ms]", "Unit"
@@ -28,7 +28,7 @@ NO_UNIT = "(None)"
 QUANTITY = re.compile(r"\s*\([^()]*\)$")  # behind a unit: dV (Voltage)
 
 
-def exported(text: str, origin: str) -> Table | None:
+def read_export(text: str, origin: str) -> Table | None:
     """The table of an export, its time first; None for any other text. Raises InputError for a
     sample that is no number, and for what has no sample time.
     """
@@ -64,7 +64,7 @@ def _left_out(rows: dict[str, list[str]], kept: list[int]) -> str:
     """The channels of other sample times."""
     rates = rows[RATE]
     others = [f"{_header(rows, j)} (each {r} ms)" for j, r in _sampled(rates) if j not in kept]
-    return f"left out: {listed(others)}, not each {rates[kept[0]]} ms" if others else ""
+    return f"left out: {enumeration(others)}, not each {rates[kept[0]]} ms" if others else ""
 
 
 def _sampled(rates: list[str]) -> list[tuple[int, str]]:
@@ -126,4 +126,4 @@ def _numbers(row: list[str], columns: list[int], where: str, mark: str) -> Itera
         try:
             yield float(cell if mark == "," else cell.replace(",", "."))
         except ValueError:
-            raise InputError(f"{where}, column {j + 1}: {shown(cell)} is no number") from None
+            raise InputError(f"{where}, column {j + 1}: {short(cell)} is no number") from None

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.files import write_whole
 from disting.measurement.formats import FORMATS, Format, Options, Records, format_of
 from disting.measurement.response import FrequencyResponse, Signal
@@ -181,9 +181,9 @@ def _signals(file: Source, records: Records, entry: Options) -> tuple[Options, t
     if entry.keys() & {"input", "output"}:
         raise InputError(
             f"{file.name}: a time series has an input and an output, give both; there are"
-            f" {listed(sorted(names))}"
+            f" {enumeration(sorted(names))}"
         )
-    input, output, note = guessed((name for name in names if name), file.name)
+    input, output, note = guess((name for name in names if name), file.name)
     return entry | {"input": input, "output": output}, (note,)
 
 
@@ -229,11 +229,11 @@ ASKED_FOR = {"ref", "reference", "set", "setpoint", "cmd", "command", "desired",
 CLOCKS = {"t", "time", "zeit", "timestamp"}
 
 
-def guessed(names: Iterable[str], origin: str) -> tuple[str, str, str]:
+def guess(names: Iterable[str], origin: str) -> tuple[str, str, str]:
     """Names of input and output, and a note that says so; raises InputError listing the names
     where more or fewer fit.
 
-    >>> guessed(["t", "iq [A]", "iq_ref", "theta"], "a.csv")[:2]
+    >>> guess(["t", "iq [A]", "iq_ref", "theta"], "a.csv")[:2]
     ('iq [A]', 'theta')
     """
     own_names = list(names)
@@ -247,7 +247,7 @@ def guessed(names: Iterable[str], origin: str) -> tuple[str, str, str]:
     if len(inputs) != 1 or len(outputs) != 1 or inputs == outputs:
         raise InputError(
             f"{origin}: which signal is the input, which the output? give --read"
-            f" input=NAME --read output=NAME; there are {listed(sorted(own_names))}"
+            f" input=NAME --read output=NAME; there are {enumeration(sorted(own_names))}"
         )
     return (
         inputs[0],

@@ -8,18 +8,18 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.measurement.column_words import Role, meaning
-from disting.measurement.exports import exported
+from disting.measurement.exports import read_export
 from disting.measurement.impedance import is_impedance, read_impedance
 from disting.measurement.matlab import responses, variables
-from disting.measurement.matlab_models import chosen_response, from_stored
+from disting.measurement.matlab_models import chosen_response, from_object
 from disting.measurement.response import FrequencyResponse
-from disting.measurement.sinumerik import traced
+from disting.measurement.sinumerik import read_trace
 from disting.measurement.source import Source
 from disting.measurement.table import Table, is_time, time_series
 from disting.measurement.tabular import frequency_response, response_columns
-from disting.measurement.text_table import decoded, table
+from disting.measurement.text_table import decode, table
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.uff import read_uff
 from disting.measurement.variables import (
@@ -29,8 +29,8 @@ from disting.measurement.variables import (
     from_variables,
     holds_frequencies,
     holds_response,
-    indexed,
     series_from_variables,
+    split_index,
 )
 
 T = TypeVar("T")
@@ -85,7 +85,7 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
     """A response object where one is asked for, or where no variables make up a response; else
     variables.
     """
-    asked, index = indexed(options.get("response"))
+    asked, index = split_index(options.get("response"))
     arrays, stored = variables(file), responses(file)
     if asked in stored or (
         stored and (asked not in arrays if asked else not holds_response(arrays))
@@ -94,14 +94,14 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
         rest = {key: value for key, value in options.items() if key != "response"} | (
             {"index": index} if index else {}
         )
-        return checked(from_stored, rest, file)(stored[name], name, file.name, **rest)
-    return checked(from_variables, options, file)(arrays, file.name, **options)
+        return check(from_object, rest, file)(stored[name], name, file.name, **rest)
+    return check(from_variables, options, file)(arrays, file.name, **options)
 
 
 def _matlab_series(
     file: Source, input: str | int, output: str | int, options: Options
 ) -> TimeSeries:
-    read = checked(series_from_variables, options, file)
+    read = check(series_from_variables, options, file)
     return read(variables(file), file.name, str(input), str(output), **options)
 
 
@@ -118,7 +118,7 @@ def _is_universal(file: Source, head: bytes) -> bool:
 
 
 def _from_universal(file: Source, options: Options) -> FrequencyResponse:
-    return checked(read_uff, options, file)(file, **options)
+    return check(read_uff, options, file)(file, **options)
 
 
 def _from_impedance(file: Source, *, sensor: str = "") -> FrequencyResponse:
@@ -127,12 +127,12 @@ def _from_impedance(file: Source, *, sensor: str = "") -> FrequencyResponse:
 
 
 def _table(file: Source) -> Table:
-    text = decoded(file.content, file.name)
-    return exported(text, file.name) or traced(text, file.name) or table(text, file.name)
+    text = decode(file.content, file.name)
+    return read_export(text, file.name) or read_trace(text, file.name) or table(text, file.name)
 
 
 def _from_text(file: Source, options: Options) -> FrequencyResponse:
-    return checked(frequency_response, options, file)(_table(file), **options)
+    return check(frequency_response, options, file)(_table(file), **options)
 
 
 def _begin(file: Source, columns: Sequence[str] | None) -> tuple[int, ...]:
@@ -140,7 +140,7 @@ def _begin(file: Source, columns: Sequence[str] | None) -> tuple[int, ...]:
 
 
 def _text_series(file: Source, input: str | int, output: str | int, options: Options) -> TimeSeries:
-    return checked(time_series, options, file)(_table(file), input, output, **options)
+    return check(time_series, options, file)(_table(file), input, output, **options)
 
 
 def _is_text_record(file: Source, options: Options) -> bool:
@@ -153,7 +153,7 @@ def _is_text_record(file: Source, options: Options) -> bool:
     )
 
 
-def checked(reader: Callable[..., T], options: Options, file: Source) -> Callable[..., T]:
+def check(reader: Callable[..., T], options: Options, file: Source) -> Callable[..., T]:
     """The reader, if it knows all these options; else InputError, naming those that it knows."""
     names = {
         p.name for p in inspect.signature(reader).parameters.values() if p.kind is p.KEYWORD_ONLY
@@ -161,7 +161,7 @@ def checked(reader: Callable[..., T], options: Options, file: Source) -> Callabl
     unknown = sorted(set(options) - names)
     if unknown:
         raise InputError(
-            f"{file.name}: unknown option {listed(unknown)}; known for this format:"
+            f"{file.name}: unknown option {enumeration(unknown)}; known for this format:"
             f" {', '.join(sorted(names))}"
         )
     return reader
@@ -177,7 +177,7 @@ FORMATS = (
     Format(
         name="impedance",
         fits=is_impedance,
-        response=lambda file, options: checked(_from_impedance, options, file)(file, **options),
+        response=lambda file, options: check(_from_impedance, options, file)(file, **options),
     ),
     Format(name="universal", fits=_is_universal, response=_from_universal),
     Format(

@@ -13,7 +13,7 @@ import numpy as np
 from disting.errors import InputError
 from disting.measurement.response import FrequencyResponse, Signal
 from disting.measurement.source import Source
-from disting.measurement.text_table import decoded
+from disting.measurement.text_table import decode
 from disting.model.chain import Sensor
 
 HEADS = (b"ZPLOT", b"EXPLAIN", b"EC-Lab ASCII")
@@ -34,7 +34,7 @@ def read_impedance(file: Source) -> FrequencyResponse:
     """The impedance in a file [V/A], as the response of a circuit: the voltage is what a position
     is to a machine. Raises InputError.
     """
-    lines = decoded(file.content, file.name).splitlines()
+    lines = decode(file.content, file.name).splitlines()
     headed = ((n, at) for n, line in enumerate(lines) if (at := _columns(_cells(line))))
     start, at = next(headed, (0, ()))
     if not at:

@@ -58,7 +58,7 @@ class Variable:
     def matrix(self, take: Take) -> Bytes:
         """The matrix's elements, unpacked; raises InputError where they are too large."""
         take(self.name, self.size)
-        return _matrix(unpacked(self.body, self.order)) if self.compressed else self.body
+        return _matrix(unpack(self.body, self.order)) if self.compressed else self.body
 
 
 def is_version_5(content: bytes) -> bool:
@@ -74,10 +74,10 @@ def matrices(content: Bytes, order: str, start: int, take: Take) -> Iterator[Byt
         if kind == COMPRESSED:
             take("the objects", _said(zlib.decompressobj().decompress(body, HEAD), order))
         if kind in (MATRIX, COMPRESSED):
-            yield body if kind == MATRIX else _matrix(unpacked(body, order))
+            yield body if kind == MATRIX else _matrix(unpack(body, order))
 
 
-def unpacked(body: Bytes, order: str) -> bytes:
+def unpack(body: Bytes, order: str) -> bytes:
     """A compressed element, as many bytes as its header says at most."""
     packer = zlib.decompressobj()
     head = packer.decompress(body, HEAD)

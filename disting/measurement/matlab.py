@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError
 from disting.measurement import mat5, mat5_objects
-from disting.measurement.matlab_models import Stored, stored_responses
+from disting.measurement.matlab_models import ResponseObject, stored_responses
 from disting.measurement.source import Allowance, Source, Take
 from disting.measurement.variables import Arrays
 
@@ -140,7 +140,7 @@ def variables(file: Source) -> Arrays:
     return {name: partial(_loaded, file, name) for name in _listed(file)}
 
 
-def responses(file: Source) -> dict[str, Stored]:
+def responses(file: Source) -> dict[str, ResponseObject]:
     """The frequency responses that a file keeps as objects, by name; raises InputError where they
     unpack to more than 512 MB.
     """

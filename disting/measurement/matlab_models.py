@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement import mat5
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.mat5_objects import OBJECT, STRUCT, Objects, Reference, objects, tree
@@ -28,7 +28,7 @@ DEFAULT_UNIT = "rad/TimeUnit"  # of MATLAB, where an object names none
 
 
 @dataclass(frozen=True, eq=False)
-class Stored:
+class ResponseObject:
     """A response object: frequencies, shape (n_f,), in `unit`; response, shape (n_y, n_u, n_f);
     dead times [s], (n_y, n_u).
 
@@ -62,11 +62,11 @@ class Stored:
         return chosen[0], chosen[1]
 
 
-def stored_responses(content: bytes, take: Take) -> dict[str, Stored]:
+def stored_responses(content: bytes, take: Take) -> dict[str, ResponseObject]:
     """The response objects of a MATLAB file of version 5 to 7 by name, `frf.Pv` where a struct
     holds them.
     """
-    stored = dict[str, Stored]()
+    stored = dict[str, ResponseObject]()
     try:
         subsystem = objects(content, take)
     except mat5.DAMAGE:
@@ -82,8 +82,8 @@ def stored_responses(content: bytes, take: Take) -> dict[str, Stored]:
     return stored
 
 
-def from_stored(
-    stored_response: Stored,
+def from_object(
+    stored_response: ResponseObject,
     name: str,
     origin: str,
     *,
@@ -120,23 +120,23 @@ def from_stored(
     return chosen.noted(assumed).doubted(*([noted] if noted else [])).read_as(words)
 
 
-def chosen_response(stored: Mapping[str, Stored], asked: str | None, origin: str) -> str:
+def chosen_response(stored: Mapping[str, ResponseObject], asked: str | None, origin: str) -> str:
     """The name asked for, or the only one; raises InputError listing them."""
     if asked in stored:
         return str(asked)
     if asked is None and len(stored) == 1:
         return next(iter(stored))
     wrong = (
-        f"has no frequency response {shown(asked)}"
+        f"has no frequency response {short(asked)}"
         if asked
         else "holds several frequency responses"
     )
     raise InputError(
-        f"{origin} {wrong}; choose one by --read response=NAME: {listed(sorted(stored))}"
+        f"{origin} {wrong}; choose one by --read response=NAME: {enumeration(sorted(stored))}"
     )
 
 
-def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, Stored]:
+def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, ResponseObject]:
     """Responses in a variable and in the fields of structs; objects in objects are not looked
     for.
     """
@@ -163,7 +163,7 @@ def _properties(of: Reference, subsystem: Objects | None) -> dict[str, Any]:
     return (subsystem.properties(data) if isinstance(data, Reference) else {}) | outer
 
 
-def _response(held: Mapping[str, Any]) -> Stored | None:
+def _response(held: Mapping[str, Any]) -> ResponseObject | None:
     """The response that an object, or a struct of its form, holds; None where it holds none."""
     frequency, response = held.get("Frequency"), held.get("Response", held.get("ResponseData"))
     if (
@@ -180,7 +180,7 @@ def _response(held: Mapping[str, Any]) -> Stored | None:
         for name in ("FrequencyUnit", "FreqUnits", "Units")
         if isinstance(held.get(name), str) and held[name]
     ]
-    return Stored(
+    return ResponseObject(
         real_part(frequency, "the frequencies of an object").ravel(),
         _in_seconds(units[0] if units else DEFAULT_UNIT, held.get("TimeUnit")),
         response.reshape(shape).astype(np.complex128),

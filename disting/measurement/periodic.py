@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import distortion
-from disting.measurement.repeats import left_out
+from disting.measurement.repeats import leave_out
 from disting.measurement.response import FrequencyResponse
 from disting.model.presentation import plural
 
@@ -60,7 +60,7 @@ def estimate(
     )
     spacing = rate / length
     chosen = (
-        excited(np.abs(exciting.mean(axis=0)))
+        excited_lines(np.abs(exciting.mean(axis=0)))
         if lines is None
         else _given(lines, spacing, inputs.shape[1])
     )
@@ -111,7 +111,7 @@ def detected_period(u: Real) -> int:
     return next((lag for lag in shorter if lag > first and likeness[lag] >= enough), best)
 
 
-def excited(amplitude: Real) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def excited_lines(amplitude: Real) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Indices of the excited lines of an amplitude spectrum, shape (n,): those above its widest
     gap.
 
@@ -176,7 +176,7 @@ def _mean(inputs: Complex, outputs: Complex, omega: Real, outliers: str) -> Freq
     with np.errstate(divide="ignore", invalid="ignore"):
         each = outputs / inputs
     names = [f"period {i}" for i in range(1, periods + 1)]
-    kept, said, doubts = left_out(each, names, omega, outliers)
+    kept, said, doubts = leave_out(each, names, omega, outliers)
     count = kept.sum(axis=0)
     mean = outputs.mean(axis=0, where=kept) / inputs.mean(axis=0, where=kept)
     deviation = np.std(each, axis=0, ddof=1, where=kept) / np.sqrt(count)
@@ -198,5 +198,5 @@ def _mean(inputs: Complex, outputs: Complex, omega: Real, outliers: str) -> Freq
 
 def _whole(value: int, name: str, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
-        raise InputError(f"{name} is a whole number of at least {least}, not {shown(value)}")
+        raise InputError(f"{name} is a whole number of at least {least}, not {short(value)}")
     return int(value)

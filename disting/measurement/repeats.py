@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Complex, Real, nearest
 from disting.measurement.response import FrequencyResponse
 
@@ -45,7 +45,7 @@ AGAINST = -0.5
 SAME = 1e-6  # relative distance of two frequencies that count as one
 
 
-def outlying(values: Complex) -> Mask:
+def find_outliers(values: Complex) -> Mask:
     """Which of n measurements are none of the others at which lines, shape (n, n_f) as `values`."""
     n, lines = values.shape
     if n < LEAST or not lines:
@@ -58,7 +58,7 @@ def outlying(values: Complex) -> Mask:
     return np.asarray(single | whole[:, None])
 
 
-def left_out(
+def leave_out(
     values: Complex, names: Sequence[str], omega: Real, outliers: str
 ) -> tuple[Mask, tuple[str, ...], tuple[str, ...]]:
     """What of n measurements is averaged, shape (n, n_f), and what is said of outliers among them:
@@ -66,22 +66,22 @@ def left_out(
     others are left. Raises InputError for another choice.
     """
     if outliers not in CHOICES:
-        raise InputError(f"--outliers is {' or '.join(CHOICES)}, not {shown(outliers)}")
-    the_values = outlying(values)
+        raise InputError(f"--outliers is {' or '.join(CHOICES)}, not {short(outliers)}")
+    the_values = find_outliers(values)
     kept, said = np.ones_like(the_values), [_where(row, omega) for row in the_values]
     named = [f"{name} at {at}" for name, at in zip(names, said, strict=True) if at]
     if not named:
         return kept, (), ()
     if outliers == "drop":
         enough = len(values) - the_values.sum(axis=0) >= LEAST - 1
-        note = f"left out, as no other measurement is like it: {listed(named)}"
+        note = f"left out, as no other measurement is like it: {enumeration(named)}"
         return ~(the_values & enough), (note,), ()
     return (
         kept,
         (),
         (
-            f"{listed(named)}: not like the other measurements, by more than they scatter; it is in"
-            " the mean: look at it, or leave it out with --outliers drop",
+            f"{enumeration(named)}: not like the other measurements, by more than they scatter; it"
+            " is in the mean: look at it, or leave it out with --outliers drop",
         ),
     )
 
@@ -112,7 +112,7 @@ def _where(row: Mask, omega: Real) -> str:
 def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> FrequencyResponse:
     """Mean of n responses at the same frequencies, with deviation = sqrt(sum |G_i - G|^2 / (n - 1)
     / n), that of the mean. `outliers` among three or more are named; "drop" leaves them out
-    (`outliers.left_out`).
+    (`outliers.leave_out`).
 
     Raises InputError where frequencies or sensor quantities differ.
 
@@ -128,7 +128,7 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         return first
     values = np.stack([response.G for response in repeats])
     names = [response.origin or f"repeat {i}" for i, response in enumerate(repeats, 1)]
-    kept, notes, outlying = left_out(values, names, first.omega, outliers)
+    kept, notes, outlying = leave_out(values, names, first.omega, outliers)
     count = kept.sum(axis=0)
     deviation = np.std(values, axis=0, ddof=1, where=kept) / np.sqrt(count)
     mean = replace(

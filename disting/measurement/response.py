@@ -8,24 +8,24 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.measurement import checks
 from disting.measurement.arrays import (
     Complex,
     Real,
-    applied,
+    apply,
     complex_,
-    evenly,
     frozen,
     optional,
     real,
     same,
+    spread,
 )
 from disting.measurement.distortion import Distortion
-from disting.measurement.units import agree, differentiated
+from disting.measurement.units import agree, unit_as
 from disting.measurement.window import Window
 from disting.model.chain import Sensor, as_sensor
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,7 +54,7 @@ UNNAMED = Signal()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FrequencyResponse(Shown):
+class FrequencyResponse(NotebookTable):
     """Measured response at n_f frequencies; immutable, equal if its numbers, sensor and signals
     are equal.
 
@@ -184,8 +184,7 @@ class FrequencyResponse(Shown):
             raise InputError("lines are chosen by truth values or by whole numbers")
         try:
             deviation, coherence, drive = (
-                applied(lambda a: a[chosen], a)
-                for a in (self.deviation, self.coherence, self.drive)
+                apply(lambda a: a[chosen], a) for a in (self.deviation, self.coherence, self.drive)
             )
             return replace(
                 self,
@@ -221,7 +220,7 @@ class FrequencyResponse(Shown):
             return self
         some = f"{count} of {len(self)} lines, evenly spaced on a logarithmic scale"
         reading = "; ".join(filter(None, [self.reading, some]))
-        return self.subset(evenly(np.log(self.omega), count)).read_as(reading)
+        return self.subset(spread(np.log(self.omega), count)).read_as(reading)
 
     def to_quantity(self, sensor: Sensor | str) -> "FrequencyResponse":
         """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =
@@ -238,14 +237,14 @@ class FrequencyResponse(Shown):
         return replace(
             self,
             G=self.G * (1j * self.omega) ** steps,
-            deviation=applied(lambda d: d * self.omega**steps, self.deviation),
+            deviation=apply(lambda d: d * self.omega**steps, self.deviation),
             sensor=wanted,
             distortion=(
                 None
                 if self.distortion is None
                 else self.distortion.times(self.distortion.omega**steps)
             ),
-            output=self.output._replace(unit=differentiated(self.output.unit, self.sensor, wanted)),
+            output=self.output._replace(unit=unit_as(self.output.unit, self.sensor, wanted)),
         )
 
     def windowed(self) -> "FrequencyResponse":
@@ -260,7 +259,7 @@ class FrequencyResponse(Shown):
             self,
             reading="; ".join(filter(None, [self.reading, shown])),
             G=self.G * window.ratio,
-            deviation=applied(lambda d: d * share, self.deviation),
+            deviation=apply(lambda d: d * share, self.deviation),
             window=Window(window.duration, window.order),
         )
 
@@ -284,5 +283,5 @@ class FrequencyResponse(Shown):
 def as_sign(value: int) -> int:
     """1 or -1; raises InputError for another number."""
     if value not in (1, -1):
-        raise InputError(f"the sign of a sensor is 1 or -1, not {shown(value)}")
+        raise InputError(f"the sign of a sensor is 1 or -1, not {short(value)}")
     return value

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
 from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse
 from disting.measurement.units import (
@@ -67,8 +67,8 @@ def factor(unit: str) -> float:
     value = omega_per(unit)
     if value is None:
         raise InputError(
-            f"{shown(unit)} is no unit of frequency that is known; known are {listed(FREQUENCIES)}:"
-            " give --unit frequency=Hz"
+            f"{short(unit)} is no unit of frequency that is known; known are"
+            f" {enumeration(FREQUENCIES)}: give --unit frequency=Hz"
         )
     return value
 
@@ -121,7 +121,7 @@ def in_si(
     ):
         if text and unit is None:
             raise InputError(
-                f"{shown(text)} is no unit that is known here; known are such as {example}"
+                f"{short(text)} is no unit that is known here; known are such as {example}"
             )
     if output_unit is not None:
         response = _moved(
@@ -161,7 +161,7 @@ def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResp
     return _scaled(replace(response, output=units[0], input=units[1]), 1 / constant).noted(note)
 
 
-def scaled(response: FrequencyResponse, factor: float) -> FrequencyResponse:
+def scale(response: FrequencyResponse, factor: float) -> FrequencyResponse:
     """The response times a positive factor; raises InputError for another one."""
     if not 0 < factor < float("inf"):
         raise InputError(

@@ -15,14 +15,14 @@ from xml.etree.ElementTree import Element, ParseError, fromstring
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.table import Table
 
 ROOT, FRAMES, TIME = "<traceSession", "traceData/dataFrame", "time"
 HEAD = 2000  # characters within which the root begins
 
 
-def traced(text: str, origin: str) -> Table | None:
+def read_trace(text: str, origin: str) -> Table | None:
     """The table of a trace, its time [s] first; None for any other text. Raises InputError for what
     is no whole trace of one frame.
     """
@@ -58,7 +58,7 @@ def _table(frame: Element, origin: str) -> Table:
         tuple(range(1, len(records) + 1)),
         (),
         origin,
-        left_out=f"left out: {listed(rest)}, not each {usual} s" if rest else "",
+        left_out=f"left out: {enumeration(rest)}, not each {usual} s" if rest else "",
     )
 
 
@@ -76,7 +76,7 @@ def _numbers(records: list[Element], key: str, origin: str) -> Iterator[float]:
                 value = float(said)
             except ValueError:
                 where = f"{origin}, record {n}, {key}"
-                raise InputError(f"{where}: {shown(said)} is no number") from None
+                raise InputError(f"{where}: {short(said)} is no number") from None
         if value is None or (key == TIME and said is None):
             raise InputError(f"{origin}: record {n} of this trace has no value of {key}")
         yield value

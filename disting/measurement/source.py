@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.files import read_bounded
 
 LARGEST = 512_000_000  # bytes of a file, and of what is unpacked from it
@@ -50,7 +50,7 @@ class Allowance:
         self.took[name] = size
         if sum(self.took.values()) > LARGEST:
             raise InputError(
-                f"{self.origin}: {shown(name)} unpacks to {size // 10**6} MB, more than"
+                f"{self.origin}: {short(name)} unpacks to {size // 10**6} MB, more than"
                 f" {LARGEST // 10**6} MB are not read; name {WANTED}"
             )
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
-from disting.measurement.column_words import parted
+from disting.measurement.column_words import split_unit
 from disting.measurement.response import Signal, as_sign
 from disting.measurement.time_series import TimeSeries, said
 from disting.measurement.units import TIMES, drive, known_unit, motion
@@ -64,7 +64,7 @@ class Table:
             return self.at(int(column))
         if len(places) != 1:
             raise InputError(
-                f"{self.origin}: {len(places) or 'no'} columns are called {shown(column)}; headers:"
+                f"{self.origin}: {len(places) or 'no'} columns are called {short(column)}; headers:"
                 f" {self.listed()}"
             )
         return places[0]
@@ -75,7 +75,7 @@ class Table:
 
     def listed(self) -> str:
         """All headers, for messages."""
-        text = listed(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
+        text = enumeration(h or f"(column {i})" for i, h in enumerate(self.headers, 1))
         return f"{text}; {self.left_out}" if self.left_out else text
 
 
@@ -112,7 +112,7 @@ def time_series(
             )
         sampling_rate = rate_of(table.column(at) * _seconds(table, at), table.origin)
     u, y = table.at(input), table.at(output)
-    labels = named(table.headers[u]), named(table.headers[y])
+    labels = split_header(table.headers[u]), split_header(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
     quantity, notes = said(sensor, labels[1].unit)
     wanted = None if reference is None else table.column(table.at(reference))
@@ -122,10 +122,10 @@ def time_series(
     )
 
 
-def named(header: str) -> Signal:
+def split_header(header: str) -> Signal:
     """Name and unit of a signal headed like `iq [A]`; no unit where the brackets hold another word.
 
-    >>> named("angle (deg)"), named("out (filtered)")
+    >>> split_header("angle (deg)"), split_header("out (filtered)")
     (Signal(label='angle', unit='deg'), Signal(label='out (filtered)', unit=''))
     """
     parts = BRACKETED.match(header)
@@ -153,11 +153,11 @@ def _seconds(table: Table, at: int) -> float:
     """
     header = table.headers[at]
     last = header.split()[-1] if header.split() else ""
-    unit = parted(header)[1] or (last if known_unit(last, TIMES) else "s")
+    unit = split_unit(header)[1] or (last if known_unit(last, TIMES) else "s")
     name = known_unit(unit, TIMES)
     if name is None:
         raise InputError(
-            f"{table.origin}, {table.named(at)}: {shown(unit)} is no unit of time that is known;"
+            f"{table.origin}, {table.named(at)}: {short(unit)} is no unit of time that is known;"
             f" known are {', '.join(TIMES)}: give --read sampling_rate=HZ"
         )
     return TIMES[name]

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.column_words import NAME, Column, Role
 from disting.measurement.columns import (
     Group,
-    chosen,
+    choose,
     columns_of,
     frequency_column,
     groups,
@@ -72,7 +72,7 @@ def frequency_response(
     grid = _grid(table, at, roles[at], roles[at].unit if ours else frequency_unit, notes, doubts)
     the_groups = groups(table, roles)
     whole = column == "all" and "all" not in table.headers
-    used = the_groups if whole else [chosen(table, roles, the_groups, column)]
+    used = the_groups if whole else [choose(table, roles, the_groups, column)]
     said = _units(table, roles, used[0], ours)
     quantity = quantity_of(table, sensor or ours.get("sensor"), said[0], notes)
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
@@ -161,10 +161,14 @@ class _Reading:
             self.notes.append(f"{self.table.named(at)}: ({unknown}) is taken as part of its name")
         elif unknown:
             phase = self.roles[at].role is Role.PHASE
-            units = listed(PHASES) if phase else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
+            units = (
+                enumeration(PHASES)
+                if phase
+                else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
+            )
             remedy = "phase=deg" if phase else "magnitude=1, which takes the numbers as they are"
             raise InputError(
-                f"{self.table.origin}, {self.table.named(at)}: the unit {shown(unknown)} is not"
+                f"{self.table.origin}, {self.table.named(at)}: the unit {short(unknown)} is not"
                 f" known; known are {units}; else give --unit {remedy}"
             )
 
@@ -186,7 +190,7 @@ class _Reading:
         level = known_unit(str(self.magnitude_unit), LEVELS)
         if level is None:
             raise InputError(
-                f"the unit of a magnitude is {', '.join(LEVELS)}, not {shown(self.magnitude_unit)}"
+                f"the unit of a magnitude is {', '.join(LEVELS)}, not {short(self.magnitude_unit)}"
             )
         return level
 
@@ -229,8 +233,8 @@ class _Reading:
             asked = known_unit(str(self.phase_unit), PHASES)
             if asked is None:
                 raise InputError(
-                    f"{shown(self.phase_unit)} is no unit of phase that is known; known are"
-                    f" {listed(PHASES)}: give --unit phase=deg"
+                    f"{short(self.phase_unit)} is no unit of phase that is known; known are"
+                    f" {enumeration(PHASES)}: give --unit phase=deg"
                 )
             return asked
         self._known(at)
@@ -256,8 +260,8 @@ def _grid(
     """Frequencies [rad/s]; what is assumed, or contradicts the numbers, is said."""
     if column.unknown and asked is None:
         raise InputError(
-            f"{table.origin}, {table.named(at)}: {shown(column.unknown)} is no unit of frequency"
-            f" that is known; known are {listed(FREQUENCIES)}: give --unit frequency=Hz"
+            f"{table.origin}, {table.named(at)}: {short(column.unknown)} is no unit of frequency"
+            f" that is known; known are {enumeration(FREQUENCIES)}: give --unit frequency=Hz"
         )
     grid, said = in_omega(table.column(at), column.unit or None, asked, table.named(at))
     (doubts if column.unit else notes).extend([said] if said else [])

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.measurement.checks import FEWEST
 from disting.measurement.column_words import Role, meaning
 from disting.measurement.table import Table
@@ -28,7 +28,7 @@ SWAPPED = str.maketrans(",.", ".,")
 BRACKET = re.compile(r"\s*\([^()]*\)\s*$")
 
 
-def decoded(content: bytes, origin: str) -> str:
+def decode(content: bytes, origin: str) -> str:
     """Text of a file: UTF-8, UTF-16 with its mark, else Latin 1; raises InputError for what is
     no text.
     """
@@ -179,7 +179,7 @@ def _first_row(
         if len(fields) == width and numbers:
             wrong = next(i for i, f in enumerate(fields, 1) if not _count([f], decimal))
             raise InputError(
-                f"{origin}, line {n}, column {wrong}: {shown(fields[wrong - 1])} is no number"
+                f"{origin}, line {n}, column {wrong}: {short(fields[wrong - 1])} is no number"
             )
     raise InputError(f"{origin} holds no line of {width} numbers")
 
@@ -224,7 +224,7 @@ def _numbers(
         if not NUMBER.fullmatch(text):
             named = f" ({headers[column - 1]})" if headers[column - 1] else ""
             raise InputError(
-                f"{origin}, line {n}, column {column}{named}: {shown(field)} is no number"
+                f"{origin}, line {n}, column {column}{named}: {short(field)} is no number"
             )
         numbers.append(float(re.sub("[dD]", "e", text)))
     return numbers

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.measurement import periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
@@ -246,7 +246,7 @@ def _rate(value: Any) -> float:
     try:
         rate = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"the sampling rate is a number [Hz], not {shown(value)}") from None
+        raise InputError(f"the sampling rate is a number [Hz], not {short(value)}") from None
     if not 0 < rate < np.inf:
         raise InputError(f"the sampling rate is positive [Hz], not {rate:g}")
     return rate

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
@@ -52,7 +52,9 @@ def read_uff(
     responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]
     number = 1 if record is None else record
     if not 1 <= number <= len(responses):
-        offered = listed((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
+        offered = (
+            enumeration((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
+        )
         raise InputError(
             f"{file.name} has no frequency response number {number}; there are: {offered}"
         )

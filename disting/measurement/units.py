@@ -190,11 +190,11 @@ def _products(text: str) -> str:
     return re.sub(r"[\s*·.]+([A-Za-z]+)\^?-1", r"/\1", plain)
 
 
-def differentiated(text: str, sensor: Sensor, wanted: Sensor) -> str:
+def unit_as(text: str, sensor: Sensor, wanted: Sensor) -> str:
     """The unit of the same motion as another sensor shows it; "" where that is not known, or
     where it is the unit of another quantity than `sensor`.
 
-    >>> differentiated("cm", Sensor.POSITION, Sensor.ACCELERATION)
+    >>> unit_as("cm", Sensor.POSITION, Sensor.ACCELERATION)
     'cm/s^2'
     """
     the_unit, name, steps = _parted(text)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
@@ -63,8 +63,8 @@ def from_variables(
     name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
     default = "rad/s" if name in OMEGA_NAMES else "Hz"
     grid = real_part(_numeric(arrays, name, origin), f"{origin}: {name}").ravel()
-    values, taken = in_omega(grid, None, frequency_unit, shown(name), default=default)
-    response, chosen_index = indexed(response)
+    values, taken = in_omega(grid, None, frequency_unit, short(name), default=default)
+    response, chosen_index = split_index(response)
     index = index if chosen_index is None else chosen_index
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
     the_response = FrequencyResponse(
@@ -118,11 +118,13 @@ def series_from_variables(
     )
 
 
-def indexed(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
+def split_index(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
     """Name and numbers, from 0, of a text such as `NAME[2]`; None where there are none.
 
-    >>> indexed("data[2]"), indexed("frf.Pv[2,1]"), indexed("data(:,2)"), indexed("iq")
-    (('data', (1,)), ('frf.Pv', (1, 0)), ('data', (1,)), ('iq', None))
+    >>> split_index("data[2]"), split_index("frf.Pv[2,1]"), split_index("iq")
+    (('data', (1,)), ('frf.Pv', (1, 0)), ('iq', None))
+    >>> split_index("data(:,2)")
+    ('data', (1,))
     """
     match = INDEXED.fullmatch(asked) if asked else None
     return (match[1], tuple(int(n) - 1 for n in match[2].split(","))) if match else (asked, None)
@@ -166,7 +168,7 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
             )
         return variable
     if asked not in arrays:
-        raise InputError(f"{origin} has no variable {shown(asked)}; variables: {_listed(arrays)}")
+        raise InputError(f"{origin} has no variable {short(asked)}; variables: {_listed(arrays)}")
     return asked
 
 
@@ -209,7 +211,7 @@ def real_part(values: NDArray[Any], name: str) -> Real:
 
 def _signal(arrays: Arrays, asked: str, origin: str) -> NDArray[Any]:
     """One signal of a variable, the longest axis of which is time."""
-    name, index = (asked, None) if asked in arrays else indexed(asked)
+    name, index = (asked, None) if asked in arrays else split_index(asked)
     values = np.squeeze(_numeric(arrays, _name(arrays, name, (), "signal", origin), origin))
     if values.ndim == 2:
         several = values.T if values.shape[0] >= values.shape[1] else values
@@ -243,4 +245,4 @@ def _scalar(arrays: Arrays, name: str, origin: str) -> float:
 
 
 def _listed(arrays: Arrays) -> str:
-    return listed(sorted(arrays)) or "none"
+    return enumeration(sorted(arrays)) or "none"

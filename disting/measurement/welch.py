@@ -43,7 +43,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.periodic import detected_period, refuse_few
 from disting.measurement.response import FrequencyResponse
@@ -209,7 +209,7 @@ def _left_out(grid: Real, good: np.ndarray[tuple[int], np.dtype[np.bool_]], leve
 
 def _segments(length: int, segment: int) -> int:
     if isinstance(segment, bool) or not isinstance(segment, int | np.integer) or segment < 8:
-        raise InputError(f"segment is a whole number of at least 8 samples, not {shown(segment)}")
+        raise InputError(f"segment is a whole number of at least 8 samples, not {short(segment)}")
     count = (length - segment // 2) // (segment - segment // 2)
     if count < FEWEST_SEGMENTS:
         raise InputError(

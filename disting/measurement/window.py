@@ -51,7 +51,7 @@ class Window:
         return Window(self.duration, self.order, self.ratio[lines], self.share[lines])
 
 
-def seen(window: Window, omega: Real, order: int) -> tuple[Complex, csr_array]:
+def line_weights(window: Window, omega: Real, order: int) -> tuple[Complex, csr_array]:
     """Complex angular frequencies omega_i - j sigma, shape (n,), and the weights, shape (n_f, n),
     by which responses of a sensor of `order` there make what lines at `omega` show.
     """

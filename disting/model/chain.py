@@ -14,8 +14,8 @@ from enum import StrEnum
 from functools import lru_cache
 from typing import Any
 
-from disting.errors import ConstraintViolation, InputError, listed, shown
-from disting.model.presentation import Drawn
+from disting.errors import ConstraintViolation, InputError, enumeration, short
+from disting.model.presentation import NotebookPicture
 from disting.model.structure import (
     Damper,
     Element,
@@ -25,7 +25,7 @@ from disting.model.structure import (
     Ports,
     Spring,
     Structure,
-    violated,
+    violations,
 )
 
 AS_IT_IS = "as it is"  # an experiment that changes nothing, in words
@@ -86,7 +86,7 @@ class Premise:
 
 
 @dataclass(frozen=True, slots=True)
-class Chain(Drawn):
+class Chain(NotebookPicture):
     """One chain model; immutable and hashable, its content is its identity.
 
     Arguments: `n_masses` = N_B; the indices n_gap, n_act-, n_act+, n_meas-, n_meas+ of section 5.1
@@ -122,10 +122,10 @@ class Chain(Drawn):
             )
         for name in ("damped", "lag", "dead_time"):
             if not isinstance(getattr(self, name), bool):
-                raise InputError(f"{name} is True or False, not {shown(getattr(self, name))}")
+                raise InputError(f"{name} is True or False, not {short(getattr(self, name))}")
         if self.n_masses < 1:
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
-        for broken in violated(self.indices, (36, 37)):
+        for broken in violations(self.indices, (36, 37)):
             raise ConstraintViolation(broken.refusal(self.indices))
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
         object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
@@ -245,13 +245,13 @@ def as_sensor(value: Sensor | str) -> Sensor:
         return Sensor(value)
     except ValueError:
         *others, last = Sensor
-        raise InputError(f"sensor is {', '.join(others)} or {last}, not {shown(value)}") from None
+        raise InputError(f"sensor is {', '.join(others)} or {last}, not {short(value)}") from None
 
 
 def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:
     chosen = tuple(sorted(set(masses)))
     if chosen and not 1 <= chosen[0] <= chosen[-1] <= n_masses:
-        wrong = listed(str(i) for i in chosen if not 1 <= i <= n_masses)
+        wrong = enumeration(str(i) for i in chosen if not 1 <= i <= n_masses)
         raise InputError(f"ground dampers sit at masses 1 to {n_masses}, not at {wrong}")
     return chosen
 

@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.presentation import Shown
-from disting.model.structure import Indices, violated
+from disting.model.presentation import NotebookTable
+from disting.model.structure import Indices, violations
 
 
 @cache  # asked for at every look-up of a pair
@@ -80,7 +80,7 @@ MOST_MASSES = 40
 
 
 @dataclass(frozen=True)
-class Family(Shown):
+class Family(NotebookTable):
     """The chains with `n_masses` masses, in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
 
     The sizes for N_B = 1..8 are 1, 3, 11, 29, 73, 157, 314, 574 (Table 2 and its continuation).
@@ -100,9 +100,9 @@ class Family(Shown):
             or not isinstance(self.n_masses, int)
             or self.n_masses < 1
         ):
-            raise InputError(f"a family has at least one mass, not {shown(self.n_masses)}")
+            raise InputError(f"a family has at least one mass, not {short(self.n_masses)}")
         if not isinstance(self.damped, bool):
-            raise InputError(f"damped is True or False, not {shown(self.damped)}")
+            raise InputError(f"damped is True or False, not {short(self.damped)}")
         object.__setattr__(self, "sensor", as_sensor(self.sensor))
 
     def __repr__(self) -> str:
@@ -124,13 +124,13 @@ class Family(Shown):
             isinstance(chain, Chain)
             and chain.n_masses == self.n_masses
             and chain == Chain(*chain.indices, sensor=self.sensor, damped=self.damped)
-            and not any(violated(chain.indices, (38,)))  # no chain breaks (36) or (37)
+            and not any(violations(chain.indices, (38,)))  # no chain breaks (36) or (37)
         )
 
     def __getitem__(self, number: int) -> Chain:
         if isinstance(number, bool) or not isinstance(number, int) or not 1 <= number <= len(self):
             raise InputError(
-                f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {shown(number)};"
+                f"the {self.n_masses}-mass family has models 1 to {len(self)}, not {short(number)};"
                 f" 'disting models {self.n_masses}' lists them"
             )
         return self._model(number - 1)

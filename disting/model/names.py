@@ -12,7 +12,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.family import MOST_MASSES, Family
 
@@ -58,7 +58,7 @@ class Name:
 
     def chain(self, family: Family) -> Chain:
         """The model, with the family's damping and sensor, and its size if none is said."""
-        return extended(sized(family, self.masses or family.n_masses)[self.number], self.extras)
+        return extend(with_masses(family, self.masses or family.n_masses)[self.number], self.extras)
 
 
 def read(text: str) -> Name:
@@ -72,12 +72,12 @@ def read(text: str) -> Name:
         meant = _meant(text)
         raise InputError(
             "a model is written masses:number, for instance 3:4 or 3:4+b1+lag, or A4 where the"
-            f" number of masses is known, not {shown(text)}"
+            f" number of masses is known, not {short(text)}"
             + f"; did you mean {meant}?"
             * bool(meant)
         )
     if match[1] and not int(match[1]):
-        raise InputError(f"{shown(text)}: a chain has one mass or more, for instance 3:{match[2]}")
+        raise InputError(f"{short(text)}: a chain has one mass or more, for instance 3:{match[2]}")
     return Name(int(match[1] or 0), int(match[2]), match[3])
 
 
@@ -101,7 +101,7 @@ def chain_of(model: Chain | str, family: Family, *, masses: int = 0) -> Chain:
     return name.chain(replace(family, n_masses=masses or 1))
 
 
-def chains_named(
+def read_together(
     models: Sequence[Chain | str], *, damped: bool | None = None, sensor: Sensor | str | None = None
 ) -> list[Chain]:
     """Models that are named together: what one of them does not say is taken from the others.
@@ -110,9 +110,9 @@ def chains_named(
     where they are not said (None), they are those of the first `Chain`, or damped chains whose
     acceleration is measured. Raises InputError.
 
-    >>> [name_of(chain) for chain in chains_named(["3:1", "A4+b2"])]
+    >>> [name_of(chain) for chain in read_together(["3:1", "A4+b2"])]
     ['3:1', '3:4+b2']
-    >>> chains_named([Family(3, damped=False)[1], "A4"])[1].damped
+    >>> read_together([Family(3, damped=False)[1], "A4"])[1].damped
     False
     """
     pattern = next((m for m in models if isinstance(m, Chain)), Chain(1, damped=DAMPED))
@@ -164,14 +164,14 @@ def damping_option(damped: bool) -> str:
     return "--damped" if damped else "--undamped"
 
 
-def sized(family: Family, masses: int) -> Family:
+def with_masses(family: Family, masses: int) -> Family:
     """The family with as many masses; raises InputError where they are too many to be numbered."""
     if masses > MOST_MASSES:
         raise InputError(f"models of at most {MOST_MASSES} masses are numbered, not of {masses}")
     return replace(family, n_masses=masses)
 
 
-def extended(chain: Chain, extras: str) -> Chain:
+def extend(chain: Chain, extras: str) -> Chain:
     """The chain with +b1, +lag, +delay."""
     words = extras.split("+")[1:]
     dampers = tuple(int(word[1:]) for word in words if word[0] == "b")

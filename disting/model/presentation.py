@@ -51,7 +51,7 @@ class Presenter(Protocol):
         """The object on axes of matplotlib, made where none are given; returns them."""
 
 
-class Presented:
+class Presentation:
     """What a room above knows how to draw."""
 
     __slots__ = ()
@@ -62,7 +62,7 @@ class Presented:
         return presenter
 
 
-class Shown(Presented):
+class NotebookTable(Presentation):
     """What a notebook shows as a table."""
 
     __slots__ = ()
@@ -71,7 +71,7 @@ class Shown(Presented):
         return self._presenter.html(self)
 
 
-class Drawn(Presented):
+class NotebookPicture(Presentation):
     """What a notebook shows as a picture."""
 
     __slots__ = ()
@@ -80,7 +80,7 @@ class Drawn(Presented):
         return self._presenter.svg(self)
 
 
-def offered(names: Mapping[str, object]) -> list[str]:
+def public_names(names: Mapping[str, object]) -> list[str]:
     """What the Tab key offers of a package with these global names: its public ones, no modules."""
     return sorted(
         name for name, of in names.items() if name[0] != "_" and not isinstance(of, ModuleType)
@@ -90,7 +90,7 @@ def offered(names: Mapping[str, object]) -> list[str]:
 def summary(of: object, text: str) -> str:
     """A line for a prompt, `<Class: text>`, that fits a line whatever the text.
 
-    >>> summary(Shown(), "a" * 200)[-6:], len(summary(Shown(), "a" * 200))
+    >>> summary(NotebookTable(), "a" * 200)[-6:], len(summary(NotebookTable(), "a" * 200))
     ('aaaa…>', 110)
     """
     line = f"<{type(of).__name__}: {printable(' '.join(text.split()))}>"

@@ -120,7 +120,7 @@ class Answerer(Protocol):
         """The answer for these models in this order."""
 
 
-def computed(question: Question[T], models: Models, settings: Settings) -> T:
+def compute(question: Question[T], models: Models, settings: Settings) -> T:
     """The answer, computed now."""
     return question.answer(*models, settings)
 

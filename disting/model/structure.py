@@ -122,7 +122,7 @@ CONSTRAINTS: tuple[Constraint, ...] = (
 )
 
 
-def violated(indices: Indices, equations: tuple[int, ...]) -> Iterator[Constraint]:
+def violations(indices: Indices, equations: tuple[int, ...]) -> Iterator[Constraint]:
     """Yield the constraints of the given equations that the indices break, in the paper's order."""
     return (c for c in CONSTRAINTS if c.equation in equations and not c.holds(indices))
 

@@ -113,7 +113,7 @@ class Assembly:
 
 
 @dataclass(frozen=True, slots=True)
-class Solved:
+class PointSolution:
     """P^-1 and D at a number s; `ways` the derivatives of w u v^T by each entry and each ratio: a
     number w, pairs of u' and v' to be summed, and the sum of v'^T P^-1 u'.
     """
@@ -171,7 +171,7 @@ def _entry(e: Element, places: dict[str, int], power: int, scale: int) -> Entry:
 
 def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
     """N and D at a point without zeros; None where P cannot be inverted at enough numbers s."""
-    seen = solved(of.frame, tuple(point), modulus)
+    seen = solve(of.frame, tuple(point), modulus)
     if not seen:
         return None
     rows, wanted = [_at_number(of, at, modulus) for at in seen], len(seen)
@@ -186,7 +186,7 @@ def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
 
 
 @lru_cache(maxsize=4)  # for the other ports of the same network
-def solved(of: Frame, point: tuple[int, ...], modulus: int) -> tuple[Solved, ...]:
+def solve(of: Frame, point: tuple[int, ...], modulus: int) -> tuple[PointSolution, ...]:
     """As many numbers s as there can be powers, or none where too few are found."""
     values = [pow(e.value(point), -1, modulus) if e.divides else e.value(point) for e in of.entries]
     wanted = of.highest + 1
@@ -197,7 +197,7 @@ def solved(of: Frame, point: tuple[int, ...], modulus: int) -> tuple[Solved, ...
 
 def _at(
     of: Frame, point: tuple[int, ...], values: Sequence[int], s: int, modulus: int
-) -> Solved | None:
+) -> PointSolution | None:
     powers = [pow(s, e.power, modulus) for e in of.entries]
     terms = [w * value % modulus for w, value in zip(powers, values, strict=True)]
     rows = of.rows(terms, point)
@@ -216,7 +216,7 @@ def _at(
                     for j, b in v:
                         square += a * b * inverse[j][i]
             ways.append((w, pairs, square % modulus))
-    return Solved(s, den, inverse, tuple(ways))
+    return PointSolution(s, den, inverse, tuple(ways))
 
 
 def _ways(
@@ -232,7 +232,7 @@ def _ways(
         yield term, ((turned, v), (u, turned))
 
 
-def _at_number(of: Assembly, at: Solved, modulus: int) -> list[int]:
+def _at_number(of: Assembly, at: PointSolution, modulus: int) -> list[int]:
     """N without s^q and D, then the derivatives of both by the entry of each element, and by the
     ratio of each gear.
     """

@@ -14,7 +14,7 @@ from itertools import combinations
 from math import comb
 
 from disting.network.element import Element
-from disting.network.graph import edges, joined, parts
+from disting.network.graph import edges, join, parts
 from disting.network.network import Network
 
 TRIED = 20_000  # ways to take elements away
@@ -55,12 +55,12 @@ def rest_of(whole: Network, missing: Iterable[str], rigid: Iterable[str]) -> Bra
     return _branches(kept, plain, [by_name[name] for name in rigid])
 
 
-def taken_away(part: Network, whole: Network) -> tuple[Names, Names] | None:
+def remainder(part: Network, whole: Network) -> tuple[Names, Names] | None:
     """Values of a one-port, missing and rigid, without which it is the part, whatever the order of
     branches in series; None where none are found with bounded work.
 
     >>> from disting.network import network_of
-    >>> taken_away(network_of("p(R1,C1)-R0"), network_of("R0-p(R1,C1)-p(R2,C2)"))
+    >>> remainder(network_of("p(R1,C1)-R0"), network_of("R0-p(R1,C1)-p(R2,C2)"))
     (('R2',), ('C2',))
     """
     own_kind, other_kind = ((n.sort, n.order, n.sign_of_one_port) for n in (part, whole))
@@ -107,7 +107,7 @@ def _branches(
     labelled = [(tuple(roots[i] for i in (*e.nodes, 0)[:2]), Branch(e.letter)) for e in elements]
     if len(port) < 2 or any(i == j for (i, j), _ in labelled):
         return None
-    left = joined(labelled, port, _in("S"), _in("P"))
+    left = join(labelled, port, _in("S"), _in("P"))
     return left[port] if left.keys() == {port} else None
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 
 
 class Sort(StrEnum):
@@ -153,7 +153,7 @@ class Port:
     def __post_init__(self) -> None:
         for end in (self.plus, self.minus):
             if type(end) is not int or end < 0:
-                raise InputError(f"a port is at nodes 1, 2, .. or 0, the ground, not {shown(end)}")
+                raise InputError(f"a port is at nodes 1, 2, .. or 0, the ground, not {short(end)}")
 
     @property
     def ends(self) -> dict[int, int]:
@@ -166,11 +166,11 @@ def _problems(e: Element) -> Iterator[str]:
     """Yield what is wrong with one element, each with its remedy."""
     for text in (e.value, e.letter, e.ratio, e.exponent):
         if not isinstance(text, str):
-            yield f"name, kind, ratio and exponent of an element are texts, not {shown(text)}"
+            yield f"name, kind, ratio and exponent of an element are texts, not {short(text)}"
     if e.letter not in KINDS:
-        yield f"kinds of elements are {_words(KINDS)}, not {shown(e.letter)}"
+        yield f"kinds of elements are {_words(KINDS)}, not {short(e.letter)}"
     if not isinstance(e.nodes, tuple) or not all(type(i) is int for i in e.nodes):
-        yield f"nodes of an element are a tuple of whole numbers, not {shown(e.nodes)}"
+        yield f"nodes of an element are a tuple of whole numbers, not {short(e.nodes)}"
     called = e.value or "one"
     if min(e.nodes, default=-1) < 0 or len(e.nodes) != e.kind.ends or len({*e.nodes}) < e.kind.ends:
         ends = {1: "one node", 2: "two different nodes"}[e.kind.ends]
@@ -183,9 +183,9 @@ def _problems(e: Element) -> Iterator[str]:
     if e.nodes[0] == 0 and e.kind.ends == 1:
         yield f"{called} is a {e.kind.word}: it cannot be at the ground"
     if e.letter == "v" and e.value:
-        yield f"{shown(e.value)} is a compartment, which has no value: leave its name empty"
+        yield f"{short(e.value)} is a compartment, which has no value: leave its name empty"
     if e.letter != "v" and not _is_name(e.value):
-        yield f"{shown(e.value)} is no name of a value: use letters, digits and _, and not s alone"
+        yield f"{short(e.value)} is no name of a value: use letters, digits and _, and not s alone"
     if e.letter != "v" and kind_of(e.value) != e.kind:
         yield (
             f"{e.value} names a {kind_of(e.value).word}: begin the name of a {e.kind.word} with"
@@ -196,11 +196,11 @@ def _problems(e: Element) -> Iterator[str]:
     if e.exponent and e.letter != "P":
         yield f"{called} is a {e.kind.word}, which has no exponent: leave that away"
     if e.exponent and not _is_name(e.exponent):
-        yield f"{shown(e.exponent)} is no exponent: use a name such as n1"
+        yield f"{short(e.exponent)} is no exponent: use a name such as n1"
     if e.known_ratio == 0:
         yield f"the ratio of {called} is zero: leave the gear away"
     if e.known_ratio is None and not _is_name(e.ratio):
-        yield f"{shown(e.ratio)} is no ratio: use a name other than s, or a number such as 3/2"
+        yield f"{short(e.ratio)} is no ratio: use a name other than s, or a number such as 3/2"
 
 
 def _is_name(text: str) -> bool:
@@ -228,8 +228,8 @@ def kind_of(name: str) -> Kind:
     """
     letter = "d" if name[:1] == "b" else name[:1]
     if name[:3] == "CPE":
-        raise InputError(f"{shown(name)} is a constant phase element: call it P{name[3:]}")
+        raise InputError(f"{short(name)} is a constant phase element: call it P{name[3:]}")
     if letter not in KINDS or letter == "v":
         letters = _words(letter for letter in KINDS if letter != "v")
-        raise InputError(f"{shown(name)} begins with no letter of an element; there are {letters}")
+        raise InputError(f"{short(name)} begins with no letter of an element; there are {letters}")
     return KINDS[letter]

@@ -24,7 +24,7 @@ parts does.
 
 from disting.network.network import Network
 from disting.network.normal_form import NormalForm, Part, exact_form
-from disting.network.simplest import numbered
+from disting.network.simplest import canonical_numbers
 
 TWO = 2  # kinds of elements
 
@@ -46,7 +46,7 @@ def within(inner: Network, outer: Network) -> bool | None:
     if None in the_pairs or inner.exponents or outer.exponents:
         return None
     drawn, other_drawn = (
-        numbered(n, NormalForm(edges or (), ()))
+        canonical_numbers(n, NormalForm(edges or (), ()))
         for n, edges in zip((inner, outer), the_pairs, strict=True)
     )
     (ports, left, _), (others, right, _) = drawn, other_drawn

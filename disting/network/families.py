@@ -26,12 +26,12 @@ from itertools import combinations, combinations_with_replacement, permutations,
 from operator import mul
 
 from disting.algebra.symbols import symbols
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.model.chain import Sensor
 from disting.network.expansion import transfer_functions
 from disting.network.network import Network
 from disting.network.notation import network_of
-from disting.network.outflows import reached
+from disting.network.outflows import reachable
 
 Edge = tuple[int, int]
 DAMPED = "-damped"
@@ -64,7 +64,7 @@ def _read(source: Callable[[], Iterable[str]]) -> tuple[Network, ...]:
 def family_of(name: str) -> NetworkFamily:
     """The family of that name; raises InputError."""
     if name not in FAMILIES:
-        raise InputError(f"families of networks are {listed(FAMILIES)}, not {shown(name)}")
+        raise InputError(f"families of networks are {enumeration(FAMILIES)}, not {short(name)}")
     return FAMILIES[name]
 
 
@@ -246,7 +246,7 @@ def compartments(count: int) -> list[str]:
                 )
                 key = (tuple(form[0]), *form[1:])
                 back = [(j, i) for i, j in flows]
-                ahead, behind = (reached({i}, f, {0}) for i, f in ((enter, flows), (leave, back)))
+                ahead, behind = (reachable({i}, f, {0}) for i, f in ((enter, flows), (leave, back)))
                 if key not in entries and len(ahead) == len(behind) == count:
                     phrase = ", ".join(f"{i}>{j}" for i, j in key[0])
                     entries[key] = f"{phrase}; in {key[1]}; out {key[2]}"

@@ -46,7 +46,7 @@ from flint import fmpz_mat
 
 from disting.algebra.certainty import about, prime, residues
 from disting.network.at_points import Assembly, Vector, assembly, quotient_at
-from disting.network.gears import ungeared
+from disting.network.gears import without_gears
 from disting.network.network import Network
 
 Partition = frozenset[frozenset[int]]
@@ -135,7 +135,7 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     """
     of = assembly(network, halves)
     geared = any(e.ratio for e in network.elements)
-    if of is None or (geared and (ungeared(network) is None or not _sign(of))):
+    if of is None or (geared and (without_gears(network) is None or not _sign(of))):
         return None
     counts = _counted(of)
     if counts is None or not any(counts.num) or not any(counts.den):

@@ -24,14 +24,14 @@ Height = tuple[Fraction, tuple[int, ...]]
 """h_i: a number, times powers of the unknown ratios."""
 
 
-def ungeared(network: Network) -> Network | None:
+def without_gears(network: Network) -> Network | None:
     """The machine without its gears, which gives the same transfer functions; None where ratios do
     not agree, ports keep them apart, or the casings of gears are all that holds a part.
 
     >>> from disting.network.notation import network_of
-    >>> [str(e) for e in ungeared(network_of("1~2*5/2, 2~3*i; F1; S3")).elements]
+    >>> [str(e) for e in without_gears(network_of("1~2*5/2, 2~3*i; F1; S3")).elements]
     ['m1 1', 'm2 2', 'm3 3', 'k12 1 2', 'k23 2 3']
-    >>> ungeared(network_of("1~2*3, 2~3, 3~1; F1; S3"))
+    >>> without_gears(network_of("1~2*3, 2~3, 3~1; F1; S3"))
     """
     if not any(e.ratio for e in network.elements):
         return network

@@ -67,7 +67,7 @@ def seen_by_blocks(
     return frozenset(seen)
 
 
-def reached(elements: Sequence[Element], start: Iterable[int], backwards: bool) -> set[int]:
+def reachable(elements: Sequence[Element], start: Iterable[int], backwards: bool) -> set[int]:
     """Compartments that flows reach from some, or from which some are reached."""
     nodes = set(start)
     while True:
@@ -87,19 +87,19 @@ def seen_by_flows(
     """Positions of the elements of compartments that can enter: those of compartments that an input
     reaches, and from which an output is reached. Others have a block of zeros in P.
     """
-    ahead = reached(elements, [p.plus for p in inputs], False)
-    behind = reached(elements, [p.plus for p in outputs], True)
+    ahead = reachable(elements, [p.plus for p in inputs], False)
+    behind = reachable(elements, [p.plus for p in outputs], True)
     return frozenset(i for i, e in enumerate(elements) if e.nodes[0] in ahead & behind)
 
 
-def renumbered(places: Mapping[int, int], element: Element) -> Element:
+def renumber(places: Mapping[int, int], element: Element) -> Element:
     """The element at other nodes, of which one can be the ground unless it is a gear."""
     nodes = tuple(places[i] for i in element.nodes)
     ratio = "" if element.known_ratio == 1 else element.ratio
     return replace(element, nodes=nodes, ratio=ratio)
 
 
-def joined(
+def join(
     labelled: Iterable[tuple[tuple[int, ...], L]],
     kept: Iterable[int],
     in_series: Callable[[Iterable[L]], L],
@@ -123,7 +123,7 @@ def joined(
         edges[across] = in_parallel([edges[across], made]) if across in edges else made
 
 
-def moved(e: Element, places: Mapping[int, int]) -> Element | None:
+def move(e: Element, places: Mapping[int, int]) -> Element | None:
     """The element at other nodes; None of one whose ends are the same node."""
     nodes = tuple(places[i] for i in e.nodes)
     if len(nodes) == 1:

@@ -61,7 +61,7 @@ def is_minor(part: Network, whole: Network, places: Places) -> bool:
     )
 
 
-def left_out(
+def omitted_values(
     part: Network, whole: Network, places: Places
 ) -> tuple[tuple[str, ...], tuple[str, ...], tuple[tuple[str, str], ...]]:
     """The values of the whole whose elements are missing, those in whose place nodes are connected
@@ -69,9 +69,9 @@ def left_out(
 
     >>> from disting.network import network_of
     >>> one, other = network_of("R0-C1"), network_of("R0-p(C1,R1)-L1")
-    >>> left_out(one, other, {0: 0, 1: 1, 2: 2, 3: 0})
+    >>> omitted_values(one, other, {0: 0, 1: 1, 2: 2, 3: 0})
     (('R1',), ('L1',), ())
-    >>> left_out(network_of("R0-C1"), network_of("R0-P1"), {0: 0, 1: 1, 2: 2})
+    >>> omitted_values(network_of("R0-C1"), network_of("R0-P1"), {0: 0, 1: 1, 2: 2})
     ((), (), (('P1', '1'),))
     """
     met = _meets(part, whole, places) or {}

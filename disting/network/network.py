@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from math import lcm
 
-from disting.errors import InputError, shown
-from disting.model.presentation import Drawn, plural, summary
+from disting.errors import InputError, short
+from disting.model.presentation import NotebookPicture, plural, summary
 from disting.network.element import Element, Port, Sort
-from disting.network.graph import edges, parts, renumbered, seen_by_blocks, seen_by_flows
+from disting.network.graph import edges, parts, renumber, seen_by_blocks, seen_by_flows
 
 MOST_NODES = 40
 MOST_ELEMENTS = 300
@@ -30,7 +30,7 @@ REMEMBERED = 4096  # networks, of which it is known what is seen
 
 
 @dataclass(frozen=True, slots=True)
-class Network(Drawn):
+class Network(NotebookPicture):
     """A linear network: `elements`, all of one sort; `inputs` and `outputs`, the ports of forces
     and sensors (of a circuit: where the current enters and the voltage is seen); `order`, how often
     what the sensors show is differentiated.
@@ -160,7 +160,7 @@ class Network(Drawn):
         places = {i: numbers[roots[i]] for i in nodes}
         moved = [Port(places[p.plus], places[p.minus]) for p in self.ports]
         return _unchecked(
-            tuple(renumbered(places, e) for e in seen),
+            tuple(renumber(places, e) for e in seen),
             tuple(moved[: len(self.inputs)]),
             tuple(moved[len(self.inputs) :]),
             self,
@@ -213,9 +213,9 @@ def _problems(network: Network) -> Iterator[str]:
     for what, kind in (("elements", Element), ("inputs", Port), ("outputs", Port)):
         value = getattr(network, what)
         if not isinstance(value, tuple) or not all(isinstance(x, kind) for x in value):
-            yield f"{what} of a network are a tuple of {kind.__name__}, not {shown(value)}"
+            yield f"{what} of a network are a tuple of {kind.__name__}, not {short(value)}"
     if not isinstance(network.name, str) or not network.name.isprintable():
-        yield f"the name of a network has printable characters only, not {shown(network.name)}"
+        yield f"the name of a network has printable characters only, not {short(network.name)}"
     elements, ports = network.elements, network.ports
     if not elements:
         yield "a network has at least one element"

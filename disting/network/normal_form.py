@@ -48,7 +48,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from disting.network.graph import joined
+from disting.network.graph import join
 from disting.network.network import Network
 from disting.network.outflows import simplest_outflows
 
@@ -113,7 +113,7 @@ def exact_form(network: Network) -> tuple[tuple[int, int, Part], ...] | None:
         return None
     labelled = [(e.nodes, Part("S", (e.power,))) for e in network.seen]
     kept = {i for p in network.ports for i in (p.plus, p.minus)}
-    edges = joined(labelled, kept, in_series, in_parallel)
+    edges = join(labelled, kept, in_series, in_parallel)
     listed = (tuple(sorted(ends)) for ends in edges)
     return tuple((a, b, edges[frozenset((a, b))]) for a, b in sorted(listed))
 
@@ -134,7 +134,7 @@ def _joined(form: str, parts: Iterable[Part]) -> Part:
     for part in parts:
         inside = part if part.form == form or len(part.single) == 1 == len(part.kinds) else None
         if inside is None and len(part.kinds) == 2:
-            inside = turned(part)
+            inside = dual(part)
         if inside is None:
             others.append(part)
         else:
@@ -144,7 +144,7 @@ def _joined(form: str, parts: Iterable[Part]) -> Part:
             others += inside.others
     terms, spare = (tuple(sorted(count.items())) for count in (most, most - least))
     made = Part(form, tuple(sorted(single)), terms, tuple(sorted(others)), spare)
-    return turned(made) if form == "P" and len(made.kinds) == 2 else _single(made)
+    return dual(made) if form == "P" and len(made.kinds) == 2 else _single(made)
 
 
 def _single(part: Part) -> Part:
@@ -152,7 +152,7 @@ def _single(part: Part) -> Part:
     return Part("S", part.single) if len(part.kinds) == 1 else part
 
 
-def turned(part: Part) -> Part:
+def dual(part: Part) -> Part:
     """A part of two kinds from series to parallel, or back: K(n, c, z) is, of 1/(x F), the set
     K(n + c + z - 1, not c, not z). Of F the constant is the kind of the smaller power, of 1/(x F),
     whose terms are side by side, that of the larger one.

@@ -32,14 +32,14 @@ def simplest_outflows(
     >>> sorted(simplest_outflows({(1, 2), (2, 1), (2, 3), (3, 1)}, {2, 3}, {1}, {1}))
     [1]
     """
-    if not all({*leaky} & reached({j}, flows) for j in leave):
+    if not all({*leaky} & reachable({j}, flows) for j in leave):
         return {*leaky}
     ends = {*enter, *leave}
     nodes = {_first_passed(m, flows, ends) for m in leaky}
     return ends if len(enter) == len(leave) == 1 and ends <= nodes else nodes
 
 
-def reached(starts: Collection[int], flows: Flows, without: Collection[int] = ()) -> set[int]:
+def reachable(starts: Collection[int], flows: Flows, without: Collection[int] = ()) -> set[int]:
     """Where flows lead to from some compartments, these too, with others left out."""
     nodes = {*starts} - {*without}
     while more := {j for i, j in flows if i in nodes} - nodes - {*without}:
@@ -50,5 +50,5 @@ def reached(starts: Collection[int], flows: Flows, without: Collection[int] = ()
 def _first_passed(at: int, flows: Flows, ends: Collection[int]) -> int:
     """The first of the compartments that all ways from the ends to this one pass through."""
     nodes = {i for flow in flows for i in flow} | {at}
-    passed = {c for c in nodes if at not in reached(ends, flows, {c})}
-    return next(c for c in passed if c in reached(ends, flows, passed - {c}))
+    passed = {c for c in nodes if at not in reachable(ends, flows, {c})}
+    return next(c for c in passed if c in reachable(ends, flows, passed - {c}))

@@ -15,15 +15,15 @@ from itertools import islice, pairwise, permutations, product
 from typing import Any
 
 from disting.network.element import KINDS, PHASE, Element, Port, Sort
-from disting.network.gears import ungeared
+from disting.network.gears import without_gears
 from disting.network.network import Network
-from disting.network.normal_form import NormalForm, Part, Power, normal_form, turned
+from disting.network.normal_form import NormalForm, Part, Power, dual, normal_form
 
 REMEMBERED = 4096
 TWO = 2
 RESISTOR: Power = (0, "")  # its power of s; a spring has the same, and the lowest of a machine
 MOST_ORDERS = 720  # of nodes that look alike
-Drawn = tuple[list[tuple[int, int]], list[tuple[tuple[int, int], Any]], list[tuple[int, Any]]]
+Drawing = tuple[list[tuple[int, int]], list[tuple[tuple[int, int], Any]], list[tuple[int, Any]]]
 """Ports, edges with what is there, nodes with what hangs there."""
 Tree = Power | tuple[str, tuple["Tree", ...]]
 """The power of s of an element, or "S" or "P" and what is in series or parallel."""
@@ -38,14 +38,14 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     >>> simplest(network_of("p(R1,C1)-p(R2,R3-C2)")).name
     'R1-p(C1,R2-p(C2,R3))'
     """
-    plain = ungeared(network)
+    plain = without_gears(network)
     form = None if plain is None else normal_form(plain)
     if plain is None or form is None:
         return None
     if whole is not None:
         port = plain.inputs[0]
         form = NormalForm(((port.minus, port.plus, whole),), ())
-    ends, edges, nodes = min(numbered(plain, f) for f in _ways_round(plain, form))
+    ends, edges, nodes = min(canonical_numbers(plain, f) for f in _ways_round(plain, form))
     made = _Drawing(
         plain.sort, 1 + max(i for pair in (*ends, *(p for p, _ in edges)) for i in pair)
     )
@@ -55,7 +55,7 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     ports = tuple(Port(plus, minus) for plus, minus in ends)
     inputs, outputs = ports[: len(plain.inputs)], ports[len(plain.inputs) :]
     is_one = plain.sort is Sort.CIRCUIT and len(texts) == 1 and inputs == outputs
-    name = texts[0] if is_one else written(made.elements, inputs, outputs)
+    name = texts[0] if is_one else notation(made.elements, inputs, outputs)
     return Network(tuple(made.elements), inputs, outputs, plain.order, name)
 
 
@@ -66,7 +66,7 @@ def _ways_round(network: Network, form: NormalForm) -> Iterator[NormalForm]:
         yield replace(form, edges=tuple(sorted((b, a, label) for a, b, label in form.edges)))
 
 
-def written(elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]) -> str:
+def notation(elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]) -> str:
     """Elements and ports as text."""
     said = [f"in {p.plus} {p.minus}" for p in inputs] + [f"out {p.plus} {p.minus}" for p in outputs]
     return ", ".join([*map(str, elements), *said])
@@ -91,28 +91,28 @@ def same_but_for_gears(network: Network, other: Network) -> bool:
     >>> same_but_for_gears(network_of("1~2*5/2; F1; S2"), network_of("1~2; F2; S1"))
     True
     """
-    first, second = ungeared(network), ungeared(other)
+    first, second = without_gears(network), without_gears(other)
     if first is None or second is None or (first is network and second is other):
         return False
     alike = (network.sort, network.order, network.shape) == (other.sort, other.order, other.shape)
     return alike and same_drawing(first, second)
 
 
-def _plain(network: Network) -> Drawn:
+def _plain(network: Network) -> Drawing:
     """Every element by itself, in the smallest numbers."""
     ends = [(*e.nodes, 0)[:2] for e in network.elements]
     kinds = [(e.power, e.letter == "a") for e in network.elements]
     edges = tuple((a, b, kind) for (a, b), kind in zip(ends, kinds, strict=True))
-    return numbered(network, NormalForm(edges, ()))
+    return canonical_numbers(network, NormalForm(edges, ()))
 
 
-def numbered(network: Network, form: NormalForm) -> Drawn:
+def canonical_numbers(network: Network, form: NormalForm) -> Drawing:
     """Ports, edges and nodes in numbers, those of ports first: the smallest of what readings of the
     ports and orders of nodes that look alike make of them.
     """
     outside = (0,) if network.is_directed else ()  # it stays 0
     inside = {i for a, b, _ in form.edges for i in (a, b)} | {i for i, _ in form.nodes}
-    the_pairs = list[Drawn]()
+    the_pairs = list[Drawing]()
     for ends in _readings(network):
         held = [i for plus, minus in ends for i in ((plus,) if outside else (minus, plus))]
         for order in _orders(form, held, sorted(inside - {*outside, *held}), bool(outside)):
@@ -245,7 +245,7 @@ class _Drawing:
 def _tree(part: Part) -> Tree:
     """A part in series and parallel, what is of two kinds as a ladder."""
     if len(part.kinds) <= TWO:
-        return _ladder(part if part.form == "S" else turned(part))
+        return _ladder(part if part.form == "S" else dual(part))
     inside = [Part("S", (r,)) for r in part.single]
     inside += [Part(part.form, (), ((pair, n),)) for pair, n in part.terms]
     return part.form, tuple(map(_tree, (*inside, *part.others)))

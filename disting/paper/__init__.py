@@ -9,7 +9,7 @@ from disting.paper.candidate_claims import CANDIDATE_CLAIMS
 from disting.paper.claim import (
     Claim as Claim,
     Findings as Findings,
-    Found as Found,
+    Observed as Observed,
     Outcome as Outcome,
 )
 from disting.paper.combined_claims import COMBINED_CLAIMS

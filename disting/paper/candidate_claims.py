@@ -4,37 +4,37 @@ from collections import Counter
 from dataclasses import replace
 from itertools import combinations
 
-from disting.catalogs.dampers import DamperSets, spelled
+from disting.catalogs.dampers import DamperSets, spell
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.paper.claim import Claim, Findings, Found, Observation
+from disting.paper.claim import Claim, Findings, Observation, Observed
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 
 SIZES = (1, 2, 3, 4)
 
 
-def dead_time(findings: Findings) -> Found:
+def dead_time(findings: Findings) -> Observed:
     """Models with a dead time against the same without."""
     verdicts = [
         _compared(findings, chain, replace(chain, dead_time=True))
         for chain in Family(3, damped=True)
     ]
-    return Found(
+    return Observed(
         f"all {len(verdicts)} pairs are distinguishable",
         _all_distinguishable(verdicts),
         _with_and_without("delay"),
     )
 
 
-def lag(findings: Findings) -> Found:
+def lag(findings: Findings) -> Observed:
     """Models with a first-order lag against the same without, and against each other model
     without.
     """
     family = Family(3, damped=True)
     same = [_compared(findings, chain, replace(chain, lag=True)) for chain in family]
     every = [_compared(findings, a, replace(b, lag=True)) for a in family for b in family]
-    return Found(
+    return Observed(
         f"all {len(same)} pairs are distinguishable by condition {same[0].decided_by}, and so is"
         f" every model with a lag from every model without ({len(every)} pairs)",
         _all_distinguishable(same)
@@ -49,7 +49,7 @@ def _with_and_without(extra: str) -> tuple[Observation, ...]:
     return (Observation(3, True, ("1", f"1+{extra}")),)
 
 
-def figure_14(findings: Findings) -> Found:
+def figure_14(findings: Findings) -> Observed:
     """The single dampers of the eleven damped 3-mass models."""
     counts = Counter[Relation]()
     located = list[int]()
@@ -59,7 +59,7 @@ def figure_14(findings: Findings) -> Found:
         counts.update(relations)
         if set(relations) == {Relation.DISTINGUISHABLE}:
             located.append(number)
-    return Found(
+    return Observed(
         f"{counts.total()} pairs: {counts[Relation.DISTINGUISHABLE]} distinguishable,"
         f" {counts[Relation.INDISTINGUISHABLE]} not; no damper and every single one are told apart"
         f" in {', '.join(f'A{i}' for i in located)} only",
@@ -68,11 +68,11 @@ def figure_14(findings: Findings) -> Found:
     )
 
 
-def candidates(findings: Findings) -> Found:
+def candidates(findings: Findings) -> Observed:
     """All sets of base dampers of the candidates of Fig. 1 (force and sensor at mass 1)."""
     tables = [findings.dampers(Chain(n, damped=True), DamperSets.ALL) for n in SIZES]
     relations = [t.relation(*pair) for t in tables for pair in combinations(t.sets, 2)]
-    return Found(
+    return Observed(
         f"all {len(relations)} pairs of sets of base dampers for 1 to {SIZES[-1]} masses are"
         " distinguishable",
         set(relations) == {Relation.DISTINGUISHABLE},
@@ -80,11 +80,11 @@ def candidates(findings: Findings) -> Found:
     )
 
 
-def model_a3(findings: Findings) -> Found:
+def model_a3(findings: Findings) -> Observed:
     """Base dampers of A3 (force at mass 1, sensor at mass 3)."""
     groups = findings.dampers(Family(3, damped=True)[3], DamperSets.ALL).classes()
-    classes = "; ".join(", ".join(map(spelled, group)) for group in groups)
-    return Found(
+    classes = "; ".join(", ".join(map(spell, group)) for group in groups)
+    return Observed(
         f"told apart are only no damper and any: {classes}",
         [len(g) for g in groups] == [1, 7],
         (

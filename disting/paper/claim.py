@@ -128,7 +128,7 @@ class Observation:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Observed:
     """What is found here, in words, whether the printed statement holds, and where the verdicts
     that it speaks of can be seen.
     """
@@ -175,7 +175,7 @@ class Claim:
     place: str
     text: str
     printed: str
-    check: Callable[[Findings], Found] | None = None
+    check: Callable[[Findings], Observed] | None = None
     reason: str = ""
     about: str = ""
 

@@ -12,8 +12,8 @@ from disting.model.family import Family
 from disting.paper.claim import (
     Claim,
     Findings,
-    Found,
     Observation,
+    Observed,
     counts_of,
     families,
     in_words,
@@ -30,11 +30,11 @@ CASES = families(3) + families(3, damped=True) + families(4)
 FIG_13 = {"": 9, "1": 168, "4": 151, "5": 34, "6": 7, "7": 37}
 
 
-def condition_9_holds(findings: Findings) -> Found:
+def condition_9_holds(findings: Findings) -> Observed:
     """How often condition 9 is applicable, and how often it holds."""
     by_size = {n: _condition_9(findings, n) for n in (3, 4, 5)}
     holds = [Counter(outcomes.values())[Holding.HOLDS] for outcomes in by_size.values()]
-    return Found(
+    return Observed(
         f"{name_list([len(outcomes) for outcomes in by_size.values()])} pairs of 3, 4 and 5 masses"
         f" differ in the gap alone; condition 9 holds for {name_list(holds)} of them",
         holds == [0, 1, 6],
@@ -52,17 +52,17 @@ def _condition_9(findings: Findings, n_masses: int) -> dict[Pair, Holding]:
     return {pair: o for pair, o in outcomes.items() if o in (Holding.FAILS, Holding.HOLDS)}
 
 
-def figure_13(findings: Findings) -> Found:
+def figure_13(findings: Findings) -> Observed:
     """Undamped 4-mass models, all conditions."""
     catalog = findings.catalog(4, damped=False)
     counts = {rule: n for rule, n in catalog.counts(View.COMBINED).items() if n}
     left = sum(v.relation is Relation.UNDECIDED for *_, v in catalog.pairs(View.EXACT))
-    return Found(
+    return Observed(
         f"{in_words(counts)}; the exact decision leaves {left}", counts == FIG_13, families(4)
     )
 
 
-def eight_cases(findings: Findings) -> Found:
+def eight_cases(findings: Findings) -> Observed:
     """Undamped 4-mass pairs that Markov parameters decide and coefficients do not."""
     catalog = findings.catalog(4, damped=False)
     gained = {
@@ -70,35 +70,35 @@ def eight_cases(findings: Findings) -> Found:
         for i, j, v in catalog.pairs(View.COMBINED)
         if v.representation is Stage.MARKOV
     }
-    return Found(
+    return Observed(
         f"{len(gained)} cases, all distinguishable",
         set(gained.values()) != {Relation.DISTINGUISHABLE},
         pairs(4, gained),
     )
 
 
-def eleven_and_thirteen(findings: Findings) -> Found:
+def eleven_and_thirteen(findings: Findings) -> Observed:
     """4-mass models 11 and 13."""
     left, right = (findings.engine.subject(f"A{i}", Family(4, damped=False)[i]) for i in (11, 13))
     by = findings.catalog(4, damped=False).verdict(11, 13, View.COMBINED).decided_by
-    return Found(
+    return Observed(
         f"equivalent by condition {by}; condition 9 has {condition_9(left, right).note}",
         by == "9",
         pairs(4, [(11, 13)]),
     )
 
 
-def condition_6_damped(findings: Findings) -> Found:
+def condition_6_damped(findings: Findings) -> Observed:
     """Damped pairs that condition 6 decides."""
     decided = [counts_of(findings.picture(n, True, View.TF))["6"] for n in (3, 4)]
-    return Found(
+    return Observed(
         f"it decides {name_list(decided)} damped pairs of 3 and 4 masses",
         decided == [0, 0],
         families(3, 4, damped=True),
     )
 
 
-def superior(findings: Findings) -> Found:
+def superior(findings: Findings) -> Observed:
     """Open pairs of 3 masses undamped and damped and of 4 undamped, by representation."""
     cases = ((3, False, 8), (3, True, 7), (4, False, 12))
     coefficients = [len(open_pairs(findings.picture(n, damped, View.TF))) for n, damped, _ in cases]
@@ -107,10 +107,12 @@ def superior(findings: Findings) -> Found:
         for n, damped, count in cases
     ]
     fewer = all(a <= b for a, b in zip(coefficients, series, strict=True))
-    return Found(f"open pairs: {name_list(coefficients)} against {name_list(series)}", fewer, CASES)
+    return Observed(
+        f"open pairs: {name_list(coefficients)} against {name_list(series)}", fewer, CASES
+    )
 
 
-def conditions_2_and_8(findings: Findings) -> Found:
+def conditions_2_and_8(findings: Findings) -> Observed:
     """How many pairs conditions 2 and 8 decide: of one family, and of the single dampers of
     Fig. 14.
     """
@@ -123,7 +125,7 @@ def conditions_2_and_8(findings: Findings) -> Found:
     rules = Counter(
         rule for chain in Family(3, damped=True) for *_, rule in findings.dampers(chain).rows()
     )
-    return Found(
+    return Observed(
         f"they decide {decisive} pairs within the families of 1 to 5 masses; of the fields of Fig."
         f" 14 condition 2 decides {rules['2']} and condition 8 {rules['8']}",
         decisive + rules["2"] + rules["8"] == 0,
@@ -131,13 +133,13 @@ def conditions_2_and_8(findings: Findings) -> Found:
     )
 
 
-def almost_all(findings: Findings) -> Found:
+def almost_all(findings: Findings) -> Observed:
     """Share of pairs that the conditions decide, and what the exact decision adds."""
     catalogs = [findings.catalog(n, damped=d) for n, d in ((3, False), (3, True), (4, False))]
     by_conditions, exactly = (
         [c.counts(view)[""] for c in catalogs] for view in (View.COMBINED, View.EXACT)
     )
-    return Found(
+    return Observed(
         f"{name_list(by_conditions)} pairs stay open (3 masses undamped, damped, 4 undamped); "
         f"with the exact decision {name_list(exactly)}",
         sum(by_conditions) < 0.05 * sum(len(c.family) * (len(c.family) - 1) // 2 for c in catalogs),

@@ -14,7 +14,7 @@ from disting.fit.search.cost import Case, Cost
 from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.paper.claim import Claim, Findings, Found
+from disting.paper.claim import Claim, Findings, Observed
 
 SAMPLE = np.array([[3.0, 1.0], [4.0, 2.0], [0.0, 2.0]])  # columns of lengths 5 and 3
 # condition index, PII ratio, collinearity index: their thresholds, test bed 1, test bed 2
@@ -31,25 +31,25 @@ DRIVE_VALUES = np.array(
 OMEGA = 2 * pi * np.geomspace(5.0, 300.0, 60)
 
 
-def weights(findings: Findings) -> Found:
+def weights(findings: Findings) -> Observed:
     """Cost (14) of a factor 10 in the amplitude and of half a turn of the phase."""
     measured = FrequencyResponse(OMEGA, Plant(DRIVE.structure, OMEGA).response(DRIVE_VALUES))
     larger, turned = (
         float(Cost(measured).total(measured.G * factor)) / len(OMEGA) for factor in (10, -1)
     )
-    return Found("π² a line for either", bool(np.allclose([larger, turned], pi**2)))
+    return Observed("π² a line for either", bool(np.allclose([larger, turned], pi**2)))
 
 
-def importance_index(findings: Findings) -> Found:
+def importance_index(findings: Findings) -> Observed:
     """(16) of columns of known length."""
     indices = importance(SAMPLE)
-    return Found(
+    return Observed(
         "the length of each column S_j Δp_j, with Δp_j = p_j",
         bool(np.allclose(indices, [5.0, 3.0])),
     )
 
 
-def collinearity_formula(findings: Findings) -> Found:
+def collinearity_formula(findings: Findings) -> Observed:
     """(17) against Table 1: with "singular value", kappa / gamma^2 would be mu_max, between 1
     and sqrt(N_p).
     """
@@ -62,7 +62,7 @@ def collinearity_formula(findings: Findings) -> Found:
     ours = [1 <= kappa / gamma <= sqrt(n) for (kappa, _, gamma), n in rows]
     smallest = np.linalg.svd(unit_columns(SAMPLE), compute_uv=False)[-1]
     as_used = np.isclose(collinearity_index(SAMPLE), 1 / np.sqrt(smallest))
-    return Found(
+    return Observed(
         "γ = 1/μ, μ the smallest singular value of S̃: μ² is the smallest eigenvalue of S̃ᵀS̃. Of"
         f" Table 1's {len(rows)} pairs κ, γ this reading allows {sum(ours)}, the printed one"
         f" {sum(printed)}",
@@ -70,13 +70,15 @@ def collinearity_formula(findings: Findings) -> Found:
     )
 
 
-def condition_index(findings: Findings) -> Found:
+def condition_index(findings: Findings) -> Observed:
     """(18) from the singular values of unit columns."""
     values = np.linalg.svd(SAMPLE / [5.0, 3.0], compute_uv=False)
-    return Found("μ_max/μ_k of S̃", bool(np.allclose(condition_indices(SAMPLE), values[0] / values)))
+    return Observed(
+        "μ_max/μ_k of S̃", bool(np.allclose(condition_indices(SAMPLE), values[0] / values))
+    )
 
 
-def sensitivities(findings: Findings) -> Found:
+def sensitivities(findings: Findings) -> Observed:
     """(13) and (15), written out as printed, against `Cost.sensitivity`; weights 1."""
     plant = Plant(DRIVE.structure, OMEGA)
     response, gradient = plant.logarithmic_gradient(DRIVE_VALUES)
@@ -94,16 +96,16 @@ def sensitivities(findings: Findings) -> Found:
         )
         for case, first in printed.items()
     ]
-    return Found("the same matrices", all(equal))
+    return Observed("the same matrices", all(equal))
 
 
-def phase(findings: Findings) -> Found:
+def phase(findings: Findings) -> Observed:
     """The phase residual of a response that turns many times, off by 0.1 rad everywhere."""
     response = Plant(DRIVE.structure, OMEGA).response(DRIVE_VALUES) * np.exp(-0.2j * OMEGA)
     error = Cost(FrequencyResponse(OMEGA, response)).residual(response * np.exp(0.1j))[len(OMEGA) :]
     turns = int(np.sum(np.abs(np.diff(np.angle(response))) > pi))
     continuous = turns > 10 and np.allclose(error, 0.1)
-    return Found(
+    return Observed(
         "the phase error is arg(G/G_M) in (−π, π]: nothing is interpolated", not continuous
     )
 

@@ -8,8 +8,8 @@ from disting.conditions.rule import DEPENDENCES
 from disting.paper.claim import (
     Claim,
     Findings,
-    Found,
     Observation,
+    Observed,
     counts_of,
     deciding_rules,
     families,
@@ -27,7 +27,7 @@ from disting.verdict.result import Relation
 A1_A4 = (*pairs(3, [(1, 4)], damped=True), Observation(3, False, ("1", "4")))
 
 
-def figure_11(findings: Findings) -> Found:
+def figure_11(findings: Findings) -> Observed:
     """Damped, both representations."""
     left, right = findings.picture(3, True, View.TF), findings.picture(3, True, View.MARKOV, 7)
     exact = Counter(
@@ -35,7 +35,7 @@ def figure_11(findings: Findings) -> Found:
         for i, j, v in findings.catalog(3, damped=True).pairs(View.EXACT)
         if (i, j) in _open(findings)
     )
-    return Found(
+    return Observed(
         f"left: {in_words(counts_of(left))}; right: {in_words(counts_of(right))}; both together"
         f" leave {len(_open(findings))}, of which the exact decision finds"
         f" {exact[Relation.INDISTINGUISHABLE]} indistinguishable and"
@@ -49,12 +49,12 @@ def _open(findings: Findings) -> set[Pair]:
     return open_pairs(findings.picture(3, True, View.COMBINED))
 
 
-def non_constant(findings: Findings) -> Found:
+def non_constant(findings: Findings) -> Observed:
     """Numbers of non-constant coefficients against parameters."""
     damped, undamped = coefficients(findings, damped=True), coefficients(findings, damped=False)
     fewest = [i for i, n in enumerate(damped, 1) if n == 7]
     agrees = (min(damped), max(damped), min(undamped), max(undamped), fewest) == (7, 9, 3, 5, [3])
-    return Found(
+    return Observed(
         f"{min(damped)} to {max(damped)} damped (7 for A{name_list(fewest)} only), {min(undamped)}"
         f" to {max(undamped)} undamped",
         agrees,
@@ -62,60 +62,62 @@ def non_constant(findings: Findings) -> Found:
     )
 
 
-def beyond_coefficients(findings: Findings) -> Found:
+def beyond_coefficients(findings: Findings) -> Observed:
     """Damped pairs that Markov parameters decide and coefficients do not."""
     series = findings.picture(3, True, View.MARKOV, 7)
     gained = open_pairs(findings.picture(3, True, View.TF)) - open_pairs(series)
     said = name_list([f"{i}-{j}" for i, j in sorted(gained)])
     kinds = {series.relation(i - 1, j - 1) for i, j in gained}
-    return Found(
+    return Observed(
         f"{len(gained)} pairs, all distinguishable: {said}",
         kinds != {Relation.DISTINGUISHABLE},
         pairs(3, sorted(gained), damped=True),
     )
 
 
-def figure_12_pair(findings: Findings) -> Found:
+def figure_12_pair(findings: Findings) -> Observed:
     """A1 against A4."""
     by = [
         deciding_rules(findings.picture(3, True, *how))[1, 4]
         for how in ((View.TF,), (View.MARKOV, 7))
     ]
-    return Found(
+    return Observed(
         "open by coefficients, distinguishable by condition 5 on Markov parameters",
         by == ["", DEPENDENCES.name],
         A1_A4,
     )
 
 
-def figure_12_frequencies(findings: Findings) -> Found:
+def figure_12_frequencies(findings: Findings) -> Observed:
     """Frequencies of A1 and of the fitted A4."""
     worst = max(mode.detuned for mode in findings.refit.modes)
-    return Found(f"all four within {100 * worst:.1f} %", worst < 0.01, A1_A4)
+    return Observed(f"all four within {100 * worst:.1f} %", worst < 0.01, A1_A4)
 
 
-def figure_12_damping(findings: Findings) -> Found:
+def figure_12_damping(findings: Findings) -> Observed:
     """Damping ratios of A1 and of the fitted A4, the best of all starts."""
     errors = [mode.misdamped for mode in findings.refit.modes]
-    return Found(
+    return Observed(
         f"off by {100 * min(errors):.0f} to {100 * max(errors):.0f} %", min(errors) > 0.1, A1_A4
     )
 
 
-def eight_as_seven(findings: Findings) -> Found:
+def eight_as_seven(findings: Findings) -> Observed:
     """Damped, 7 and 8 Markov parameters."""
     seven, eight = (findings.picture(3, True, View.MARKOV, k).decided_by for k in (7, 8))
-    return Found(
+    return Observed(
         "the same condition decides in every field",
         np.array_equal(seven, eight),
         families(3, damped=True),
     )
 
 
-def fewer_than_seven(findings: Findings) -> Found:
+def fewer_than_seven(findings: Findings) -> Observed:
     """Damped, 6 against 7 Markov parameters."""
     seven, six = (len(open_pairs(findings.picture(3, True, View.MARKOV, k))) for k in (7, 6))
-    return Found(f"{six} pairs open with 6, {seven} with 7", six > seven, families(3, damped=True))
+    return Observed(
+        f"{six} pairs open with 6, {seven} with 7", six > seven, families(3, damped=True)
+    )
 
 
 MISREAD = (

@@ -4,23 +4,23 @@ from dataclasses import replace
 
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
-from disting.model.structure import Indices, violated
-from disting.paper.claim import Claim, Findings, Found, families, models, name_list
+from disting.model.structure import Indices, violations
+from disting.paper.claim import Claim, Findings, Observed, families, models, name_list
 
 FIGURE_9 = Indices(3, 1, 1, 3, 0, 2)
 
 
-def table_2(findings: Findings) -> Found:
+def table_2(findings: Findings) -> Observed:
     """Sizes of the families."""
     sizes = [len(Family(n, damped=False)) for n in range(1, 11)]
-    return Found(
+    return Observed(
         f"{name_list(sizes[:5])}; going on {name_list(sizes[5:])} for 6 to 10 masses",
         sizes[:5] == [1, 3, 11, 29, 73],
         families(1, 2, 3, 4, 5),
     )
 
 
-def numbering(findings: Findings) -> Found:
+def numbering(findings: Findings) -> Observed:
     """Both printed hints at the order of Table 3: A3 has fewest coefficients, 11 and 13 of four
     masses differ in the gap.
     """
@@ -31,33 +31,33 @@ def numbering(findings: Findings) -> Found:
         and left != right
         and replace(left, gap=right.gap) == right
     )
-    return Found(
+    return Observed(
         "order of (n_gap, n_act−, n_act+, n_meas−, n_meas+): both hold",
         holds,
         models(3, [3], damped=True) + models(4, [11, 13]),
     )
 
 
-def figure_9(findings: Findings) -> Found:
+def figure_9(findings: Findings) -> Observed:
     """Which constraints the example of Fig. 9 breaks."""
-    broken = [c.name for c in violated(FIGURE_9, (36, 37, 38))]
-    return Found(
+    broken = [c.name for c in violations(FIGURE_9, (36, 37, 38))]
+    return Observed(
         "the sensor's condition of (37) and both of (38) are broken",
         broken == ["sensitivity", "reciprocity-breaking", "reflection-breaking"],
     )
 
 
-def figure_1_models(findings: Findings) -> Found:
+def figure_1_models(findings: Findings) -> Observed:
     """The candidates of Fig. 1 among the families."""
     is_first = [Family(n, damped=True)[1] == Chain(n, damped=True) for n in (1, 2, 3, 4)]
-    return Found(
+    return Observed(
         "the candidate without base dampers is model 1 of its family, and collocated",
         all(is_first),
         tuple(seen for n in (1, 2, 3, 4) for seen in models(n, [1], damped=True)),
     )
 
 
-def collocated(findings: Findings) -> Found:
+def collocated_models(findings: Findings) -> Observed:
     """Collocated models: their force and sensor share both points."""
     marked = [row.number for row in findings.catalog(3, damped=False).rows if row.chain.collocated]
     same = [
@@ -65,7 +65,7 @@ def collocated(findings: Findings) -> Found:
         for i, c in enumerate(Family(3, damped=False), 1)
         if (c.act_minus, c.act_plus) == (c.meas_minus, c.meas_plus)
     ]
-    return Found(f"models {name_list(marked)}", marked == same, models(3, marked))
+    return Observed(f"models {name_list(marked)}", marked == same, models(3, marked))
 
 
 def coefficients(findings: Findings, *, damped: bool) -> list[int]:
@@ -73,7 +73,7 @@ def coefficients(findings: Findings, *, damped: bool) -> list[int]:
     return [len(p.form) for p in findings.engine.profiles_of(Family(3, damped))]
 
 
-def sensors(findings: Findings) -> Found:
+def sensors(findings: Findings) -> Observed:
     """Markov parameters of position and velocity sensors, moved by two places and one."""
     moved = []
     for damped in (False, True):
@@ -90,7 +90,7 @@ def sensors(findings: Findings) -> Found:
                 )
             ]
             moved.append(shapes[0] == shapes[1] == shapes[2])
-    return Found(
+    return Observed(
         "non-constant Markov parameters move by one (two) places in all 22 models",
         all(moved),
         families(3) + families(3, damped=True),
@@ -152,7 +152,7 @@ FAMILY_CLAIMS = (
             " asterisk.”"
         ),
         printed="asterisks, lost with the table",
-        check=collocated,
+        check=collocated_models,
     ),
     Claim(
         key="sensors",

@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from disting.fit.judge.modes import oscillating, poles, zeros
+from disting.fit.judge.modes import oscillations, poles, zeros
 from disting.fit.search.cost import Cost
 from disting.fit.search.estimate import Task
 from disting.fit.search.exchange import estimates
@@ -72,10 +72,10 @@ class Refit:
 
     def _modes(self, kind: str) -> tuple[Mode, ...]:
         roots = zeros if kind == "antiresonance" else poles
-        ours = oscillating(
+        ours = oscillations(
             roots(self.source.structure, _vector(self.source, self.given_parameters))
         )
-        theirs = oscillating(
+        theirs = oscillations(
             roots(self.fitted.structure, _vector(self.fitted, self.fitted_parameters))
         )
         pairs = enumerate(zip(ours, theirs, strict=True), 1)
@@ -94,8 +94,8 @@ def refit(parameters: Mapping[str, float] = GIVEN) -> Refit:
     family = Family(3, damped=True)
     source, target = family[1], family[4]
     p = _vector(source, parameters)
-    low = abs(oscillating(zeros(source.structure, p))[0]) / BAND
-    high = abs(oscillating(poles(source.structure, p))[-1]) * BAND
+    low = abs(oscillations(zeros(source.structure, p))[0]) / BAND
+    high = abs(oscillations(poles(source.structure, p))[-1]) * BAND
     omega = np.geomspace(low, high, LINES)
     measured = FrequencyResponse(omega, Plant(source.structure, omega).response(p))
     estimate = estimates([target], Task(Cost(measured)))[target]

@@ -6,32 +6,32 @@ from disting.fit.results.selection import CRITERIA, sweep
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.plant import Plant
 from disting.model.chain import Chain
-from disting.paper.claim import Claim, Findings, Found, name_list
+from disting.paper.claim import Claim, Findings, Observed, name_list
 from disting.paper.cost_claims import DRIVE, DRIVE_VALUES, OMEGA, TABLE_1
 
 STEP = 1e-5
 
 
-def candidates(findings: Findings) -> Found:
+def candidates(findings: Findings) -> Observed:
     """Size of the candidate set."""
     number = len(figure_1())
-    return Found(
+    return Observed(
         f"{number} = Σ 2^N sets of ground dampers × 2 (lag) × 2 (dead time), N = 1 to 4",
         number == 120,
     )
 
 
-def sizes(findings: Findings) -> Found:
+def sizes(findings: Findings) -> Observed:
     """N_p of the four best models that are named."""
     named_models = ((3, (2,)), (4, (1,)), (3, (3,)), (2, (2,)))
     counts = [
         len(Chain(n, damped=True, ground_dampers=b, dead_time=True).parameters)
         for n, b in named_models
     ]
-    return Found(name_list(counts), counts == [9, 12, 9, 6])
+    return Observed(name_list(counts), counts == [9, 12, 9, 6])
 
 
-def table_1(findings: Findings) -> Found:
+def table_1(findings: Findings) -> Observed:
     """Whether every value of Table 1 keeps its threshold."""
     beyond = [
         f"{value} > {limit}"
@@ -40,13 +40,13 @@ def table_1(findings: Findings) -> Found:
         for limit, value in zip(limits, bed, strict=True)
         if value > limit
     ]
-    return Found(
+    return Observed(
         f"17 of 18 values; {', '.join(beyond)} (condition index, test bed 2, second row)",
         not beyond,
     )
 
 
-def numerical_sensitivity(findings: Findings) -> Found:
+def numerical_sensitivity(findings: Findings) -> Observed:
     """Closed-form derivatives of a 4-mass candidate with everything, against central
     differences of logarithms.
     """
@@ -55,14 +55,14 @@ def numerical_sensitivity(findings: Findings) -> Found:
     steps = np.exp(STEP * np.eye(len(DRIVE_VALUES)))
     ahead, behind = plant.response(DRIVE_VALUES * steps), plant.response(DRIVE_VALUES / steps)
     exact = np.allclose(np.log(ahead / behind) / (2 * STEP), gradient, rtol=1e-5, atol=1e-7)
-    return Found(
+    return Observed(
         "closed forms for every size: two tridiagonal solves a frequency give G and all its"
         " derivatives",
         not exact,
     )
 
 
-def thresholds(findings: Findings) -> Found:
+def thresholds(findings: Findings) -> Observed:
     """Steps of N_p with rising thresholds, on the demonstration drive."""
     steps = [np.diff(sweep(findings.selection.candidates, c).n_parameters) for c in CRITERIA]
     rises, falls = (sum(int((sign * s > 0).sum()) for s in steps) for sign in (1, -1))
@@ -70,7 +70,7 @@ def thresholds(findings: Findings) -> Found:
         f"simulated demonstration drive: with rising thresholds N_p rises {rises} times and falls"
         f" {falls} times"
     )
-    return Found(comparison, rises > falls)
+    return Observed(comparison, rises > falls)
 
 
 TEST_BEDS = "It depends on measurements of the authors' test beds, which are not published."

@@ -13,7 +13,7 @@ from disting.model.family import Family
 from disting.paper.claim import (
     Claim,
     Findings,
-    Found,
+    Observed,
     counts_of,
     families,
     in_words,
@@ -27,7 +27,7 @@ from disting.verdict.result import Relation
 BOTH = families(3) + families(3, damped=True)
 
 
-def same_pictures(findings: Findings) -> Found:
+def same_pictures(findings: Findings) -> Observed:
     """Verdicts on 3 masses with every sensor quantity, in every view of the paper, with and
     without damping.
     """
@@ -40,16 +40,16 @@ def same_pictures(findings: Findings) -> Found:
         for view in (View.TF, View.MARKOV, View.COMBINED)
         for sensor in (Sensor.POSITION, Sensor.VELOCITY)
     ]
-    return Found("the same condition decides in every field", all(equal), BOTH)
+    return Observed("the same condition decides in every field", all(equal), BOTH)
 
 
-def figure_10_left(findings: Findings) -> Found:
+def figure_10_left(findings: Findings) -> Observed:
     """Undamped, transfer functions."""
     counts = counts_of(findings.picture(3, False, View.TF))
-    return Found(in_words(counts), "" not in counts, families(3))
+    return Observed(in_words(counts), "" not in counts, families(3))
 
 
-def figure_10_right(findings: Findings) -> Found:
+def figure_10_right(findings: Findings) -> Observed:
     """Undamped, 8 Markov parameters: what is left open is what the transfer function proves
     indistinguishable.
     """
@@ -60,46 +60,48 @@ def figure_10_right(findings: Findings) -> Found:
         for i, j in combinations(range(len(by.subjects)), 2)
         if by.relation(i, j) is Relation.INDISTINGUISHABLE
     }
-    return Found(
+    return Observed(
         f"{in_words(counts_of(series))}: exactly the {len(same)} indistinguishable pairs",
         open_pairs(series) == same,
         pairs(3, sorted(same)),
     )
 
 
-def fewer_than_eight(findings: Findings) -> Found:
+def fewer_than_eight(findings: Findings) -> Observed:
     """Undamped, 7 against 8 Markov parameters."""
     eight, seven = (len(open_pairs(findings.picture(3, False, View.MARKOV, k))) for k in (8, 7))
-    return Found(f"{seven} pairs open with 7, {eight} with 8", seven > eight, families(3))
+    return Observed(f"{seven} pairs open with 7, {eight} with 8", seven > eight, families(3))
 
 
-def all_twelve(findings: Findings) -> Found:
+def all_twelve(findings: Findings) -> Observed:
     """Undamped, all 12 Markov parameters."""
     counts = counts_of(findings.picture(3, False, View.MARKOV))
-    return Found(
+    return Observed(
         f"all 12 are computed modulo primes: {in_words(counts)}", "6" not in counts, families(3)
     )
 
 
-def no_additional_information(findings: Findings) -> Found:
+def no_additional_information(findings: Findings) -> Observed:
     """Undamped pairs that only Markov parameters decide."""
     gained = open_pairs(findings.picture(3, False, View.TF)) - open_pairs(
         findings.picture(3, False, View.MARKOV, 8)
     )
-    return Found(f"{len(gained)} pairs more", not gained, pairs(3, sorted(gained)) or families(3))
+    return Observed(
+        f"{len(gained)} pairs more", not gained, pairs(3, sorted(gained)) or families(3)
+    )
 
 
-def determinable(findings: Findings) -> Found:
+def determinable(findings: Findings) -> Observed:
     """Determinable parameters of the undamped 3-mass models."""
     ranks = [row.rank for row in findings.catalog(3, damped=False).rows]
-    return Found(
+    return Observed(
         f"5 parameters, of which {min(ranks)} to {max(ranks)} are determinable",
         set(ranks) == {5},
         models(3, [number for number, rank in enumerate(ranks, 1) if rank < 5]),
     )
 
 
-def more_markov_than_parameters(findings: Findings) -> Found:
+def more_markov_than_parameters(findings: Findings) -> Observed:
     """Whether condition 7 decides anything from all 12 Markov parameters, undamped."""
     profiles = findings.engine.profiles_of(Family(3, damped=False), markov=12)
     more = [len(p.form) > p.rank for p in profiles]
@@ -108,7 +110,7 @@ def more_markov_than_parameters(findings: Findings) -> Found:
         f"so in {sum(more)} of {len(more)} models with all 12 Markov parameters; condition 7 holds"
         f" for {sum(holds)} pairs"
     )
-    return Found(said, all(more) and not any(holds), families(3))
+    return Observed(said, all(more) and not any(holds), families(3))
 
 
 VERDICT_CLAIMS = (

@@ -2,7 +2,7 @@
 formulas out for people.
 """
 
-from disting.model.presentation import offered as _offered
+from disting.model.presentation import public_names as _offered
 from disting.report.damper_page import damper_page as damper_page
 from disting.report.drawing import (
     chain_png as chain_png,

@@ -8,8 +8,8 @@ from itertools import accumulate
 
 from disting.network.element import Element, Sort
 from disting.network.network import Network
-from disting.report.network_symbols import Track, drawn
-from disting.report.scene import Anchor, Circle, Ink, Layer, Path, Point, Text
+from disting.report.network_symbols import Track, draw_symbol
+from disting.report.scene import Anchor, Circle, Ink, Layer, Path, Place, Text
 
 CELL = 66.0, 40.0  # of one element
 LEAD = 13.0  # between parallel parts and the nodes at their ends
@@ -28,7 +28,7 @@ class Part:
     parts: tuple["Part", ...] = ()
 
     @property
-    def size(self) -> Point:
+    def size(self) -> Place:
         """Width and height of its drawing."""
         if self.element:
             return CELL
@@ -169,6 +169,6 @@ def _elements(part: Part, x: float, y: float) -> Iterator[Layer]:
     if part.element:
         e, width = part.element, part.size[0]
         name = Text(x + width / 2, y - 16, e.value, 11, Ink.LABEL, Anchor.MIDDLE)
-        yield Layer(e.value, (*drawn(e.letter, Track((x, y), (x + width, y))), name))
+        yield Layer(e.value, (*draw_symbol(e.letter, Track((x, y), (x + width, y))), name))
     for p, left, row in _placed(part, x, y) if part.parts else ():
         yield from _elements(p, left, row)

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from disting.catalogs.damper_family import DamperFamily, Name
-from disting.catalogs.dampers import spelled
+from disting.catalogs.dampers import spell
 from disting.catalogs.files import name_of as chains_name
 from disting.conditions.rule import EXACT, RULES
 from disting.model.chain import Chain
-from disting.report.damper_payload import Numbered, numbered, open_classes, payload, rules
+from disting.report.damper_payload import ClassNumbers, number_classes, open_classes, payload, rules
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.page import decides
@@ -22,7 +22,7 @@ from disting.report.page_drawing import (
     Drawing,
     ground_dampers,
     height_with_dampers,
-    held,
+    share,
 )
 from disting.report.search import Families, families
 from disting.report.words import plural
@@ -88,13 +88,13 @@ def damper_page(the_family: DamperFamily, *, beside: Families | None = None) -> 
     catalog = chains_name(the_family.family.n_masses, the_family.family.damped) in pages
     family, by_size, totals = (
         the_family.family,
-        numbered(the_family.found),
+        number_classes(the_family.found),
         the_family.found.counts(),
     )
     drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(family, 1)]
     sample = Chain(3, 1, 1, 3, 1, 2, damped=family.damped, ground_dampers=(2,))
     example = Drawing(0, draw(sample))
-    undecided = list(opened(the_family, by_size))
+    undecided = list(open_pairs(the_family, by_size))
     return render(
         "dampers.html",
         family=family,
@@ -109,7 +109,7 @@ def damper_page(the_family: DamperFamily, *, beside: Families | None = None) -> 
         counts=counts(the_family),
         undecided=undecided[:LISTED],
         more=len(undecided) - LISTED,
-        held=held((*drawings, example), ground_dampers(family.n_masses)),
+        held=share((*drawings, example), ground_dampers(family.n_masses)),
         sample=example,
         payload=payload(
             the_family,
@@ -128,7 +128,7 @@ def family_title(n_masses: int, damped: bool) -> str:
 
 
 def structures(
-    family: DamperFamily, by_size: Numbered, drawings: Sequence[Drawing]
+    family: DamperFamily, by_size: ClassNumbers, drawings: Sequence[Drawing]
 ) -> Iterator[Structure]:
     """The family's chains."""
     rows = by_size.group.reshape(len(family.family), len(family.sets)).tolist()
@@ -159,18 +159,18 @@ def counts(family: DamperFamily) -> list[Count]:
     return [*own_counts, Count("", "undecided", "nothing decides", Relation.UNDECIDED, number[""])]
 
 
-def opened(family: DamperFamily, by_size: Numbered) -> Iterator[Open]:
+def open_pairs(family: DamperFamily, by_size: ClassNumbers) -> Iterator[Open]:
     """The pairs of classes that stay open, in the order of the classes."""
     for a, b in open_classes(family.found, by_size):
         left, right = (_short(family.name(int(by_size.first[g]))) for g in (a, b))
         yield Open(left, right, int(by_size.sizes[a] * by_size.sizes[b]))
 
 
-def _group(family: DamperFamily, by_size: Numbered, number: int) -> Group:
+def _group(family: DamperFamily, by_size: ClassNumbers, number: int) -> Group:
     names = [family.name(i) for i in by_size.members(number)]
     sets: dict[str, list[int]] = {}
     for structure, of in groupby(names, key=lambda name: name[0]):
-        sets.setdefault(", ".join(spelled(masses) for _, masses in of), []).append(structure)
+        sets.setdefault(", ".join(spell(masses) for _, masses in of), []).append(structure)
     return Group(number + 1, len(names), tuple((tuple(of), text) for text, of in sets.items()))
 
 

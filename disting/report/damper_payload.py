@@ -18,7 +18,7 @@ from disting.catalogs.dampers import Masses
 from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING, RULES, SUBMODEL, SUPERMODEL
 from disting.errors import InputError
 from disting.model.chain import Chain
-from disting.report.payload import packed, script_json
+from disting.report.payload import pack, script_json
 from disting.verdict.classes import Classes
 
 Numbers = NDArray[np.int64]
@@ -35,7 +35,7 @@ LINKS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Numbered:
+class ClassNumbers:
     """Classes by size: `group[i]` is the class of model i, `first[g]` the first model of class
     g.
     """
@@ -54,7 +54,7 @@ class Numbered:
         return tuple(map(int, np.flatnonzero(self.group == group)))
 
 
-def numbered(classes: Classes) -> Numbered:
+def number_classes(classes: Classes) -> ClassNumbers:
     """The classes, the largest first, those of one size by their first models.
 
     Raises InputError where the columns of a class disagree: then no look-up by class is possible.
@@ -67,14 +67,14 @@ def numbered(classes: Classes) -> Numbered:
     order = np.lexsort((first, -sizes))
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
-    return Numbered(place[inverse], first[order], sizes[order])
+    return ClassNumbers(place[inverse], first[order], sizes[order])
 
 
 def payload(family: DamperFamily, **more: object) -> Markup:
     """JSON text that is safe inside a script element, with what else the page's script is to
     know.
     """
-    classes, by_size = family.found, numbered(family.found)
+    classes, by_size = family.found, number_classes(family.found)
     data = more | {
         "masses": family.family.n_masses,
         "damped": family.family.damped,
@@ -127,7 +127,7 @@ def rules() -> dict[str, Rule]:
     return said | {EXACT.name: (EXACT.sign, EXACT.in_words(), "")}
 
 
-def open_classes(classes: Classes, by_size: Numbered) -> list[tuple[int, int]]:
+def open_classes(classes: Classes, by_size: ClassNumbers) -> list[tuple[int, int]]:
     """Pairs of classes that nothing decides, in their new numbers."""
     number = dict(zip(map(int, classes.group), map(int, by_size.group), strict=True))
     return sorted(
@@ -142,4 +142,4 @@ def _renumbered(values: NDArray[np.int32]) -> Numbers:
 
 
 def _packed(values: NDArray[np.integer]) -> list[int]:
-    return packed(values.tolist())
+    return pack(values.tolist())

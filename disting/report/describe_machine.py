@@ -14,15 +14,15 @@ from itertools import product
 
 from disting.catalogs import Catalog
 from disting.model.chain import Chain
-from disting.model.structure import Indices, violated
-from disting.report.domains import one_sided, with_exceptions
+from disting.model.structure import Indices, violations
+from disting.report.domains import one_sided_pairs, with_exceptions
 from disting.report.drawing import draw
-from disting.report.graph_drawing import hatched
+from disting.report.graph_drawing import hatching
 from disting.report.model import folder_of
-from disting.report.network_symbols import Track, drawn, gear
+from disting.report.network_symbols import Track, draw_symbol, gear
 from disting.report.page_drawing import Part, ground_dampers, height_with_dampers
 from disting.report.scene import Layer
-from disting.report.words import not_known, short_title
+from disting.report.words import short_title, unknown_parameters
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -37,7 +37,7 @@ def descriptions(n_masses: int, *, damped: bool) -> Iterator[Chain]:
         low, high = range(gap + 1), range(gap + 1, n_masses + 1)
         for ports in product(low, high, low, high):
             indices = Indices(n_masses, gap, *ports)
-            if not any(violated(indices, (36, 37))):
+            if not any(violations(indices, (36, 37))):
                 yield Chain(*indices, damped=damped)
 
 
@@ -57,10 +57,10 @@ def _signs() -> Iterator[Part]:
     """A spring, a damper, wheels of a gear and a piece of ground, each at (0, 0), along x."""
     track = Track((-18.0, 0.0), (18.0, 0.0))
     for letter in "kd":
-        yield Part(f"part-sign-{letter}", Layer(letter, drawn(letter, track)))
+        yield Part(f"part-sign-{letter}", Layer(letter, draw_symbol(letter, track)))
     yield Part("part-sign-gear", Layer("gear", gear(Track((-18.0, 0.0), (9.0, 0.0)))))
     yield Part(
-        "part-sign-ground", Layer("ground", tuple(hatched(Track((-9.0, 0.0), (0.0, 0.0)), 13.0)))
+        "part-sign-ground", Layer("ground", tuple(hatching(Track((-9.0, 0.0), (0.0, 0.0)), 13.0)))
     )
 
 
@@ -115,7 +115,7 @@ def _machine(c: Catalog) -> dict[str, object]:
         "aside": sorted({m for pair in with_exceptions(c, View.POSITIVE) for m in pair}),
         "depends": _depending(c),
         "open": _undecided(c),
-        "known": {row.number: said for row in c.rows if (said := not_known(row))},
+        "known": {row.number: said for row in c.rows if (said := unknown_parameters(row))},
     }
 
 
@@ -124,7 +124,7 @@ def _depending(c: Catalog) -> dict[int, list[int]]:
     reverse, but not of all.
     """
     pairs = [way for low, high in c.depending() for way in ((low, high), (high, low))]
-    pairs += [(case.given, case.other) for case in one_sided(c)]
+    pairs += [(case.given, case.other) for case in one_sided_pairs(c)]
     return {
         number: sorted(other for source_number, other in pairs if source_number == number)
         for number in sorted({p for p, _ in pairs})

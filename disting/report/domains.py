@@ -13,7 +13,7 @@ from itertools import combinations
 
 from disting.evidence.positive import Share
 from disting.model.question import Domain
-from disting.report.words import Decided, totals
+from disting.report.words import DecidedModels, totals
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -23,7 +23,7 @@ ABLE = (Share.ALWAYS, Share.SOMETIMES)
 
 
 @dataclass(frozen=True, slots=True)
-class OneSided:
+class OneSidedPair:
     """Of a distinguishable pair, models `given` have an equivalent `other` for all or some of
     their positive parameters.
     """
@@ -48,7 +48,7 @@ class Over:
     groups: tuple[Members, ...]
     aside: tuple[tuple[int, int], ...]
     depending: tuple[tuple[int, int], ...]
-    one_sided: tuple[OneSided, ...]
+    one_sided: tuple[OneSidedPair, ...]
     blocks: tuple[Members, ...]
 
     @property
@@ -57,10 +57,10 @@ class Over:
         return self.view.domain
 
 
-def over(decided: Decided, view: View) -> Over:
+def over(decided: DecidedModels, view: View) -> Over:
     """What pages say over the domain of a view, one of VIEWS."""
     groups = decided.classes(view)
-    sides = tuple(one_sided(decided)) if view is View.POSITIVE else ()
+    sides = tuple(one_sided_pairs(decided)) if view is View.POSITIVE else ()
     return Over(
         view=view,
         totals=totals(decided, view),
@@ -72,7 +72,7 @@ def over(decided: Decided, view: View) -> Over:
     )
 
 
-def with_exceptions(decided: Decided, view: View) -> Iterator[tuple[int, int]]:
+def with_exceptions(decided: DecidedModels, view: View) -> Iterator[tuple[int, int]]:
     """Yield the pairs of a group of which the verdict leaves special values aside."""
     for members in decided.classes(view):
         for pair in combinations(members, 2):
@@ -95,7 +95,7 @@ def blocks(classes: tuple[Members, ...], groups: tuple[Members, ...]) -> tuple[M
     return tuple(pairs)
 
 
-def one_sided(decided: Decided) -> Iterator[OneSided]:
+def one_sided_pairs(decided: DecidedModels) -> Iterator[OneSidedPair]:
     """The distinguishable pairs of which positive models on one side have equivalents on the
     other.
     """
@@ -106,7 +106,7 @@ def one_sided(decided: Decided) -> Iterator[OneSided]:
                 (v.right_positive, right, left),
             ):
                 if finding is not None and finding.share in ABLE:
-                    yield OneSided(number, other, finding.share)
+                    yield OneSidedPair(number, other, finding.share)
 
 
 def _size_first(members: Members) -> tuple[int, Members]:

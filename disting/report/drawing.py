@@ -22,7 +22,7 @@ from disting.report.scene import (
     Ink,
     Layer,
     Path,
-    Point,
+    Place,
     Rect,
     Scene,
     Shape,
@@ -287,7 +287,7 @@ def _stems(at: Layout) -> tuple[float, ...]:
     return tuple(at.middle(i) - STEM for i in at.chain.ground_dampers)
 
 
-def _pieces(x0: float, x1: float, cuts: tuple[float, ...]) -> Iterator[Point]:
+def _pieces(x0: float, x1: float, cuts: tuple[float, ...]) -> Iterator[Place]:
     """The parts of x0..x1 that keep clear of vertical lines at the cuts."""
     inside = [c for c in cuts if x0 < c < x1]
     return zip([x0, *(c + 4 for c in inside)], [*(c - 4 for c in inside), x1], strict=True)

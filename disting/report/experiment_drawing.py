@@ -68,7 +68,7 @@ def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
 
 def additions(used: Iterable[tuple[Chain, Item]]) -> list[Part]:
     """What sketches are made of beside the drawings of the chains, each once."""
-    layers = {layer.name: layer for layer in (added(*pair) for pair in used)}
+    layers = {layer.name: layer for layer in (draw_item(*pair) for pair in used)}
     return [Part(f"more-{name}", layer) for name, layer in sorted(layers.items())]
 
 
@@ -99,7 +99,7 @@ def state(
     return replace(own, layers=tuple(layers))
 
 
-def added(chain: Chain, item: Item) -> Layer:
+def draw_item(chain: Chain, item: Item) -> Layer:
     """What one item adds to the drawing of a chain; layers of one name are the same for all chains
     of the size.
     """

@@ -39,11 +39,11 @@ from disting.questions.identifiability.parts import Combination
 from disting.report.mathml import (
     equation,
     expression,
-    factorised,
+    factorise,
     formula,
     fraction,
     math,
-    primed,
+    prime,
     summands,
     symbol,
 )
@@ -81,10 +81,10 @@ class Correspondence:
     steps: str
 
 
-def written(chain: Chain) -> TransferFunction:
+def transfer_function_parts(chain: Chain) -> TransferFunction:
     r"""The transfer function of a chain, in k and d up to 3 masses, in κ above.
 
-    >>> print(written(Chain(1, damped=False)).latex)
+    >>> print(transfer_function_parts(Chain(1, damped=False)).latex)
     \begin{align}
       G(s) &= \frac{b_{0}}{a_{0}} \\
       b_{0} &= 1 \\
@@ -142,7 +142,7 @@ def correspondence(chain: Chain, other: Chain) -> Correspondence | None:
     if formula_map is None:
         return None
     lines = (
-        equation(primed(name), expression(value)) for name, value in formula_map.formulas.items()
+        equation(prime(name), expression(value)) for name, value in formula_map.formulas.items()
     )
     return Correspondence(tuple(lines), formula_map.latex, ", then ".join(formula_map.steps))
 
@@ -171,7 +171,7 @@ def written_values(assignment: Assignment) -> Values:
     """Formulas for the values of another model, typeset."""
     root = assignment.root
     steps = (equation(symbol(name), _typed(text)) for name, text in assignment.steps)
-    equations = (equation(primed(name), _typed(text)) for name, text in assignment.values)
+    equations = (equation(prime(name), _typed(text)) for name, text in assignment.values)
     return Values(
         tuple(math(_typed(text)) for text in assignment.where),
         (*steps, *equations),
@@ -209,7 +209,7 @@ def written_conditions(piece: Piece) -> Conditions:
         tuple(typeset(text, "&gt;") for text in piece.positive),
         typeset(piece.equation) if piece.equation else Markup(),
         math(symbol(piece.root)) if piece.root else Markup(),
-        math(primed(piece.parameter)) if piece.parameter else Markup(),
+        math(prime(piece.parameter)) if piece.parameter else Markup(),
     )
 
 
@@ -246,7 +246,7 @@ def _shown(own_parts: Content) -> tuple[tuple[str, ...], str]:
     Many chains of a family share it: a denominator does not depend on the ports.
     """
     shown = _readable(polynomial_of(own_parts))
-    parts = factorised(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
+    parts = factorise(shown.num) if isinstance(shown, RationalFunction) else summands(shown)
     return tuple(parts), latex(shown)
 
 

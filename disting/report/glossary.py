@@ -56,7 +56,7 @@ def hard_words(text: str) -> dict[str, str]:
     return {m[1].lower(): ANCHORS[m[1].lower()] for m in WORD.finditer(text)}
 
 
-def linked(inlines: Iterable[Token]) -> None:
+def link_words(inlines: Iterable[Token]) -> None:
     """Make the first use of each word in running text a link to the glossary, in place."""
     done: set[str] = set()
     for inline in inlines:

@@ -14,14 +14,14 @@ from math import cos, pi, sin
 from disting.network.element import Element, Sort
 from disting.network.graph import edges
 from disting.network.network import Network
-from disting.report.network_symbols import Sheet, Track, drawn, gear
+from disting.report.network_symbols import Sheet, Track, draw_symbol, gear
 from disting.report.scene import (
     Anchor,
     Circle,
     Ink,
     Layer,
     Path,
-    Point,
+    Place,
     Rect,
     Shape,
     Text,
@@ -77,7 +77,7 @@ def graph_layers(network: Network) -> list[Layer]:
     return [*sheet.layers, *nodes]
 
 
-def _places(network: Network) -> dict[int, Point]:
+def _places(network: Network) -> dict[int, Place]:
     """Where the nodes stand: column after column by their distance from the first input, a part
     that is not connected with it behind it.
     """
@@ -92,7 +92,7 @@ def _places(network: Network) -> dict[int, Point]:
             near[a].append(b)
             near[b].append(a)
     starts = [i for p in network.ports for i in (p.plus, p.minus)]
-    places, x = dict[int, Point](), 0.0
+    places, x = dict[int, Place](), 0.0
     most = max(Counter(frozenset(e.nodes) for e in network.elements).values())
     row, width = ROW + 1.4 * ASIDE * most, COLUMN + 12 * (most - 1)
     while left:
@@ -120,7 +120,7 @@ def _columns(start: int, near: dict[int, list[int]]) -> Iterator[list[int]]:
         seen |= set(column)
 
 
-def _node(network: Network, i: int, place: Point) -> tuple[Shape, ...]:
+def _node(network: Network, i: int, place: Place) -> tuple[Shape, ...]:
     x, y = place
     radius = RADIUS[network.sort]
     if network.sort is Sort.CIRCUIT:
@@ -137,7 +137,7 @@ def _node(network: Network, i: int, place: Point) -> tuple[Shape, ...]:
 Joints = dict[tuple[int, int], list[Element]]
 
 
-def _joints(network: Network, places: dict[int, Point]) -> tuple[Joints, dict[int, list[Element]]]:
+def _joints(network: Network, places: dict[int, Place]) -> tuple[Joints, dict[int, list[Element]]]:
     """The elements between two nodes, and those that hang at one, to the ground or the outside."""
     joints, hanging = Joints(), dict[int, list[Element]]()
     for e in network.elements:
@@ -164,7 +164,7 @@ def _fan(whole: Track, aside: float, radius: float) -> Iterator[Path]:
 
 
 def _element(e: Element, track: Track) -> tuple[Shape, ...]:
-    return *drawn(e.letter, track), *(gear(track) if e.ratio else ())
+    return *draw_symbol(e.letter, track), *(gear(track) if e.ratio else ())
 
 
 def _names(e: Element, track: Track, aside: float) -> Iterator[Text]:
@@ -188,7 +188,7 @@ def _beside(said: str, track: Track, along: float, side: float, away: float) -> 
     return Text(x - (3 if x > x0 else -3), y, said, LETTERS, Ink.LABEL, anchor)
 
 
-def _arms(place: Point, radius: float, first: float, length: float = ARM) -> Iterator[Track]:
+def _arms(place: Place, radius: float, first: float, length: float = ARM) -> Iterator[Track]:
     """Ways from a node outwards, the first direction (in turns, 0 to the right, 1/4 down) and its
     neighbours before others.
     """
@@ -203,7 +203,7 @@ def _arms(place: Point, radius: float, first: float, length: float = ARM) -> Ite
         )
 
 
-def _ends_of_ports(network: Network, places: dict[int, Point]) -> Iterator[tuple[Point, str, str]]:
+def _ends_of_ports(network: Network, places: dict[int, Place]) -> Iterator[tuple[Place, str, str]]:
     """Place, "force" or "sensor" (of a circuit both: "port"), and sign of each end of a port
     that is no ground.
     """
@@ -249,7 +249,7 @@ def _arm_of_port(sheet: Sheet, at: Track, kind: str, sign: str, radius: float) -
 
 
 def _arm_to_ground(
-    sheet: Sheet, place: Point, elements: Sequence[Element], radius: float, sort: Sort
+    sheet: Sheet, place: Place, elements: Sequence[Element], radius: float, sort: Sort
 ) -> None:
     """Joints of one node to the ground, side by side, with the piece of ground; flows outside."""
     half = 13.0 + ASIDE / 2 * (len(elements) - 1)
@@ -259,7 +259,7 @@ def _arm_to_ground(
         track = arm.shifted(aside, 0)
         sheet.add(e.value, (*_fan_at(arm, aside, radius), *_element(e, track)))
     if sort is Sort.MACHINE:
-        sheet.add("ground", hatched(arm, half))
+        sheet.add("ground", hatching(arm, half))
     for e, aside in zip(elements, _asides(len(elements)), strict=True):
         names = list(_names(e, arm.shifted(aside, 0), aside))
         sheet.add(f"name-{e.value}", (sheet.clearest(names),))
@@ -270,7 +270,7 @@ def _fan_at(arm: Track, aside: float, radius: float) -> Iterator[Path]:
         yield Path((arm.start, arm.at(0, aside)))
 
 
-def hatched(arm: Track, half: float) -> Iterator[Path]:
+def hatching(arm: Track, half: float) -> Iterator[Path]:
     """A piece of ground at the end of an arm."""
     n = arm.length
     yield Path((arm.at(n, -half), arm.at(n, half)), line=2)

@@ -18,7 +18,7 @@ from importlib.resources import files
 
 from markupsafe import Markup, escape
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.report.environment import render, source
 from disting.report.markdown import ADDRESS, NOTHING, PREFIX as PREFIX, GuidePage, guide_page
 from disting.report.reference.commands import command_page
@@ -57,7 +57,7 @@ def notebook_page(name: str, text: str, container: Container[str]) -> GuidePage:
             part for number, cell in enumerate(cells) for part in _parts(number, cell, outputs)
         ]
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise InputError(f"{shown(name)} is no executed notebook: {error}") from error
+        raise InputError(f"{short(name)} is no executed notebook: {error}") from error
     title = [] if parts and parts[0].startswith("# ") else [f"# {name}"]
     return guide_page(
         PREFIX + name, "\n\n".join([*title, *parts, "```file\n```"]), container, outputs=outputs

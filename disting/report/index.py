@@ -15,7 +15,7 @@ from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
 from disting.report.matrix import FILLS
 from disting.report.model import model_of, motion_of
-from disting.report.page_drawing import Drawing, held
+from disting.report.page_drawing import Drawing, share
 from disting.report.payload import script_json
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene
 from disting.report.search import families
@@ -158,7 +158,7 @@ def index(
         families=script_json(families(catalogs, dampers, across)),
         across=across,
         machines=script_json(machines(catalogs)),
-        held=held((shown.left, shown.right) if shown else (), parts(catalogs)),
+        held=share((shown.left, shown.right) if shown else (), parts(catalogs)),
         machine_sizes=masses,
         machine_start=min(masses, key=lambda n: abs(n - 3), default=0),
         plural=plural,

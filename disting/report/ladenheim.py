@@ -25,7 +25,7 @@ from disting.network.exact import within
 from disting.report.environment import render
 from disting.report.formulas import typeset
 from disting.report.listing import Card, Listing
-from disting.report.page_drawing import held
+from disting.report.page_drawing import share
 from disting.report.words import plural
 from disting.verdict.query import View
 from disting.verdict.result import Relation
@@ -177,7 +177,7 @@ def ladenheim_page(shown: Listing, *, site: bool = False) -> str:
         split=[c for c in the_classes if len(c.parts) > 1],
         left=left,
         open=pairs,
-        held=held(card.drawing for card in shown.cards if card.drawing),
+        held=share(card.drawing for card in shown.cards if card.drawing),
         site=site,
         plural=plural,
     )

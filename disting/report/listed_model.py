@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from markupsafe import Markup
 
 from disting.equivalence.duplicates import duplicate
-from disting.general.any_model import measured
+from disting.general.any_model import measurand
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.network.element import Sort
@@ -24,8 +24,8 @@ from disting.report.formulas import (
     written_values,
 )
 from disting.report.listing import Card, Listing
-from disting.report.model import told_apart
-from disting.report.page_drawing import held
+from disting.report.model import reasons_apart
+from disting.report.page_drawing import share
 from disting.report.words import plural
 from disting.verdict.meaning import meaning_sentence as shows
 from disting.verdict.query import View
@@ -105,8 +105,8 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
         few=FEW,
         aside=any(v.has_exceptions for v in verdicts.values()),
         complex_same=complex_same,
-        told_apart=told_apart(verdicts),
-        held=held(c.drawing for c in (card, *(t.card for t in twins)) if c.drawing),
+        told_apart=reasons_apart(verdicts),
+        held=share(c.drawing for c in (card, *(t.card for t in twins)) if c.drawing),
         transfers=_transfers(card.model, LETTERS.get(sort, "G")),
         unseen=network.unseen if network else (),
         function=FUNCTIONS.get(sort, "transfer function"),
@@ -129,7 +129,7 @@ def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
     low, high = sorted((number, other))
     named = replace(verdict, left=shown.label(low), right=shown.label(high))
     both = [shown.found.family[n - 1] for n in (low, high)]
-    said = shows(named, measured(both))
+    said = shows(named, measurand(both))
     names = shown.cards[number - 1].model.name, shown.cards[other - 1].model.name
     command = ""
     if shown.numbered:

@@ -10,7 +10,7 @@ from itertools import combinations, permutations
 
 from disting.equivalence.reach import REACHED, Reach
 from disting.errors import InputError
-from disting.general.any_model import unnamed
+from disting.general.any_model import without_names
 from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
@@ -186,7 +186,7 @@ class Listing:
         )
 
 
-def judged(
+def judge(
     the_models: ModelList,
     engine: Engine,
     *,
@@ -201,7 +201,7 @@ def judged(
         )
         for view in VIEWS
     }
-    asked = [(unnamed(subject.subject),) for subject in subjects]
+    asked = [(without_names(subject.subject),) for subject in subjects]
     engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
     global_identifiabilities = tuple(
         engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked
@@ -219,7 +219,7 @@ def _conditions(
 ) -> dict[tuple[int, int], Reach]:
     """Of the pairs that are the same for some positive values, both ways."""
     asked = {
-        (i + 1, j + 1): (unnamed(subjects[i].subject), unnamed(subjects[j].subject))
+        (i + 1, j + 1): (without_names(subjects[i].subject), without_names(subjects[j].subject))
         for i, j in permutations(range(len(subjects)), 2)
         if over_positive.relation(*sorted((i, j))) is Relation.SOMETIMES
     }

@@ -109,7 +109,7 @@ def guide_page(
     title = _words(tokens[1])
     if glossary.PAGE in container and name != glossary.PAGE:
         pairs = pairwise(tokens[2:])
-        glossary.linked(
+        glossary.link_words(
             inner for token, inner in pairs if inner.children and token.type != "heading_open"
         )
     html = parser.renderer.render(
@@ -179,14 +179,14 @@ def _code(
     if tokens[place].info == "picture":
         return _pictures(tokens[place].content.splitlines())
     content = tokens[place].content.rstrip()
-    return COPIED.format(content, typed(content))
+    return COPIED.format(content, typed_text(content))
 
 
-def typed(shown: str) -> str:
+def typed_text(shown: str) -> str:
     """What a reader types of a block: commands without their outputs, Python without its answers,
     else the whole of it.
 
-    >>> typed("$ disting doctor\\nfine"), typed(">>> for i in (1,):\\n...     i\\n1")
+    >>> typed_text("$ disting doctor\\nfine"), typed_text(">>> for i in (1,):\\n...     i\\n1")
     ('disting doctor', 'for i in (1,):\\n    i')
     """
     marks = ("$ ",) if shown.startswith("$ ") else (">>> ", "... ")

@@ -39,10 +39,10 @@ def symbol(name: str, exponent: int = 1) -> str:
     return f"<msubsup>{letter}{index}<mn>{exponent}</mn></msubsup>"
 
 
-def primed(name: str) -> str:
+def prime(name: str) -> str:
     """A parameter of another model.
 
-    >>> primed("m1")
+    >>> prime("m1")
     '<msubsup><mi>m</mi><mn>1</mn><mo>′</mo></msubsup>'
     """
     return symbol(name).replace("msub>", "msubsup>").replace("</mn><", "</mn><mo>′</mo><")
@@ -72,7 +72,7 @@ def fraction(top: str, bottom: str) -> str:
 
 def expression(value: RationalFunction) -> str:
     """A rational function, factorised."""
-    top, bottom = ("".join(factorised(p)) for p in (value.num, value.den))
+    top, bottom = ("".join(factorise(p)) for p in (value.num, value.den))
     return top if value.den.is_one() else fraction(top, bottom)
 
 
@@ -95,7 +95,7 @@ def equation(left: str, right: str) -> Markup:
     return math(f"{left}<mo>=</mo>{right}")
 
 
-def factorised(polynomial: Polynomial) -> list[str]:
+def factorise(polynomial: Polynomial) -> list[str]:
     """The factors of a polynomial, the number and single symbols as one, sums in parentheses."""
     content, powers = factors(polynomial)
     number = f"<mn>{abs(content)}</mn>" if abs(content) != 1 or not powers else ""

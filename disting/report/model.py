@@ -19,9 +19,14 @@ from disting.questions.identifiability.parts import Level
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import additions
-from disting.report.formulas import Correspondence, combinations, correspondence, written
-from disting.report.next_steps import advice, drawn, found_for, page_of
-from disting.report.page_drawing import Drawing, held
+from disting.report.formulas import (
+    Correspondence,
+    combinations,
+    correspondence,
+    transfer_function_parts,
+)
+from disting.report.next_steps import advice, drawings_of, found_for, page_of
+from disting.report.page_drawing import Drawing, share
 from disting.report.words import plural, rule_in_words, short_title
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
@@ -136,7 +141,7 @@ def model_page(catalog: Catalog, number: int) -> str:
     True
     """
     model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
-    seen = {other: standing(number, other, v) for other, v in verdicts.items()}
+    seen = {other: relation_from(number, other, v) for other, v in verdicts.items()}
     twins = [
         _twin(catalog, model, other, v)
         for other, v in verdicts.items()
@@ -157,14 +162,14 @@ def model_page(catalog: Catalog, number: int) -> str:
         open=[t for t in twins if t.relation is Relation.UNDECIDED],
         complex_same=_over_complex(catalog, number, Relation.INDISTINGUISHABLE),
         complex_open=_over_complex(catalog, number, Relation.UNDECIDED),
-        held=held(
+        held=share(
             (model_of(catalog, n).drawing for n in shown),
-            additions(drawn([own_advice] if own_advice else [])),
+            additions(drawings_of([own_advice] if own_advice else [])),
         ),
-        transfer=written(model.row.chain),
+        transfer=transfer_function_parts(model.row.chain),
         free=catalog.record(number)["free"],
         basis=combinations(model.row.identifiability.basis),
-        told_apart=told_apart(
+        told_apart=reasons_apart(
             {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}
         ),
         limits=limits(number, verdicts),
@@ -182,7 +187,7 @@ def _over_complex(catalog: Catalog, number: int, relation: Relation) -> list[int
     return [n for n in others if catalog.relation(number, n, View.EXACT) is relation]
 
 
-def told_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:
+def reasons_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:
     """What tells the model from how many others, the most frequent first."""
     counter = Counter(
         v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE
@@ -210,7 +215,7 @@ def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
     return Limits(tuple(others(True)), tuple(others(False)), tuple(unknown))
 
 
-def standing(number: int, other: int, verdict: Verdict) -> Relation:
+def relation_from(number: int, other: int, verdict: Verdict) -> Relation:
     """The relation as seen from one model; of a distinguishable pair, some positive models of
     one side may have equivalents.
     """
@@ -243,7 +248,7 @@ def _twin(catalog: Catalog, model: Model, other: int, verdict: Verdict) -> Twin:
     low, high = sorted((place, other))
     twin, both = model_of(catalog, other), ways(place, other, verdict)
     said = _positive(both, other, one_sided=verdict.relation is Relation.DISTINGUISHABLE)
-    relation = standing(place, other, verdict)
+    relation = relation_from(place, other, verdict)
     return Twin(
         twin, f"{low}-{high}", relation, said, correspondence(model.row.chain, twin.row.chain)
     )

@@ -14,16 +14,16 @@ from disting.catalogs.export import cell
 from disting.equivalence.duplicates import model_of
 from disting.errors import InputError, of_type
 from disting.files import as_path, write_whole
-from disting.general.any_model import measured
+from disting.general.any_model import measurand
 from disting.general.model import Model
 from disting.general.model_files import ModelList
 from disting.model.presentation import plural
 from disting.report.domains import VIEWS
 from disting.report.environment import render, source
 from disting.report.listed_model import listed_model_page
-from disting.report.listing import Listing, judged
+from disting.report.listing import Listing, judge
 from disting.report.network_motion import motion_page_of, page_of_motion
-from disting.report.page_drawing import held
+from disting.report.page_drawing import share
 from disting.report.payload import payload
 from disting.report.words import SAID, VIEW_TITLES
 from disting.verdict.engine import Engine
@@ -87,7 +87,7 @@ def write_family(
     if len(made) < 2:
         raise InputError("there is nothing to compare: a family has two models at least")
     refuse_ports(made.models)
-    shown = Listing(judged(made, engine), called, page_name(Path(called)))
+    shown = Listing(judge(made, engine), called, page_name(Path(called)))
     return write_model_list(shown, as_path(out))
 
 
@@ -111,7 +111,7 @@ def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) 
         listing,
         shown.domains,
         VIEWS,
-        what=measured(listing.family),
+        what=measurand(listing.family),
         aside=listing.said_of,
         names=[model.name for model in listing.family],
         numbered=shown.numbered,
@@ -125,7 +125,7 @@ def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) 
         compared=n_pairs,
         views=[(view, VIEW_TITLES[view]) for view in VIEWS],
         told=list(_told(shown)) if n_pairs <= LISTED_PAIRS else [],
-        held=held(card.drawing for card in shown.cards if card.drawing),
+        held=share(card.drawing for card in shown.cards if card.drawing),
         payload=data,
         site=site,
         guide=guide,
@@ -162,7 +162,7 @@ Link = tuple[str, str, str]
 """Address, title and what is found there."""
 
 
-def lists_beside(out: Path) -> Iterator[tuple[Link, list[Link]]]:
+def list_pages(out: Path) -> Iterator[tuple[Link, list[Link]]]:
     """Yield the pages of lists that lie in a folder, each with those of its models."""
     for page in sorted(out.glob("list-*.html")):
         name, table = page.stem, page.with_name(f"{page.stem}-models.csv")

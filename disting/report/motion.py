@@ -13,11 +13,11 @@ from disting.catalogs import Catalog
 from disting.evidence.positive import Share
 from disting.model.chain import Chain
 from disting.report.describe_machine import parts_of
-from disting.report.domains import one_sided, with_exceptions
+from disting.report.domains import one_sided_pairs, with_exceptions
 from disting.report.drawing import JOINT, MASS, PITCH, WALL, draw
 from disting.report.environment import render
 from disting.report.model import folder_of, ways
-from disting.report.page_drawing import held
+from disting.report.page_drawing import share
 from disting.report.payload import script_json
 from disting.report.words import short_title
 from disting.verdict.query import View
@@ -42,7 +42,7 @@ def motion_page(catalog: Catalog) -> str:
         back=f"{catalog.name}.html",
         site=True,
         members=[tuple(f"A{i}" for i in group) for group in catalog.classes()],
-        parts=held((), parts_of(catalog.family)),
+        parts=share((), parts_of(catalog.family)),
         payload=_payload(catalog, first),
     )
 
@@ -104,7 +104,7 @@ def _able(catalog: Catalog) -> list[tuple[int, int, Share]]:
     """(given, other, share): how many positive models of `number` have a positive equivalent in
     `other`, of the pairs that are neither always nor never told apart.
     """
-    pairs = [(case.given, case.other, case.share) for case in one_sided(catalog)]
+    pairs = [(case.given, case.other, case.share) for case in one_sided_pairs(catalog)]
     for low, high in catalog.depending():
         for number, other in ((low, high), (high, low)):
             way = ways(number, other, catalog.verdict(low, high, View.POSITIVE))[0]

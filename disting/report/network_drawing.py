@@ -14,7 +14,7 @@ from disting.report.circuit_drawing import circuit_layers, series_parallel
 from disting.report.drawing import draw
 from disting.report.graph_drawing import graph_layers, port_signs
 from disting.report.png import png
-from disting.report.scene import Scene, framed
+from disting.report.scene import Scene, frame
 from disting.report.svg import svg
 from disting.report.words import plural
 
@@ -54,7 +54,7 @@ def draw_network(network: Network) -> Scene:
     """The drawing of a network; each of its elements is one layer, named like its value."""
     whole = series_parallel(network)
     layers = circuit_layers(whole) if whole else graph_layers(network)
-    return framed(layers, describe_network(network))
+    return frame(layers, describe_network(network))
 
 
 def describe_network(network: Network) -> str:

@@ -15,10 +15,10 @@ from disting.evidence.positive import Share
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Sensor
 from disting.network.element import Element, Sort
-from disting.network.gears import ungeared, unknown_ratios
+from disting.network.gears import unknown_ratios, without_gears
 from disting.network.graph import edges
 from disting.network.network import Network
-from disting.report.domains import one_sided, with_exceptions
+from disting.report.domains import one_sided_pairs, with_exceptions
 from disting.report.environment import render
 from disting.report.listing import JudgedList, Listing
 from disting.report.motion import START
@@ -63,7 +63,7 @@ def machine_of(model: AnyModel) -> Network | None:
         return None
     # of a gear that is written from both of its sides each side would have a joint
     ways = {(_ends(e), e.nodes if e.ratio else (), e.ratio) for e in network.elements}
-    is_known = ungeared(network) is not None and len(ways) == len({ends for ends, *_ in ways})
+    is_known = without_gears(network) is not None and len(ways) == len({ends for ends, *_ in ways})
     return network if is_known else None
 
 
@@ -103,7 +103,7 @@ def motion_page_of(shown: Listing, *, site: bool = False) -> str:
 
 def _able(listing: JudgedList) -> list[tuple[int, int, Share]]:
     """(given, other, share) where it is known."""
-    rows = [(case.given, case.other, case.share) for case in one_sided(listing)]
+    rows = [(case.given, case.other, case.share) for case in one_sided_pairs(listing)]
     for low, high in listing.depending(View.POSITIVE):
         v = listing.verdict(low, high, View.POSITIVE)
         for number, other, side in ((low, high, v.left_positive), (high, low, v.right_positive)):

@@ -12,7 +12,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.report.scene import Circle, Ink, Layer, Path, Point, Shape, Text, extent
+from disting.report.scene import Circle, Ink, Layer, Path, Place, Shape, Text, extent
 
 STEP = 4.0  # between the points by which what is drawn is remembered
 
@@ -25,8 +25,8 @@ ARC = 6  # pieces of a half circle
 class Track:
     """The way from one point to another."""
 
-    start: Point
-    end: Point
+    start: Place
+    end: Place
 
     @property
     def length(self) -> float:
@@ -34,12 +34,12 @@ class Track:
         return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
 
     @property
-    def direction(self) -> Point:
+    def direction(self) -> Place:
         """Unit vector along it."""
         n = self.length
         return (self.end[0] - self.start[0]) / n, (self.end[1] - self.start[1]) / n
 
-    def at(self, along: float, aside: float = 0.0) -> Point:
+    def at(self, along: float, aside: float = 0.0) -> Place:
         """The point so far from its start, and so far to the right of the way.
 
         >>> Track((0, 0), (10, 0)).at(4, 1)
@@ -48,7 +48,7 @@ class Track:
         (x, y), (ux, uy) = self.start, self.direction
         return x + along * ux - aside * uy, y + along * uy + aside * ux
 
-    def path(self, places: Iterable[Point], line: float = 1.5) -> Path:
+    def path(self, places: Iterable[Place], line: float = 1.5) -> Path:
         """A line through places (along, aside), counted from the middle."""
         middle = self.length / 2
         return Path(tuple(self.at(middle + a, b) for a, b in places), line=line)
@@ -58,10 +58,10 @@ class Track:
         return Track(self.at(short, aside), self.at(self.length - short, aside))
 
 
-def drawn(letter: str, track: Track) -> tuple[Shape, ...]:
+def draw_symbol(letter: str, track: Track) -> tuple[Shape, ...]:
     """The sign of a kind on its track.
 
-    >>> [type(shape).__name__ for shape in drawn("C", Track((0, 0), (60, 0)))]
+    >>> [type(shape).__name__ for shape in draw_symbol("C", Track((0, 0), (60, 0)))]
     ['Path', 'Path', 'Path', 'Path']
     """
     return SIGNS.get(letter, _box)(track)

@@ -13,7 +13,7 @@ from disting.catalogs.next_files import SHIPPED_SIZES, NextCatalog, name_of, nex
 from disting.experiments.menu import Item
 from disting.model.chain import Chain
 from disting.report.experiment_drawing import Sketch, sketch
-from disting.verdict.next_experiments import Further
+from disting.verdict.next_experiments import Menu
 from disting.verdict.next_words import anywhere, conclusion, in_words, left_over
 from disting.verdict.query import View
 
@@ -68,7 +68,7 @@ def advice(catalog: NextCatalog | None, number: int) -> Advice | None:
     group = catalog.group(number) if catalog else ()
     if catalog is None or len(group) < 2:
         return None
-    return advice_of(named(catalog, group), group.index(number), group)
+    return advice_of(next_for(catalog, group), group.index(number), group)
 
 
 def for_pairs(catalog: NextCatalog | None) -> dict[str, str]:
@@ -84,7 +84,7 @@ def sketches_for_pairs(catalog: NextCatalog | None) -> dict[str, list[Sketch]]:
     for members in catalog.groups if catalog else ():
         for low, high in combinations(members, 2):
             assert catalog is not None
-            pair = named(catalog, (low, high))
+            pair = next_for(catalog, (low, high))
             sketches[f"{low}-{high}"] = [
                 sketch(number, pair.structures[k], option.items)
                 for k, number in enumerate((low, high))
@@ -97,12 +97,12 @@ def menu_of(catalog: NextCatalog | None) -> Iterator[tuple[Chain, Item]]:
     """Yield what is worth doing on any model of a group."""
     for members in catalog.groups if catalog else ():
         assert catalog is not None
-        whole = named(catalog, members)
+        whole = next_for(catalog, members)
         for k, chain in enumerate(whole.structures):
             yield from ((chain, item) for item in whole.items(k))
 
 
-def named(catalog: NextCatalog, members: tuple[int, ...]) -> Further[Chain]:
+def next_for(catalog: NextCatalog, members: tuple[int, ...]) -> Menu[Chain]:
     """What to measure next for structures of one group, called as pages call them."""
     whole = catalog.further(members)
     assert whole is not None  # members of one group
@@ -112,13 +112,13 @@ def named(catalog: NextCatalog, members: tuple[int, ...]) -> Further[Chain]:
 def _sentences(catalog: NextCatalog) -> Iterator[tuple[str, str]]:
     for members in catalog.groups:
         for low, high in combinations(members, 2):
-            pair = named(catalog, (low, high))
+            pair = next_for(catalog, (low, high))
             phrase = anywhere(pair)
             each = [f"If it is {name}, {conclusion(pair, k)}." for k, name in enumerate(pair.names)]
             yield f"{low}-{high}", f"{phrase[0].upper()}{phrase[1:]}." if phrase else " ".join(each)
 
 
-def advice_of(advice: Further[Chain], structure: int, members: tuple[int, ...]) -> Advice:
+def advice_of(advice: Menu[Chain], structure: int, members: tuple[int, ...]) -> Advice:
     """For a structure of a group, counted from 0; `members`: the numbers of all."""
     masses, items = advice.places(structure), tuple(advice.items(structure))
     rows = tuple(
@@ -141,13 +141,13 @@ def advice_of(advice: Further[Chain], structure: int, members: tuple[int, ...]) 
     )
 
 
-def drawn(advice: Iterable[Advice]) -> Iterator[tuple[Chain, Item]]:
+def drawings_of(advice: Iterable[Advice]) -> Iterator[tuple[Chain, Item]]:
     """Yield what a page with this advice draws."""
     return ((this_advice.chain, item) for this_advice in advice for item in this_advice.items)
 
 
 def _cell(
-    advice: Further[Chain],
+    advice: Menu[Chain],
     structure: int,
     members: tuple[int, ...],
     item: Item,

@@ -32,22 +32,22 @@ from disting.report.next_steps import (
     for_pairs,
     found_for,
     menu_of,
-    named,
+    next_for,
     page_of,
     sketches_for_pairs,
 )
-from disting.report.page_drawing import Drawing, held
+from disting.report.page_drawing import Drawing, share
 from disting.report.payload import payload
 from disting.report.search import Families, families
 from disting.report.words import (
     VIEW_TITLES,
+    enumeration,
     headline,
-    listed,
-    not_known,
     plural,
     short_title,
     title,
     totals,
+    unknown_parameters,
 )
 from disting.verdict.next_words import anywhere
 from disting.verdict.query import View
@@ -70,7 +70,7 @@ def next_page(catalog: Catalog, the_catalog: NextCatalog) -> str:
     """HTML of the page."""
     groups = []
     for members in the_catalog.groups:
-        whole = named(the_catalog, members)
+        whole = next_for(the_catalog, members)
         drawings = tuple(model_of(catalog, m).drawing for m in members)
         advices = tuple(advice_of(whole, k, members) for k in range(len(members)))
         groups.append(Group(drawings, anywhere(whole), advices))
@@ -80,13 +80,15 @@ def next_page(catalog: Catalog, the_catalog: NextCatalog) -> str:
         family=short_title(catalog),
         folder=folder_of(catalog),
         groups=groups,
-        held=held((d for group in groups for d in group.drawings), additions(menu_of(the_catalog))),
+        held=share(
+            (d for group in groups for d in group.drawings), additions(menu_of(the_catalog))
+        ),
         plural=plural,
     )
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class ViewSummary:
     """One view: its name, its pairs counted by condition in one sentence, and by relation."""
 
     view: View
@@ -96,7 +98,7 @@ class Shown:
 
 
 @dataclass(frozen=True, slots=True)
-class Grouped:
+class DomainGroups:
     """What a page says over one domain, with the drawings of the groups' members."""
 
     of: Over
@@ -127,7 +129,7 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
     models = [model_of(catalog, row.number) for row in catalog.rows]
     domains = [over(catalog, view) for view in VIEWS]
     grouped = [
-        Grouped(of, [[models[m - 1].drawing for m in members] for members in of.groups])
+        DomainGroups(of, [[models[m - 1].drawing for m in members] for members in of.groups])
         for of in domains
     ]
     further, sample = found_for(catalog), example(catalog)
@@ -144,11 +146,11 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
         below=BELOW,
         above=ABOVE,
         counts=counts(catalog),
-        undecided=undecided(catalog),
+        undecided=open_pairs(catalog),
         still_open=domains[1].totals[Relation.UNDECIDED],
         listed_pairs=LISTED_PAIRS,
         models=models,
-        held=held([*(m.drawing for m in models), sample], additions(menu_of(further))),
+        held=share([*(m.drawing for m in models), sample], additions(menu_of(further))),
         sample=sample,
         dampers=dampers,
         across=across,
@@ -160,9 +162,9 @@ def page(catalog: Catalog, *, beside: Families | None = None) -> str:
     )
 
 
-def _views(catalog: Catalog) -> list[Shown]:
+def _views(catalog: Catalog) -> list[ViewSummary]:
     return [
-        Shown(view, name, summary(catalog, view), totals(catalog, view))
+        ViewSummary(view, name, summary(catalog, view), totals(catalog, view))
         for view, name in VIEW_TITLES.items()
     ]
 
@@ -188,7 +190,7 @@ def _payload(
         order=catalog.family[1].sensor.order,
         chains=[chain.indices[1:] for chain in catalog.family],
         values=[start_values(chain) for chain in catalog.family],
-        known={row.number: said for row in catalog.rows if (said := not_known(row))},
+        known={row.number: said for row in catalog.rows if (said := unknown_parameters(row))},
         next=for_pairs(further),
         sketches={
             pair: [[s.box, s.parts, s.label] for s in sketches]
@@ -214,7 +216,7 @@ def summary(catalog: Catalog, view: View) -> str:
         for name, n in counts.items()
         if name not in by_name
     ]
-    return f"{listed(parts) or 'No pair decided'}; {left or 'none'} left undecided."
+    return f"{enumeration(parts) or 'No pair decided'}; {left or 'none'} left undecided."
 
 
 def counts(catalog: Catalog) -> list[Count]:
@@ -228,7 +230,7 @@ def counts(catalog: Catalog) -> list[Count]:
     ]
 
 
-def undecided(catalog: Catalog) -> list[tuple[int, int]]:
+def open_pairs(catalog: Catalog) -> list[tuple[int, int]]:
     """The pairs that stay open after the conditions."""
     return [
         (low, high)

@@ -15,7 +15,7 @@ from markupsafe import Markup
 from disting.model.chain import Chain
 from disting.report.drawing import RISE, STEM, Layout, draw
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Scene
-from disting.report.svg import drawn, number
+from disting.report.svg import draw_layer, number
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Drawing:
     @cached_property
     def layers(self) -> tuple[str, ...]:
         """Drawn once: the pages of a model, of its twins and of the family show them."""
-        return tuple(drawn(layer, PAGE_PALETTE) for layer in self.scene.layers)
+        return tuple(draw_layer(layer, PAGE_PALETTE) for layer in self.scene.layers)
 
     @property
     def width(self) -> str:
@@ -56,16 +56,16 @@ class Part:
     @property
     def definition(self) -> Markup:
         """The part itself; the style sheet says the font and the ends of lines."""
-        return Markup(f'<g id="{self.name}">{drawn(self.layer, PAGE_PALETTE)}</g>')
+        return Markup(f'<g id="{self.name}">{draw_layer(self.layer, PAGE_PALETTE)}</g>')
 
 
-def held(drawings: Iterable[Drawing], more: Iterable[Part] = ()) -> Markup:
+def share(drawings: Iterable[Drawing], more: Iterable[Part] = ()) -> Markup:
     """What a page holds: parts of drawings, each once, with `more` of them; and the drawings, which
     refer to their parts from back to front. All but the last, the force of a chain, is a part of
     its own, rest-5 of chain-5.
 
     >>> two = [Drawing(k, draw(Chain(2, meas_plus=k, damped=False))) for k in (1, 2)]
-    >>> held(two).count('<g id="part-'), held(two).count("<use")
+    >>> share(two).count('<g id="part-'), share(two).count("<use")
     (8, 14)
     """
     numbers, lines = dict[str, int](), list[str]()

@@ -3,7 +3,7 @@ text once.
 
 Pair (low, high) is entry (high - 1)(high - 2)/2 + low - 1 of a view, that is row after row of the
 triangle. A sentence names the models {L} and {R}, so that pairs decided alike share it. Equal
-neighbours are counted (`packed`).
+neighbours are counted (`pack`).
 """
 
 import json
@@ -19,7 +19,7 @@ from disting.evidence.conditions import capital
 from disting.evidence.positive import Share
 from disting.model.question import Domain
 from disting.report.domains import Over
-from disting.report.words import SAID as RELATIONS_SAID, VIEW_TITLES, Decided, raised
+from disting.report.words import SAID as RELATIONS_SAID, VIEW_TITLES, DecidedModels, raise_exponents
 from disting.verdict.meaning import RESPONSE, meaning_sentence
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
@@ -77,7 +77,7 @@ class Pool:
 
 
 def payload(
-    decided: Decided,
+    decided: DecidedModels,
     domains: Sequence[Over],
     views: Iterable[View] = VIEW_TITLES,
     what: str = RESPONSE,
@@ -98,7 +98,7 @@ def payload(
         return known[key]
 
     numbers = {
-        view.value: packed([entry(*pair, view) for pair in _triangle(len(decided.family))])
+        view.value: pack([entry(*pair, view) for pair in _triangle(len(decided.family))])
         for view in views
     }
     rows = [[texts.number(text) for text in entry] for entry in entries.numbers]
@@ -117,11 +117,11 @@ def payload(
     return script_json(data)
 
 
-def packed(numbers: Sequence[int]) -> list[int]:
+def pack(numbers: Sequence[int]) -> list[int]:
     """Numbers >= 0 with their repetitions as one negative count, so that a matrix of millions of
     fields stays small.
 
-    >>> packed([7, 7, 7, 0, 7])
+    >>> pack([7, 7, 7, 0, 7])
     [7, -2, 0, 7]
     """
     the_numbers: list[int] = []
@@ -150,7 +150,7 @@ def _triangle(size: int) -> Iterator[tuple[int, int]]:
 def _entry(verdict: Verdict, what: str, reached: str) -> Entry:
     evidence = verdict.evidence
     why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
-    certainty = f"{capital(raised(verdict.sure))}." if evidence else ""
+    certainty = f"{capital(raise_exponents(verdict.sure))}." if evidence else ""
     formula = evidence.formula if evidence else ""
     both = verdict.inclusions
     limits = [] if both is None else [f"Over complex parameters: {both.sentence('{L}', '{R}')}"]

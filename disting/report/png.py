@@ -10,7 +10,7 @@ from math import inf
 
 from PIL import Image, ImageDraw, ImageFont
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.report.scene import (
     FILE_PALETTE,
     Anchor,
@@ -41,7 +41,7 @@ def png(
     scale that is no positive number.
     """
     if not 0 < scale < inf:
-        raise InputError(f"the scale of a picture is a positive number, not {shown(scale)}")
+        raise InputError(f"the scale of a picture is a positive number, not {short(scale)}")
     width, height = (max(1, round(side * scale)) for side in (scene.width, scene.height))
     image = Image.new("RGB", (width, height), FILE_PALETTE[Ink.PAPER])
     # band by band: drawn larger as a whole, the widest figures take 100 MB

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import hypot
 
-Point = tuple[float, float]
+Place = tuple[float, float]
 
 
 class Ink(StrEnum):
@@ -89,7 +89,7 @@ class Rect:
 class Path:
     """Line through points, closed if it is filled."""
 
-    points: tuple[Point, ...]
+    points: tuple[Place, ...]
     stroke: Ink = Ink.LINE
     fill: Ink = Ink.NONE
     line: float = 1.5
@@ -154,7 +154,7 @@ class Scene:
 HEAD = 8.0  # length of an arrow's head
 
 
-def arrow(start: Point, end: Point, ink: Ink) -> tuple[Path, ...]:
+def arrow(start: Place, end: Place, ink: Ink) -> tuple[Path, ...]:
     """A straight shaft and a filled head whose tip is `end`."""
     length = hypot(end[0] - start[0], end[1] - start[1])
     ux, uy = (end[0] - start[0]) / length, (end[1] - start[1]) / length
@@ -185,7 +185,7 @@ def extent(shape: Shape) -> tuple[float, float, float, float]:
 MARGIN = 8.0  # around shapes that stand anywhere
 
 
-def framed(layers: Iterable[Layer], title: str) -> Scene:
+def frame(layers: Iterable[Layer], title: str) -> Scene:
     """A scene of shapes that stand anywhere: moved so that all lie in it, with a margin."""
     drawn = tuple(layers)
     boxes = [extent(shape) for layer in drawn for shape in layer.shapes]

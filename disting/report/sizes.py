@@ -18,10 +18,10 @@ from disting.files import __version__
 from disting.report.domains import VIEWS, over
 from disting.report.drawing import draw
 from disting.report.environment import render
-from disting.report.page_drawing import Drawing, held
-from disting.report.payload import packed, payload
+from disting.report.page_drawing import Drawing, share
+from disting.report.payload import pack, payload
 from disting.report.search import Families, families
-from disting.report.words import VIEW_TITLES, plural, raised
+from disting.report.words import VIEW_TITLES, plural, raise_exponents
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
 
@@ -105,7 +105,7 @@ def sizes_page(catalog: SizesCatalog, *, beside: Families | None = None) -> str:
         limits=True,  # the panel has room for them
         outside=list(_by_reason(catalog, NO_LIMIT)),
         open=list(_by_reason(catalog, NOT_KNOWN)),
-        held=held(drawings),
+        held=share(drawings),
         payload=payload(
             catalog,
             domains,
@@ -137,7 +137,7 @@ def limits(catalog: SizesCatalog) -> dict[str, object]:
         "short": SHORT,
         "signs": ["", "⊂", "⊃", "", "?"],
         "entries": list(entries),
-        "of": packed(places),
+        "of": pack(places),
     }
 
 
@@ -220,7 +220,7 @@ def _reason(verdict: Verdict) -> str:
 def _bound(finding: InclusionFinding) -> str:
     if finding.certainty is not Certainty.BOUNDED:
         return ""
-    return f" ({raised(finding.certainty.in_words(finding.safety))})"
+    return f" ({raise_exponents(finding.certainty.in_words(finding.safety))})"
 
 
 def _open(finding: InclusionFinding) -> str:

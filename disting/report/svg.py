@@ -37,7 +37,7 @@ def svg(scene: Scene) -> str:
 def body(scene: Scene, palette: Palette) -> str:
     """The scene's elements without the enclosing svg element."""
     common = f'font-family="{FONT}" stroke-linejoin="round" stroke-linecap="round"'
-    return f"<g {common}>{''.join(drawn(layer, palette) for layer in scene.layers)}</g>"
+    return f"<g {common}>{''.join(draw_layer(layer, palette) for layer in scene.layers)}</g>"
 
 
 def number(value: float) -> str:
@@ -50,7 +50,7 @@ def number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def drawn(layer: Layer, palette: Palette) -> str:
+def draw_layer(layer: Layer, palette: Palette) -> str:
     """A layer's elements, without the font and the round ends of lines that all layers share."""
     return f'<g data-part="{escape(layer.name)}">{_styled(layer.shapes, palette)}</g>'
 

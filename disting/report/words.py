@@ -10,7 +10,7 @@ from disting.catalogs import Catalog, ModelRow
 from disting.conditions.rule import RULES
 from disting.model.presentation import plural as plural
 from disting.model.question import Domain
-from disting.verdict.meaning import undetermined
+from disting.verdict.meaning import undetermined_sentence
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -28,14 +28,14 @@ SAID = {relation: relation.value for relation in Relation} | {
 """Relations as pages name them."""
 
 
-def not_known(row: ModelRow) -> str:
+def unknown_parameters(row: ModelRow) -> str:
     """What cannot be determined of a model, which pages name in the place of {0}; "" where there is
     nothing.
     """
-    return undetermined("{0}", row.rank, row.n_parameters)
+    return undetermined_sentence("{0}", row.rank, row.n_parameters)
 
 
-class Decided(Protocol):
+class DecidedModels(Protocol):
     """Models and the verdicts on their pairs, in some views."""
 
     @property
@@ -94,7 +94,7 @@ def headline(catalog: Catalog) -> str:
     return f"{head}: {', '.join(said)}"
 
 
-def totals(decided: Decided, view: View = View.POSITIVE) -> dict[Relation, int]:
+def totals(decided: DecidedModels, view: View = View.POSITIVE) -> dict[Relation, int]:
     """Number of pairs by relation; SOMETIMES only where it can occur."""
     numbers = range(1, len(decided.family) + 1)
     relations = [decided.relation(low, high, view) for high in numbers for low in range(1, high)]
@@ -122,19 +122,19 @@ def sign(decided_by: str) -> str:
     return RULES[decided_by].sign if decided_by else ""
 
 
-def listed(parts: list[str]) -> str:
+def enumeration(parts: list[str]) -> str:
     """Parts with commas and a final "and".
 
-    >>> listed(["a", "b", "c"]), listed(["a"])
+    >>> enumeration(["a", "b", "c"]), enumeration(["a"])
     ('a, b and c', 'a')
     """
     return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
 
 
-def raised(text: str) -> str:
+def raise_exponents(text: str) -> str:
     """Words with raised exponents of 2, as error bounds have them.
 
-    >>> raised("probability of error at most 2^-131")
+    >>> raise_exponents("probability of error at most 2^-131")
     'probability of error at most 2⁻¹³¹'
     """
     up = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

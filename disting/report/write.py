@@ -26,7 +26,7 @@ from disting.report.ladenheim import ADDRESS as LADENHEIM
 from disting.report.markdown import GuidePage
 from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
 from disting.report.model import folder_of, model_page, motion_of
-from disting.report.model_list import lists_beside
+from disting.report.model_list import list_pages
 from disting.report.motion import motion_page
 from disting.report.next_steps import found_for, page_of
 from disting.report.page import next_page, page
@@ -163,7 +163,7 @@ def write_report(
     members = set(names)
     links = [p.link for p in PAGES if p.link[0] in members or (out / p.link[0]).is_file()]
     links += [_link(page) for part in parts for page in part.pages if page.name.startswith(PREFIX)]
-    lists = list(lists_beside(out))
+    lists = list(list_pages(out))
     links += [link for link, _ in lists]
     listed_models = [model for _, models in lists for model in models]
     script = search_script(parts, site.pages, [*links, *listed_models])

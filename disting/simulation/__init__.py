@@ -2,7 +2,7 @@
 friction, dead time and lag.
 """
 
-from disting.model.presentation import offered as _offered
+from disting.model.presentation import public_names as _offered
 from disting.simulation.bench import (
     DEMO_BENCH as DEMO_BENCH,
     DEMO_MODEL as DEMO_MODEL,

@@ -13,7 +13,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.measurement import Signal, TimeSeries
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Sensor
@@ -22,13 +22,13 @@ from disting.network.network import Network
 from disting.simulation.excitation import Excitation
 from disting.simulation.mechanics import (
     AnyModel,
-    checked,
+    check_values,
     form_of,
     input_filter,
     matrices,
     motion,
 )
-from disting.simulation.stepping import Friction, stepped
+from disting.simulation.stepping import Friction, step
 
 IMPEDANCE = (Signal("current", "A"), Signal("voltage", "V"))
 SILENT = 1e-9  # share of the largest line of a period below which a line is rounding
@@ -119,7 +119,7 @@ def simulate_all(
     (2, 1)
     """
     bench, excitation = bench or Bench(), excitation or Excitation()
-    checked(network, parameters)
+    check_values(network, parameters)
     return tuple(
         tuple(
             _record(cell, parameters, excitation, replace(bench, seed=bench.seed + at), (row,))
@@ -137,7 +137,7 @@ def _record(
     sensor: tuple[int, ...],
 ) -> TimeSeries:
     """One record; `sensor` tells the noise of several outputs of one experiment apart."""
-    values = checked(model, parameters)
+    values = check_values(model, parameters)
     period = excitation.period(bench.samples, bench.sampling_rate, bench.seed)
     output = _output(model, values, period, bench)
     source = np.random.default_rng([bench.seed, 1])
@@ -174,7 +174,7 @@ def _output(model: AnyModel, values: Mapping[str, float], period: Real, bench: B
         powers = {2: m.M, 1: m.D, 0: m.K}
         if any(kind.coulomb for kind in rubbed):
             seconds = bench.samples / bench.sampling_rate
-            whole = stepped(m, act, force, seconds, bench.samples, bench.periods, rubbed)
+            whole = step(m, act, force, seconds, bench.samples, bench.periods, rubbed)
             return np.asarray(whole[order] @ form.meas)
     spectrum = np.zeros_like(force)
     used = np.flatnonzero(force)
@@ -191,7 +191,7 @@ def _friction(
         raise InputError("friction belongs to machines: leave it away")
     if not set(friction) <= set(nodes):
         raise InputError(
-            f"friction sits at masses {listed(map(str, nodes))}, not at {sorted(friction)}"
+            f"friction sits at masses {enumeration(map(str, nodes))}, not at {sorted(friction)}"
         )
     return [friction.get(node, Friction()) for node in nodes]
 

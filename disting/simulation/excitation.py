@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.files import read_bounded
 from disting.measurement.arrays import Real
 
@@ -55,14 +55,14 @@ class Excitation:
         if not 0 < self.low < self.high < np.inf or not 0 < self.rms < np.inf or self.every < 1:
             raise InputError(
                 f"an excitation has 0 < low < high [Hz], a positive rms and every >= 1, not"
-                f" low = {shown(self.low)}, high = {shown(self.high)}, rms = {shown(self.rms)},"
-                f" every = {shown(self.every)}"
+                f" low = {short(self.low)}, high = {short(self.high)}, rms = {short(self.rms)},"
+                f" every = {short(self.every)}"
             )
         try:
             object.__setattr__(self, "kind", Kind(self.kind))
         except ValueError:
             raise InputError(
-                f"the excitation is one of {', '.join(Kind)}, not {shown(self.kind)}"
+                f"the excitation is one of {', '.join(Kind)}, not {short(self.kind)}"
             ) from None
         if self.spectrum and self.kind is Kind.CHIRP:
             raise InputError("a chirp has no spectrum of its own: choose a multisine")

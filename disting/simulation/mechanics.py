@@ -16,7 +16,7 @@ from typing import NamedTuple, SupportsFloat
 
 import numpy as np
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.structure import Structure
@@ -111,7 +111,7 @@ def _plain(network: Network) -> Network:
     return network.grounded if network.sort is Sort.CIRCUIT else network
 
 
-def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
+def check_values(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
     """The values of all parameters; raises InputError for missing, unknown or negative ones, for
     masses, ratios, exponents and what divides that are zero, and for exponents above 1.
     """
@@ -121,7 +121,7 @@ def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
         names, elements = (form := form_of(model)).parameters, form.elements
     if set(names) != set(values):
         raise InputError(
-            f"parameters {listed(names)} are needed, given are {listed(values) or 'none'}"
+            f"parameters {enumeration(names)} are needed, given are {enumeration(values) or 'none'}"
         )
     positive = {e.value for e in elements if e.letter == "m" or e.kind.divides}
     positive |= {name for e in elements for name in (e.ratio, e.exponent)}
@@ -131,7 +131,7 @@ def checked(model: AnyModel, values: Mapping[str, float]) -> dict[str, float]:
     for name, value in values.items():
         if not 0 <= value < np.inf or (name in positive and value == 0):
             kind = "positive" if name in positive else "non-negative"
-            raise InputError(f"{name} = {shown(value)} is no {kind} number")
+            raise InputError(f"{name} = {short(value)} is no {kind} number")
     return {name: float(values[name]) for name in names}
 
 
@@ -142,7 +142,7 @@ def matrices(model: AnyModel, values: Mapping[str, float]) -> Matrices:
     [[4.0, -4.0], [-4.0, 4.0]]
     """
     form = form_of(model)
-    powers = form.powers(checked(model, values))
+    powers = form.powers(check_values(model, values))
     nothing = np.zeros((len(form.nodes),) * 2)
     return Matrices(*(powers.get(power, nothing) for power in (2, 1, 0)))
 
@@ -188,7 +188,7 @@ def frequency_response(model: AnyModel, values: Mapping[str, float], omega: Real
     >>> abs(frequency_response(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
     [0.5, 0.5]
     """
-    form, numbers = form_of(model), checked(model, values)
+    form, numbers = form_of(model), check_values(model, values)
     moved = motion(form.powers(numbers), form.act, omega) @ form.meas
     front = (1j * np.asarray(omega)) ** form.order
     return np.asarray(front * input_filter(model, numbers, omega) * moved)

@@ -41,7 +41,7 @@ class Friction:
             raise InputError("friction has coulomb >= 0, viscous >= 0 and speed > 0")
 
 
-def stepped(
+def step(
     m: Matrices,
     act: Real,
     force: Complex,

@@ -13,7 +13,7 @@ import sqlite3
 from pathlib import Path
 from typing import Final
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 
 Identity = tuple[int, int]  # device and inode number: which file a path holds
 
@@ -43,7 +43,7 @@ class _ForeignError(sqlite3.DatabaseError):
     sqlite_errorcode = sqlite3.SQLITE_NOTADB
 
 
-def located(where: str | Path | None) -> str:
+def locate(where: str | Path | None) -> str:
     """The absolute path of the database file, or MEMORY, or NOWHERE; raises InputError where the
     variable holds none of them.
     """
@@ -77,7 +77,7 @@ def _refuse_no_file(text: str) -> None:
     is_other = os.path.exists(path) and not os.path.isfile(path)
     if not is_file or is_address or is_other or not os.path.isdir(folder or os.curdir):
         raise InputError(
-            f"{VARIABLE} is {shown(text)}, which is none of its three choices: off, :memory:, or a"
+            f"{VARIABLE} is {short(text)}, which is none of its three choices: off, :memory:, or a"
             " file in a folder that is there, such as cache.sqlite3"
         )
 

@@ -37,7 +37,7 @@ def executor(jobs: int, scheduler: str = "") -> Iterator[Executor | None]:
         yield None
 
 
-def mapped(
+def map_tasks(
     function: Callable[..., T], tasks: Sequence[tuple[Any, ...]], executor: Executor | None
 ) -> Iterator[tuple[tuple[Any, ...], T]]:
     """Tasks with their results as they come, in any order, from the executor's workers or from

@@ -33,7 +33,7 @@ from disting.store.database_file import (
     PAUSE_SECONDS,
     SCHEMA_VERSION,
     identity,
-    located,
+    locate,
     open_database,
     replace,
     result_code,
@@ -135,7 +135,7 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         An operation that finds the database locked by another process waits up to twice
         `wait_seconds`, and then the store gives up the cache.
         """
-        store = cls(located(where), wait_seconds)
+        store = cls(locate(where), wait_seconds)
         store._run(lambda connection: None, None)
         return store
 

@@ -11,7 +11,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.behaviour.profile import Profile, Unsearched
+from disting.behaviour.profile import NoMatroid, Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, Sense
 from disting.conditions.rule import Rule, Stage
@@ -169,7 +169,7 @@ def _buckets(
     buckets = np.full(n, -1, np.int64)
     for i, profile in profiles.items():
         value = key(profile)
-        if not isinstance(value, Unsearched):
+        if not isinstance(value, NoMatroid):
             buckets[i] = numbers.setdefault(value, len(numbers))
     return buckets
 

@@ -8,7 +8,7 @@ from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from disting.behaviour.profile import Profile, Unsearched
+from disting.behaviour.profile import NoMatroid, Profile
 from disting.conditions.finding import Outcome
 from disting.conditions.side import AnySide
 from disting.conditions.sufficient import condition_6
@@ -47,7 +47,7 @@ class Buckets:
         """Bucket numbers in one column; a bucket in which a value is not known is not split."""
         numbers: dict[Hashable, int] = {}
         for bucket in self.shared(values):
-            if not any(isinstance(values[i], Unsearched) for i in bucket):
+            if not any(isinstance(values[i], NoMatroid) for i in bucket):
                 for i in bucket:
                     self.columns[i][column] = numbers.setdefault(values[i], len(numbers))
 

@@ -64,7 +64,7 @@ def decide(left: AnySide, right: AnySide, query: Query) -> Verdict:
         return replace(verdict, domain=domain)
     step = Step(Stage.PARAMETERS, over_domain(left, right, domain, verdict))
     said = (
-        undecided(left, right, (open_note(step.finding.note),), domain)
+        undecided_verdict(left, right, (open_note(step.finding.note),), domain)
         if step.relation is Relation.UNDECIDED
         else verdict_of(left, right, step, domain)
     )
@@ -148,7 +148,7 @@ def first(left: AnySide, right: AnySide, every: Iterable[Step]) -> Verdict:
             return verdict_of(left, right, step)
         if step.finding.outcome is Outcome.ABANDONED:
             notes.append(f"{_rule(step)} was abandoned: {step.finding.note}")
-    return undecided(left, right, tuple(notes))
+    return undecided_verdict(left, right, tuple(notes))
 
 
 def _rule(step: Step) -> str:
@@ -178,7 +178,7 @@ def refuse_contradictions(left: str, right: str, every: Iterable[Step]) -> None:
         raise ContradictionError(f"{left} and {right}: {contradictions}")
 
 
-def undecided(
+def undecided_verdict(
     left: AnySide, right: AnySide, notes: tuple[str, ...], domain: Domain = Domain.COMPLEX
 ) -> Verdict:
     """The verdict that nothing gives."""

@@ -33,13 +33,13 @@ from disting.questions.inclusion.decide import (
     by_rank,
     implied_image,
     inclusions,
-    joined,
+    join,
     needs_ideals,
     quick_closure,
 )
 from disting.questions.positive import proves
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_again, exact_finding, resting_on_ranks
+from disting.questions.same.exact import exact_finding, recheck, resting_on_ranks
 from disting.questions.same.real_and_positive import (
     LACKING,
     POSITIVELY,
@@ -138,7 +138,7 @@ class ComparedChain(Side[Chain]):
             return None
         first, second = self.in_order(other)
         turned = first != self.canonical.chain
-        again = exact_again(evidence.turned if turned else evidence, first, second, self.settings)
+        again = recheck(evidence.turned if turned else evidence, first, second, self.settings)
         if again is None:
             return None
         again = again.turned if turned else again
@@ -231,7 +231,7 @@ class ComparedChain(Side[Chain]):
             IDEALS,
             [by_rank(*first[key]) for key in first if needs_ideals(images[key], closures[key])],
         )
-        both = {key: joined(*first[key], images[key], closures[key]) for key in first}
+        both = {key: join(*first[key], images[key], closures[key]) for key in first}
         return [both[_canonical(*pair)] for pair in pairs]
 
     def _positive(self, form: Chain, other: Chain) -> PositiveFinding:

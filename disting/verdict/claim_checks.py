@@ -15,14 +15,14 @@ from disting.conditions.side import AnySide, notes_of
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.verdict.cascade import decide, follows, over_domain
-from disting.verdict.comparison import proven_again
+from disting.verdict.comparison import prove_again
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import Sides
 
 SECONDS = 60.0  # for a proof that took ten
 LIMITS, SHARES = "which is a limit of the other", "positive equivalents"
-Told = tuple[Certainty | None, int, Evidence | None]
+Claimed = tuple[Certainty | None, int, Evidence | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ def _ungraded(claim: Claim) -> Iterator[str]:
         yield f"{claim.where}the evidence is not the one that the settings give"
 
 
-def _again(claim: Claim, evidence: Evidence) -> Told | None:
+def _again(claim: Claim, evidence: Evidence) -> Claimed | None:
     """What is found with evidence of this kind; None for nothing, or by a condition that was not
     asked.
     """
@@ -88,18 +88,18 @@ def _again(claim: Claim, evidence: Evidence) -> Told | None:
     return None if finding is None else _told(finding)
 
 
-def _condition_again(claim: Claim) -> Told:
+def _condition_again(claim: Claim) -> Claimed:
     """What the condition alone finds; what `prove` proved of it is proven again."""
     v, left, right = claim.verdict, claim.sides.left, claim.sides.right
     view = claim.query.view if claim.query.view in (View.TF, View.MARKOV) else View.COMBINED
     again = decide(left, right, Query(view, (v.decided_by,), claim.query.markov))
     proven = v.certainty is Certainty.PROVEN and again.certainty is Certainty.BOUNDED
     if proven:
-        again = proven_again(again, left, right, SECONDS)
+        again = prove_again(again, left, right, SECONDS)
     return _told(again) if again.representation is v.representation else (None, 0, None)
 
 
-def _told(source: Verdict | Finding) -> Told:
+def _told(source: Verdict | Finding) -> Claimed:
     return source.certainty, source.safety, source.evidence
 
 

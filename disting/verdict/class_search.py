@@ -27,7 +27,7 @@ from itertools import combinations
 import numpy as np
 
 from disting.algebra.certainty import Certainty
-from disting.behaviour.profile import Profile, Unsearched
+from disting.behaviour.profile import NoMatroid, Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
@@ -43,7 +43,7 @@ from disting.verdict.classes import Classes, without_dampers
 from disting.verdict.engine import Engine, Progress, silent
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
-Settled = Mapping[tuple[Chain, Chain], Finding]
+Findings = Mapping[tuple[Chain, Chain], Finding]
 """What is known of pairs of canonical chains."""
 OF_MARKOV = tuple(c for c in NECESSARY if not c.of_degrees)
 # transfer function, Markov parameters, 1/G
@@ -54,7 +54,7 @@ def classes(
     chains: Sequence[Chain],
     engine: Engine,
     *,
-    settled: Settled | None = None,
+    settled: Findings | None = None,
     more: Sequence[Question[Finding]] = (),
     executor: Executor | None = None,
     progress: Progress = silent,
@@ -162,7 +162,7 @@ class _Work:
                 self.renamed[i] = first
                 self.buckets.classes.unite(first, i)
 
-    def take_over(self, settled: Settled) -> None:
+    def take_over(self, settled: Findings) -> None:
         """What is settled of canonical forms that are here."""
         at = {s.canonical.chain: i for i, s in enumerate(self.subjects)}
         for (first, second), finding in settled.items():
@@ -228,7 +228,7 @@ def _invert(work: _Work, executor: Executor | None, progress: Progress) -> None:
     inverses = [work.engine.answer(INVERSELY, chains, work.engine.settings) for chains in asked]
     values: dict[int, Hashable] = {}
     for i, p in zip(wanted, inverses, strict=True):
-        values[i] = p.matroid if isinstance(p.matroid, Unsearched) else (p.form, p.rank, p.matroid)
+        values[i] = p.matroid if isinstance(p.matroid, NoMatroid) else (p.form, p.rank, p.matroid)
     work.buckets.fill(len(TESTS) - 1, values)
 
 

@@ -22,13 +22,13 @@ from disting.errors import InputError, of_type
 from disting.evidence.conditions import Ranks
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general.any_model import unnamed
+from disting.general.any_model import without_names
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.names import chains_named
+from disting.model.names import read_together
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.answer import Identifiability
@@ -72,10 +72,10 @@ def prove(
     ('bounded', 'proven')
     """
     sides = sides_of(*models_of_names(left, right, damped, sensor), (), Engine())
-    return proven_again(verdict, sides.left, sides.right, seconds)
+    return prove_again(verdict, sides.left, sides.right, seconds)
 
 
-def proven_again(verdict: Verdict, left: AnySide, right: AnySide, seconds: float) -> Verdict:
+def prove_again(verdict: Verdict, left: AnySide, right: AnySide, seconds: float) -> Verdict:
     """The same of two models as they are compared."""
     claim = _claim(verdict, left, right)
     holds = claim is not None and _holds(claim, seconds)
@@ -242,9 +242,9 @@ def identifiability(
     if isinstance(model, Model | MatrixModel):
         if experiments:
             raise InputError(NOT_CHAINS)
-        return engine.answer(PARAMETERS, (unnamed(model),), engine.settings)
+        return engine.answer(PARAMETERS, (without_names(model),), engine.settings)
     if isinstance(model, str):
-        (model,) = chains_named([model], damped=damped, sensor=sensor)
+        (model,) = read_together([model], damped=damped, sensor=sensor)
     if not isinstance(model, Chain):
         raise InputError(
             "identifiability is asked of a chain, such as Family(3)[4], a Model or a Network"

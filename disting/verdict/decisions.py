@@ -21,7 +21,7 @@ from disting.conditions.side import AnySide
 from disting.conditions.table import NECESSARY
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.verdict.cascade import decide, verdict_of
 from disting.verdict.forest import classes_of
 from disting.verdict.query import Query
@@ -54,7 +54,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Decisions(Shown):
+class Decisions(NotebookTable):
     """For subjects i < j: `decided_by[i, j]` indexes NAMES, `representation[i, j]` STAGES.
 
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs

@@ -26,17 +26,17 @@ from disting.general.any_model import of_network, on_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
 from disting.general.network_model import behaviour_of
-from disting.general.readings import settled
+from disting.general.readings import normalise
 from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical
 from disting.network.network import Network
-from disting.questions.identifiability.analysis import IDENTIFIABILITY, as_given
+from disting.questions.identifiability.analysis import IDENTIFIABILITY, in_names_of
 from disting.questions.identifiability.answer import Identifiability
 from disting.store.code import digest
-from disting.store.scheduling import mapped as mapped
+from disting.store.scheduling import map_tasks as map_tasks
 from disting.store.store import Store
 from disting.verdict.all_pairs import decisions
 from disting.verdict.cascade import audit, decide
@@ -92,7 +92,7 @@ class Engine:
             return self.profile(behaviour_of(model), Representation.TF, 0, self.settings)
 
         plain = [of_network(m) if isinstance(m, Network) else m for m in models]
-        matched = [settled(model, profile_of) for model in on_one_variable(plain)]
+        matched = [normalise(model, profile_of) for model in on_one_variable(plain)]
         named = zip(names or [m.name for m in models], matched, strict=True)
         return [
             ComparedModel(name, model, self.settings, self.profile, self.answer)
@@ -211,7 +211,7 @@ class Engine:
             progress=progress,
         )
         return [
-            as_given(self.answer(IDENTIFIABILITY, (form.chain,), self.settings), form, chain)
+            in_names_of(self.answer(IDENTIFIABILITY, (form.chain,), self.settings), form, chain)
             for chain, form in formed
         ]
 
@@ -234,7 +234,7 @@ class Engine:
         batches = [
             (absent[i : i + BATCH], r, count, self.settings) for i in range(0, len(absent), BATCH)
         ]
-        for _, batch in mapped(compute, batches, executor):
+        for _, batch in map_tasks(compute, batches, executor):
             texts = {profile_key(s, r, count, self.settings): text for s, text in batch}
             self.store.put_many(texts)
             self.memo |= {key: profile_from_json(text) for key, text in texts.items()}
@@ -257,7 +257,7 @@ class Engine:
         done = len(keys) - len(missing)
         asked_for = {models: key for key, models in missing.items()}
         tasks = [(question, models, self.settings) for models in asked_for]
-        for (_, models, _), text in mapped(compute_answer, tasks, executor):
+        for (_, models, _), text in map_tasks(compute_answer, tasks, executor):
             key = asked_for[models]
             self.store.put_many({key: text})
             self.answers[key] = question.decode(text)

@@ -73,16 +73,16 @@ def _n(word: str) -> str:
     return "n" if word[0] in "aeiou" else ""
 
 
-def undetermined(name: str, rank: int, parameters: int) -> str:
+def undetermined_sentence(name: str, rank: int, parameters: int) -> str:
     """What no measurement with these inputs and outputs finds out of one model; "" where each
     parameter is determined, at least up to finitely many values.
 
     It is said before a model is called distinguishable: that its structure shows does not mean
     that its values do.
 
-    >>> undetermined("2:2", 3, 4)
+    >>> undetermined_sentence("2:2", 3, 4)
     'Not all of 2:2 can be determined: what is measured fixes 3 combinations of its 4 parameters.'
-    >>> undetermined("2:1", 4, 4)
+    >>> undetermined_sentence("2:1", 4, 4)
     ''
     """
     if rank >= parameters:

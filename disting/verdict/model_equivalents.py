@@ -5,7 +5,7 @@ family, and with which values.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.general.alternatives import Alternatives, alternatives
 from disting.general.any_model import of_network, on_one_variable
 from disting.general.balls import Synthesis, positive_sets
@@ -13,7 +13,7 @@ from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
 from disting.general.synthesis import NoFormulas
 from disting.general.target import rational_values
-from disting.model.presentation import Shown, summary
+from disting.model.presentation import NotebookTable, summary
 from disting.model.question import Domain
 from disting.network.element import as_number
 from disting.network.network import Network
@@ -26,7 +26,7 @@ MOST_SOLVED = 6  # parameters of models of which all values are looked for at on
 
 
 @dataclass(frozen=True, slots=True)
-class ModelEquivalent(Shown):
+class ModelEquivalent(NotebookTable):
     """Another model, what is known of the pair, and its values where those of the given one are
     said: all of them, or of larger networks the positive ones by `synthesis`.
 
@@ -143,5 +143,5 @@ def _phase(name: str, value: object) -> str:
     """An exponent by its name, or its value as it is given; raises InputError."""
     number = as_number(str(value))
     if value != name and (number is None or not 0 < number <= 1):
-        raise InputError(f"{name} is an exponent: a number up to 1, not {shown(value)}")
+        raise InputError(f"{name} is an exponent: a number up to 1, not {short(value)}")
     return str(value)

@@ -32,7 +32,7 @@ from disting.network.element import Port, Sort
 from disting.network.network import Network
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.next_experiments import Further, places_of
+from disting.verdict.next_experiments import Menu, places_of
 from disting.verdict.placement_record import Spot, answer_of
 from disting.verdict.placement_verdicts import Answer
 from disting.verdict.query import Query, View
@@ -178,7 +178,7 @@ def further_networks(
     costs: Costs | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
-) -> Further[Network]:
+) -> Menu[Network]:
     """The menu on networks of one sort that are indistinguishable, over complex parameters, as
     they are measured now; raises InputError for those that have no menu in common, and for groups
     that are too large.
@@ -205,4 +205,4 @@ def further_networks(
         sides = engine.general_subjects([m.model for m in machines])
         decided = engine.decisions(sides, QUERY, executor=executor, progress=progress)
         tables[kind] = NetworkTable(places, spots, tuple(m.gain for m in machines), decided)
-    return Further(names, networks, tables, costs)
+    return Menu(names, networks, tables, costs)

@@ -16,7 +16,7 @@ from disting.errors import InputError
 from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.network.element import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine, Progress, silent
@@ -40,7 +40,7 @@ class Option:
 
 
 @dataclass(frozen=True)
-class Further(Shown, Generic[S]):
+class Menu(NotebookTable, Generic[S]):
     """The menu on `structures`, chains or networks, called `names`, that one measurement cannot
     tell apart.
     """
@@ -54,7 +54,7 @@ class Further(Shown, Generic[S]):
         kinds = ", ".join(kind.name for kind in self.kinds)
         return summary(self, f"{plural(len(self.structures), 'structure')}: {kinds}")
 
-    def only(self, structures: Sequence[int]) -> "Further[S]":
+    def only(self, structures: Sequence[int]) -> "Menu[S]":
         """Some of the structures, counted from 0, in this order."""
         return replace(
             self,
@@ -164,14 +164,14 @@ def places_of(structure: Chain | Network) -> tuple[int, ...]:
     return tuple(sorted((set(structure.nodes) | (ends & ground)) - {structure.reference}))
 
 
-def further(
+def menu_for(
     named: Sequence[tuple[str, Chain]],
     engine: Engine,
     *,
     costs: Costs | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
-) -> Further[Chain]:
+) -> Menu[Chain]:
     """The menu on structures of one size and sensor that are indistinguishable, over complex
     parameters, as they are measured now; raises InputError for other sizes or sensors.
     """
@@ -183,4 +183,4 @@ def further(
         kind: place(chains, kind, engine, executor=executor, progress=progress)
         for kind in costs.kinds(chains[0].n_masses)
     }
-    return Further(names, chains, tables, costs)
+    return Menu(names, chains, tables, costs)

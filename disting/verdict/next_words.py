@@ -9,7 +9,7 @@ from disting.experiments.menu import Gain, Item
 from disting.files import Format
 from disting.model.chain import Chain
 from disting.network.network import Network
-from disting.verdict.next_experiments import Further, Option
+from disting.verdict.next_experiments import Menu, Option
 from disting.verdict.placement_record import REPEATS
 from disting.verdict.result import Relation, error_bound
 
@@ -31,14 +31,14 @@ WHY = {
     REPEATS: "it shows in both what is known already",
 }
 UNSEEN = "nothing is seen"  # where nothing moves
-AnyFurther = Further[Chain] | Further[Network]
+AnyMenu = Menu[Chain] | Menu[Network]
 NOTHING = {
     Gain.REPEATS: "tells nothing new",
     Gain.SILENT: "the sensor does not move",
 }
 
 
-def left_over(further: AnyFurther, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
+def left_over(further: AnyMenu, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
     """The structures that an item does not surely tell from this one, with the masses at which
     it does not.
     """
@@ -47,7 +47,7 @@ def left_over(further: AnyFurther, structure: int, item: Item) -> dict[int, tupl
     return {k: masses for k, masses in places.items() if masses}
 
 
-def in_words(further: AnyFurther, structure: int, item: Item) -> str:
+def in_words(further: AnyMenu, structure: int, item: Item) -> str:
     """What an item tells, for somebody who has this structure in mind."""
     gain = further.tables[item.kind].gain((structure, item.at))
     if not item.is_worth(gain):
@@ -76,7 +76,7 @@ def option_in_words(option: Option) -> str:
     return f"{' and '.join(item.text for item in option.items)} (cost {option.cost:g})"
 
 
-def conclusion(further: AnyFurther, structure: int) -> str:
+def conclusion(further: AnyMenu, structure: int) -> str:
     """The cheapest sets that are enough, or what is left by the best one, and why."""
     least = further.least(structure)
     if least:
@@ -91,14 +91,14 @@ def conclusion(further: AnyFurther, structure: int) -> str:
     )
 
 
-def anywhere(further: AnyFurther) -> str:
+def anywhere(further: AnyMenu) -> str:
     """The kinds that tell all of them apart wherever they are done; "" if none does."""
     enough = [k for k in further.kinds if further.anywhere(k)]
     phrases = [f"{k.anywhere} (cost {further.costs.cost(k):g})" for k in enough]
     return "; or ".join(phrases)
 
 
-def rows(further: AnyFurther) -> Iterator[tuple[str, ...]]:
+def rows(further: AnyMenu) -> Iterator[tuple[str, ...]]:
     """Yield a row of CSV_COLUMNS for each kind of experiment and each pair of places."""
     for kind in further.kinds:
         table = further.tables[kind]
@@ -112,7 +112,7 @@ def rows(further: AnyFurther) -> Iterator[tuple[str, ...]]:
                     yield tuple(map(str, row))
 
 
-def to_dict(further: AnyFurther) -> dict[str, Any]:
+def to_dict(further: AnyMenu) -> dict[str, Any]:
     """Plain data, ready for JSON."""
     return {
         "format": Format.NEXT.value,
@@ -131,7 +131,7 @@ def to_dict(further: AnyFurther) -> dict[str, Any]:
     }
 
 
-def many(further: AnyFurther) -> str:
+def many(further: AnyMenu) -> str:
     """The name of several places in plain data.
 
     >>> from disting.catalogs.next_files import next_catalog
@@ -141,7 +141,7 @@ def many(further: AnyFurther) -> str:
     return "masses" if further.place == "mass" else f"{further.place}s"
 
 
-def _item(further: AnyFurther, structure: int, item: Item) -> dict[str, Any]:
+def _item(further: AnyMenu, structure: int, item: Item) -> dict[str, Any]:
     left = left_over(further, structure, item)
     return {
         "structure": further.names[structure],
@@ -155,12 +155,12 @@ def _item(further: AnyFurther, structure: int, item: Item) -> dict[str, Any]:
     }
 
 
-def _option(further: AnyFurther, option: Option) -> dict[str, Any]:
+def _option(further: AnyMenu, option: Option) -> dict[str, Any]:
     items = [{"experiment": i.kind.name, further.place: i.at} for i in option.items]
     return {"cost": option.cost, "experiments": items}
 
 
-def _why(further: AnyFurther, structure: int, option: Option) -> str:
+def _why(further: AnyMenu, structure: int, option: Option) -> str:
     """The reason for the first structure that is left."""
     item, other = option.items[0], option.left[0]
     table = further.tables[item.kind]
@@ -170,7 +170,7 @@ def _why(further: AnyFurther, structure: int, option: Option) -> str:
 
 
 def _only(
-    further: AnyFurther, structure: int, item: Item, relation: Relation
+    further: AnyMenu, structure: int, item: Item, relation: Relation
 ) -> dict[int, tuple[int, ...]]:
     """What is left over because of this relation."""
     table, spot = further.tables[item.kind], (structure, item.at)
@@ -181,7 +181,7 @@ def _only(
     return {k: masses for k, masses in left.items() if masses}
 
 
-def _among(further: AnyFurther, left: dict[int, tuple[int, ...]]) -> str:
+def _among(further: AnyMenu, left: dict[int, tuple[int, ...]]) -> str:
     return ", or ".join(
         f"{further.place} {_either(at)} of {further.names[k]}" for k, at in left.items()
     )

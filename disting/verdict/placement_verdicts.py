@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from disting.errors import DistingError, InputError, of_type, shown
+from disting.errors import DistingError, InputError, of_type, short
 from disting.experiments.experiment import Experiment
-from disting.experiments.places import Named, Places, move, parse_experiment, ways
+from disting.experiments.places import PlacedExperiment, Places, move, parse_experiment, ways
 from disting.files import Format, __version__
 from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
 from disting.model.chain import Chain, Sensor
-from disting.model.names import chains_named
+from disting.model.names import read_together
 from disting.model.presentation import plural, summary
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
@@ -50,7 +50,7 @@ class Answer(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Everywhere:
+class AllPlacements:
     """The verdict of every way to place the experiments, the chains as they are included."""
 
     verdicts: tuple[tuple[Places, Verdict], ...]
@@ -81,7 +81,7 @@ def compare_everywhere(
     places: Places = (),
     query: Query | None = None,
     engine: Engine | None = None,
-) -> Everywhere:
+) -> AllPlacements:
     """Verdicts on two chains as they are and under the experiments `also`, for every way to place
     those on the right.
 
@@ -97,23 +97,23 @@ def compare_everywhere(
     """
     if isinstance(left, Model | MatrixModel) or isinstance(right, Model | MatrixModel):
         raise InputError(NOT_CHAINS)
-    left, right = chains_named([left, right], damped=damped, sensor=sensor)
+    left, right = read_together([left, right], damped=damped, sensor=sensor)
     engine = engine or Engine()
     verdicts = []
     for way, pairs in placements(left, right, named_all(also), places):
         verdict = compare(left, right, experiments=pairs, query=query, engine=engine)
         verdicts.append((way, verdict))
-    return Everywhere(tuple(verdicts))
+    return AllPlacements(tuple(verdicts))
 
 
-def named_all(also: Sequence[str | Experiment]) -> tuple[Named, ...]:
+def named_all(also: Sequence[str | Experiment]) -> tuple[PlacedExperiment, ...]:
     """Experiments that are given as text or as such; raises InputError."""
     of_type(also, Iterable, "experiments are a list of texts or of Experiment")
-    return tuple(parse_experiment(e) if isinstance(e, str) else Named(e) for e in also)
+    return tuple(parse_experiment(e) if isinstance(e, str) else PlacedExperiment(e) for e in also)
 
 
 def placements(
-    left: Chain, right: Chain, asked: Sequence[Named], places: Places = ()
+    left: Chain, right: Chain, asked: Sequence[PlacedExperiment], places: Places = ()
 ) -> Iterator[tuple[Places, Pairs]]:
     """Yield every way to place experiments on the right chain, with all that is measured then, the
     chains as they are first; raises InputError.
@@ -144,7 +144,7 @@ def everywhere_file(
     >>> data["answer"], [one["places"] for one in data["verdicts"]]
     ('surely', [{'2': 1}, {'2': 2}, {'2': 3}])
     """
-    a, b = chains_named([left, right], damped=damped, sensor=sensor)
+    a, b = read_together([left, right], damped=damped, sensor=sensor)
     asked, engine = named_all(also), engine or Engine()
     files = [
         {"places": {str(left_place): right_place for left_place, right_place in way}}
@@ -162,7 +162,7 @@ def read_everywhere(data: Mapping[str, Any]) -> tuple[StoredVerdict, ...]:
         raise InputError(f"the file of the verdicts is damaged ({reason})") from None
 
 
-def differing_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdict]) -> str:
+def difference_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdict]) -> str:
     """What such a file tells otherwise than what it tells follows from; "" if nothing.
 
     All verdicts are on the same chains, asked in the same way, and there is one for every way to
@@ -190,13 +190,13 @@ def differing_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdict
         return "program"
     unknown = [name for name in data if name not in again]
     if unknown:
-        return f"{shown(unknown[0])} is no key of it"
+        return f"{short(unknown[0])} is no key of it"
     kept = [name for name in again if name not in ("program", "verdicts")]
     return next((name for name in kept if not same_plain(data.get(name), again[name])), "")
 
 
-def _whole(asked: Sequence[Named], files: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    whole = Everywhere(tuple(((), read_file(each, ("places",)).verdict) for each in files))
+def _whole(asked: Sequence[PlacedExperiment], files: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    whole = AllPlacements(tuple(((), read_file(each, ("places",)).verdict) for each in files))
     return {
         "format": FORMAT,
         "program": __version__,
@@ -213,8 +213,8 @@ def _whole(asked: Sequence[Named], files: Sequence[dict[str, Any]]) -> dict[str,
     }
 
 
-def _named(data: Mapping[str, Any]) -> Named:
+def _named(data: Mapping[str, Any]) -> PlacedExperiment:
     places = tuple(
         (int(left_place), int(right_place)) for left_place, right_place in data["places"]
     )
-    return Named(read_experiment(data["experiment"]), places)
+    return PlacedExperiment(read_experiment(data["experiment"]), places)

@@ -16,7 +16,7 @@ from disting.evidence.kinds import Evidence, evidence_from as evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
 from disting.model.chain import Premise
-from disting.model.presentation import COUNTED, GENERIC, Shown, summary
+from disting.model.presentation import COUNTED, GENERIC, NotebookTable, summary
 from disting.model.question import Domain, Relation as Relation
 
 
@@ -64,7 +64,7 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict(Shown):
+class Verdict(NotebookTable):
     """Relation of a pair with its proof.
 
     `decided_by`: the name of the rule, "1" to "9", "exact", "admissible", or "" if undecided;

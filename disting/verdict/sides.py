@@ -6,13 +6,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from disting.conditions.side import AnySide
-from disting.errors import InputError, of_type, shown
+from disting.errors import InputError, of_type, short
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.general.any_model import as_chain, of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.model.chain import Chain, Sensor, as_sensor
-from disting.model.names import chains_named, name_of, names_of
+from disting.model.names import name_of, names_of, read_together
 from disting.network import Network, network_of
 from disting.network.notation import notations_of
 from disting.verdict.engine import Engine
@@ -38,7 +38,7 @@ def models_of_names(
     quantity = beside if sensor is None else as_sensor(sensor)
     read = [model_of(m, quantity) for m in (left, right)]
     names = [m for m in read if isinstance(m, Chain | str)]
-    chains = iter(chains_named(names, damped=damped, sensor=sensor))
+    chains = iter(read_together(names, damped=damped, sensor=sensor))
     a, b = (next(chains) if isinstance(m, Chain | str) else m for m in read)
     return a, b
 
@@ -117,7 +117,7 @@ def both_places(
     asked = [e if isinstance(e, tuple) else (e, e) for e in of_type(experiments, Iterable, NAMED)]
     for pair in asked:
         if len(pair) != SIDES or not all(isinstance(e, Experiment) for e in pair):
-            raise InputError(f"{NAMED}, not {shown(pair)}")
+            raise InputError(f"{NAMED}, not {short(pair)}")
     return tuple(dict.fromkeys(asked))
 
 

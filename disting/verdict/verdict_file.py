@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from disting.conditions.inclusion import Inclusion, Inclusions
-from disting.errors import DistingError, InputError, shown
+from disting.errors import DistingError, InputError, short
 from disting.evidence.kind import is_well_typed
 from disting.experiments.experiment import Experiment
 from disting.files import Format, __version__
@@ -146,10 +146,10 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
         stored = _stored(data)
         unknown = [key for key in data if key not in (*as_file(stored), *beside)]
         if unknown:
-            raise InputError(f"{shown(unknown[0])} is no key of it")
+            raise InputError(f"{short(unknown[0])} is no key of it")
         return stored
     except (*DAMAGED, DistingError, RecursionError) as reason:
-        why = f"{shown(str(reason))} is missing" if isinstance(reason, KeyError) else reason
+        why = f"{short(str(reason))} is missing" if isinstance(reason, KeyError) else reason
         raise InputError(
             f"the file of the verdict is damaged ({why}); write it anew with 'disting compare N:I"
             " M:J --json'"
@@ -220,7 +220,7 @@ def _stored(data: dict[str, Any]) -> StoredVerdict:
         (read_experiment(pair["left"]), read_experiment(pair["right"])) for pair in pairs
     )
     if not VERSION.fullmatch(data["program"]):
-        raise InputError(f"{shown(data['program'])} is no version")
+        raise InputError(f"{short(data['program'])} is no version")
     beside = data["over_complex"]
     return StoredVerdict(
         models=(a, b),

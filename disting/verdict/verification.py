@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.conditions.inclusion import Inclusion
-from disting.errors import DistingError, InputError, NotSeenError, shown
+from disting.errors import DistingError, InputError, NotSeenError, short
 from disting.files import as_path, read_json
 from disting.model.chain import Chain
 from disting.model.presentation import summary
@@ -22,7 +22,7 @@ from disting.verdict.claim_checks import CHECKS, LIMITS, SHARES, Check, Claim
 from disting.verdict.engine import Engine
 from disting.verdict.placement_verdicts import (
     FORMAT as EVERYWHERE,
-    differing_everywhere,
+    difference_everywhere,
     read_everywhere,
 )
 from disting.verdict.result import Relation
@@ -110,7 +110,7 @@ def verify(verdict: dict[str, Any] | str | Path) -> Verification:
     if not isinstance(data, dict) or data.get("format") != EVERYWHERE:
         return _verified(data, read_file(data))
     stored = read_everywhere(data)
-    other = differing_everywhere(data, stored)
+    other = difference_everywhere(data, stored)
     if other:
         return Verification(Standing.FAILS, _not_agreeing(other))
     ways = [_verified(plain, read) for plain, read in zip(data["verdicts"], stored, strict=True)]
@@ -134,7 +134,7 @@ def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
     """What all checks find; those that take too long leave it open, if nothing is wrong."""
     unseen, seen = list[str](), list[str]()
     written = [
-        f"the settings that choose the random points (seed {shown(stored.settings.seed)})",
+        f"the settings that choose the random points (seed {short(stored.settings.seed)})",
         f"the version that wrote it ({data['program']})",
     ]
     try:

@@ -16,7 +16,7 @@ from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, degrees, is_sign_free
 from disting.behaviour.expansion import expand
 from disting.behaviour.profile import (
-    Unsearched,
+    NoMatroid,
     from_samples,
     profile,
     profile_from_json,
@@ -239,7 +239,7 @@ def test_a_special_search_point_is_followed_by_another():
         return from_samples(seen, points, frozenset(), (3, 0), 0, 1, Size(10, 20), Settings())
 
     assert searched(special, good).matroid == searched(good).matroid and isinstance(
-        searched(special).matroid, Unsearched
+        searched(special).matroid, NoMatroid
     )
     assert searched(special, good).safety <= searched(good).safety
     asked = iter([good, special])
@@ -252,7 +252,7 @@ def test_the_search_of_every_chain_with_dampers_ends():
     chain = Chain(5, 2, 2, 4, 2, 4, damped=True, ground_dampers=(1,))
     assert not isinstance(
         profile(ChainModel(chain.structure), Representation.MARKOV, 20, Settings()).matroid,
-        Unsearched,
+        NoMatroid,
     )
 
 
@@ -287,7 +287,7 @@ def test_coefficients_are_exhaustive_and_markov_parameters_where_they_count_the_
 def test_a_limit_leaves_the_matroid_out_and_nothing_else():
     chain = Family(3, damped=True)[1]
     limited = of(chain, chosen=Settings(subset_limit=3))
-    assert isinstance(limited.matroid, Unsearched)
+    assert isinstance(limited.matroid, NoMatroid)
     full = of(chain)
     assert replace(limited, matroid=full.matroid, safety=full.safety) == full
 

@@ -20,7 +20,7 @@ from disting.errors import InputError
 from disting.general.any_model import of_network
 from disting.general.network_model import behaviour_of
 from disting.model.question import Settings
-from disting.network.at_points import assembly, solved
+from disting.network.at_points import assembly, solve
 from disting.network.chains import of_chain
 from disting.network.families import circuits, family_of
 from disting.network.forests import counts_of
@@ -122,7 +122,7 @@ def networks_of_size(n):
 
 def profiled(network):
     """The model made of the network and its profile, nothing kept from before."""
-    for kept in (assembly, counts_of, solved):
+    for kept in (assembly, counts_of, solve):
         kept.cache_clear()
     return one_profile(behaviour_of(of_network(network)))
 

@@ -41,14 +41,14 @@ class Untouched(Engine):
 
 
 def test_the_shipped_file_holds_all_candidates_and_pairs():
-    found = stored.shipped()
+    found = stored.shipped_matrix()
     assert found.chains == figure_1()
     assert sum(found.counts().values()) == 7140
 
 
 # Printed: "the set of candidate models was chosen appropriately with distinguishable models only".
 def test_every_two_candidates_are_distinguishable():
-    assert stored.shipped().counts() == {APART: 7140, SAME: 0, Relation.UNDECIDED: 0}
+    assert stored.shipped_matrix().counts() == {APART: 7140, SAME: 0, Relation.UNDECIDED: 0}
 
 
 @pytest.mark.slow
@@ -59,7 +59,7 @@ def test_rebuilding_gives_the_same_bytes():
 
 def test_a_part_of_the_matrix_is_as_computed_now():
     part = figure_1(sizes=(1, 2))
-    found, known = stored.matrix(part), stored.shipped()
+    found, known = stored.matrix(part), stored.shipped_matrix()
     for i, left in enumerate(part):
         for right in part[i + 1 :]:
             for column in (
@@ -71,7 +71,7 @@ def test_a_part_of_the_matrix_is_as_computed_now():
 
 
 def test_as_compare_says():
-    engine, known, random = Engine(), stored.shipped(), Random(1)
+    engine, known, random = Engine(), stored.shipped_matrix(), Random(1)
     for _ in range(60):
         left, right = random.sample(known.chains, 2)
         verdict = compare(left, right, engine=engine)
@@ -81,7 +81,7 @@ def test_as_compare_says():
 
 
 def test_the_error_bound_is_that_of_the_weakest_verdict():
-    assert stored.shipped().records[0]["safety"] >= 100
+    assert stored.shipped_matrix().records[0]["safety"] >= 100
     chains, engine = [Family(3, damped=True)[i] for i in (1, 4, 6, 8)], Engine()
     verdicts = [compare(a, b, engine=engine) for a, b in combinations(chains, 2)]
     bits = {v.safety for v in verdicts if v.certainty is Certainty.BOUNDED}
@@ -126,7 +126,7 @@ def test_pairs_that_are_not_there_are_refused():
         (FIRST, Chain(3, damped=True, sensor="position")),
     ):
         with pytest.raises(InputError, match="two of its models"):
-            stored.shipped().relation(*pair)
+            stored.shipped_matrix().relation(*pair)
     with pytest.raises(InputError, match="one sensor"):
         stored.matrix([FIRST, Chain(2, sensor="velocity", damped=False)])
 

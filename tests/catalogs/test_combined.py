@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 from disting import Engine, Inclusion, InputError, Query, Relation, catalog
-from disting.catalogs.sizes import answers_in, combined, combined_family
+from disting.catalogs.sizes import answers_in, combine, combined_family
 from disting.cli import main
 from disting.conditions.inclusion import Sense
 
@@ -16,7 +16,7 @@ ENGINE = Engine()
 
 @pytest.fixture(scope="module", params=[False, True], ids=["undamped", "damped"])
 def three(request):
-    return request.param, combined((1, 2, 3), damped=request.param, engine=ENGINE)
+    return request.param, combine((1, 2, 3), damped=request.param, engine=ENGINE)
 
 
 def test_the_answers_in_catalogues_are_those_that_would_be_computed(three):
@@ -26,7 +26,7 @@ def test_the_answers_in_catalogues_are_those_that_would_be_computed(three):
     for n in (1, 2, 3):
         for known in answers_in(catalog(n, damped=damped)):
             engine.remember(*known)
-    found = combined(
+    found = combine(
         (1, 2, 3),
         damped=damped,
         engine=engine,
@@ -52,7 +52,7 @@ def test_models_of_different_sizes_are_distinguishable_by_their_degrees(damped):
     """All pairs of 1 to 4 masses: by condition 1, and by 2 where equally many coefficients are
     distributed differently.
     """
-    found = combined((1, 2, 3, 4), damped=damped, query=Query(inclusion=False), engine=ENGINE)
+    found = combine((1, 2, 3, 4), damped=damped, query=Query(inclusion=False), engine=ENGINE)
     n = [s.chain.n_masses for s in found.subjects]
     pairs = [(i, j) for i in range(len(n)) for j in range(i + 1, len(n)) if n[i] != n[j]]
     assert {found.relation(i, j) for i, j in pairs} == {Relation.DISTINGUISHABLE}
@@ -94,7 +94,7 @@ def test_one_sided_inclusion_is_shown(three):
 @pytest.mark.parametrize(("damped", "inside", "outside"), [(False, 417, 65), (True, 441, 41)])
 def test_models_of_one_to_four_masses(damped, inside, outside):
     """All 482 pairs of different size are settled."""
-    found = combined((1, 2, 3, 4), damped=damped, engine=ENGINE)
+    found = combine((1, 2, 3, 4), damped=damped, engine=ENGINE)
     sizes = [s.chain.n_masses for s in found.subjects]
     pairs = [(i, j) for i in range(44) for j in range(i + 1, 44) if sizes[i] != sizes[j]]
     counts = Counter(found.inclusion(i, j, Sense.CLOSURE) for i, j in pairs)

@@ -31,10 +31,10 @@ from disting.catalogs.damper_family import (
     text_of,
     write,
 )
-from disting.catalogs.files import SETTLED, append, read_settled, shipped_folder
+from disting.catalogs.files import SETTLED, append, read_findings, shipped_folder
 from disting.catalogs.verify import (
     DECIDES,
-    false_settled,
+    false_findings,
     settle_dampers,
     verify_dampers,
 )
@@ -211,7 +211,7 @@ def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
 
 
 def settled(damped):
-    return read_settled(canonical(c).chain for c in damper_catalog(5, damped=damped).found.chains)
+    return read_findings(canonical(c).chain for c in damper_catalog(5, damped=damped).found.chains)
 
 
 def one_of_each(known):
@@ -271,11 +271,11 @@ def test_what_is_settled_of_another_pair_does_not_hold():
 
 def test_what_is_settled_is_taken_over_from_a_folder_of_ones_own(tmp_path):
     one, other = (canonical(replace(Family(2, True)[i], ground_dampers=(1,))).chain for i in (1, 2))
-    assert read_settled([one, other], tmp_path) == {}
+    assert read_findings([one, other], tmp_path) == {}
     append(tmp_path, one, other, Finding(EXACT, Outcome.FAILS))
     told = {(one, other): Finding(EXACT, Outcome.FAILS)}
-    assert read_settled([one, other], tmp_path) == told
-    assert read_settled([one], tmp_path) == {}
+    assert read_findings([one, other], tmp_path) == told
+    assert read_findings([one], tmp_path) == {}
     assert classes([one, other], Engine(), settled=told).relation(0, 1) is APART
 
 
@@ -298,7 +298,7 @@ def test_what_is_settled_and_what_contradicts_the_file_is_said_by_the_names_of_t
         "4:8+b1 and 4:19+b1, damped: indistinguishable",
     ]
     assert len((tmp_path / SETTLED).read_text(encoding="utf-8").splitlines()) == 2
-    assert list(false_settled(found, tmp_path, Settings())) == [
+    assert list(false_findings(found, tmp_path, Settings())) == [
         "4:3+b1 and 4:7+b1, damped: settled, but not in the file",
         "4:8+b1 and 4:19+b1, damped: settled, but not in the file",
     ]

@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 
 from disting import Chain, Engine, Family, InputError, Query, Relation, View, compare
-from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spelled
+from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spell
 from disting.cli import main
 from disting.cli.dampers import grid, legend
 from disting.model.question import Domain
@@ -26,8 +26,8 @@ def table(number, which=DamperSets.SINGLE, n=3, damped=True, domain=Domain.COMPL
 
 
 def test_sets_in_the_order_of_size_then_masses():
-    assert [spelled(s) for s in DamperSets.SINGLE.of(3)] == ["0", "1", "2", "3"]
-    assert [spelled(s) for s in DamperSets.ALL.of(3)] == [
+    assert [spell(s) for s in DamperSets.SINGLE.of(3)] == ["0", "1", "2", "3"]
+    assert [spell(s) for s in DamperSets.ALL.of(3)] == [
         "0",
         "1",
         "2",
@@ -130,7 +130,7 @@ def test_against_sympy(sensor):
 def test_what_is_undecided_joins_no_class():
     """Conditions 1 to 9 leave the two places of one damper open."""
     chain, sets = Chain(2, damped=True), ((), (1,), (2,))
-    subjects = [ENGINE.subject(spelled(s), replace(chain, ground_dampers=s)) for s in sets]
+    subjects = [ENGINE.subject(spell(s), replace(chain, ground_dampers=s)) for s in sets]
     paper = DamperTable(chain, sets, ENGINE.decisions(subjects, Query(View.COMBINED)))
     assert paper.relation((1,), (2,)) is Relation.UNDECIDED
     assert paper.classes() == (((),), ((1,),), ((2,),))
@@ -209,7 +209,7 @@ def test_the_table_speaks_of_positive_parameters_and_says_what_is_known_of_compl
 @pytest.mark.parametrize(("n_masses", "blocks"), [(3, 1), (4, 1), (5, 1), (6, 2), (7, 5)])
 def test_the_table_of_all_sets_fits_a_terminal(n_masses, blocks):
     """Every sign once, in rows and columns in one order, whatever the table is broken into."""
-    names = [spelled(s) for s in DamperSets.ALL.of(n_masses)]
+    names = [spell(s) for s in DamperSets.ALL.of(n_masses)]
     odd = 1, len(names) - 2  # two names with signs of their own
 
     def sign(i: int, j: int) -> str:

@@ -22,7 +22,7 @@ from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.evidence.substitutes import OfPart
 from disting.files import shipped_folder
-from disting.general.any_model import of_network, unnamed
+from disting.general.any_model import of_network, without_names
 from disting.general.forms import BRIEFLY, WAS_BRIEF
 from disting.general.identifiability import PARAMETERS
 from disting.general.model_side import positive_question
@@ -148,7 +148,7 @@ def test_what_can_be_determined_is_taken_over(name):
     recall(name, engine)
     _, *records = read(shipped_folder() / f"{name_of(name)}.jsonl")
     for record, network in zip(records, family_of(name).networks, strict=False):
-        key = question_key(PARAMETERS, (unnamed(of_network(network)),), engine.settings)
+        key = question_key(PARAMETERS, (without_names(of_network(network)),), engine.settings)
         assert engine.answers[key].to_dict() == record["identifiability"]
 
 

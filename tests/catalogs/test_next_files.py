@@ -19,7 +19,7 @@ from disting.catalogs.next_files import (
 )
 from disting.errors import CatalogError
 from disting.verdict.engine import Engine
-from disting.verdict.next_experiments import further
+from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import to_dict
 from disting.verdict.query import View
 
@@ -70,7 +70,7 @@ def test_a_group_with_dampers_to_the_ground_is_what_is_computed():
     stored = next_catalog(3, damped=False, dampers=True)
     numbers = [stored.number(1, (1,)), stored.number(4, (2,))]
     assert stored.group(numbers[0]) == tuple(numbers)
-    fresh = further([stored.named(i) for i in numbers], Engine())
+    fresh = menu_for([stored.named(i) for i in numbers], Engine())
     assert stored.further(numbers).tables == fresh.tables
     assert stored.further(numbers).names == ("3:1+b1", "3:4+b2")
 
@@ -88,7 +88,7 @@ def test_a_pair_out_of_a_group_is_what_is_computed_of_the_pair():
     engine = Engine()
     for pair in ((8, 11), (11, 8), (4, 1)):
         said = stored.further(pair)
-        fresh = further([(f"3:{m}", family[m]) for m in pair], engine)
+        fresh = menu_for([(f"3:{m}", family[m]) for m in pair], engine)
         assert said is not None
         assert [r["relation"] for r in to_dict(said)["pairs"]] == [
             r["relation"] for r in to_dict(fresh)["pairs"]

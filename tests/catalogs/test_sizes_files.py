@@ -12,7 +12,7 @@ import pytest
 from disting import CatalogError, Engine, Inclusion, InputError, Relation, View, catalog, compare
 from disting.catalogs import sizes_files
 from disting.catalogs.files import lines, shipped_folder
-from disting.catalogs.sizes import combined
+from disting.catalogs.sizes import combine
 from disting.catalogs.sizes_build import false_evidence, verify_sizes
 from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
 from disting.conditions.inclusion import Sense
@@ -47,7 +47,7 @@ def test_every_pair_of_the_models_of_one_to_five_masses_is_there(
 
 @DAMPINGS
 def test_small_sizes_are_as_computed_now(both: dict[bool, SizesCatalog], damped: bool) -> None:
-    computed, found = combined((1, 2, 3), damped=damped), both[damped]
+    computed, found = combine((1, 2, 3), damped=damped), both[damped]
     for i, j in combinations(range(len(computed.subjects)), 2):
         now, stored = computed.verdict(i, j), found.verdict(j + 1, i + 1)
         assert (stored.left, stored.right) == (now.left, now.right)

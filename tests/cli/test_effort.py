@@ -13,7 +13,7 @@ import pytest
 from disting import Family
 from disting.cli import main
 from disting.cli.decision import LESS, LONGER
-from disting.cli.workers import LONG, Work, announced, pairs_by_size, told_if_long
+from disting.cli.workers import LONG, Work, announce, pairs_by_size, told_if_long
 from disting.measurement import write_csv
 from disting.simulation import demo
 from tests.cli.process import COMMAND, called
@@ -125,8 +125,8 @@ def test_work_that_ends_soon_is_done_without_a_word(tmp_path: Path, command: str
 def test_more_workers_take_less_time(capsys: pytest.CaptureFixture[str]) -> None:
     seconds = 3 * LONG
     count = round(seconds / Work.PAIRS.value.of(5))
-    announced(Work.PAIRS, {5: count}, 1)
-    announced(Work.PAIRS, {5: count}, 4)
+    announce(Work.PAIRS, {5: count}, 1)
+    announce(Work.PAIRS, {5: count}, 4)
     assert capsys.readouterr().err.count("\n") == 1
 
 

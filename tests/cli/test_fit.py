@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from disting.cli import main
-from disting.fit import predicted, read_model, select
-from disting.fit.search.data import checked
+from disting.fit import predict, read_model, select
+from disting.fit.search.data import check
 from disting.fit.select import MOST_LINES
 from disting.measurement import FrequencyResponse, read
 from disting.model.chain import Chain
@@ -83,7 +83,7 @@ def test_what_is_simulated_is_selected(files, fitted):
     )
     chain, values = read_model(path)
     train = read(files[0])
-    assert np.median(np.abs(predicted(chain, values, train.omega) / train.G - 1)) < 1e-3
+    assert np.median(np.abs(predict(chain, values, train.omega) / train.G - 1)) < 1e-3
 
 
 def test_the_printed_result_says_what_matters(fitted):
@@ -259,5 +259,5 @@ def test_no_more_lines_are_fitted_than_the_help_says():
     omega = np.linspace(5.0, 300.0, 2 * MOST_LINES)
     many = FrequencyResponse(omega, 1 / (0.01 * (1 + 0.002j * omega)))
     given = signature(select).parameters["most_lines"].default
-    train, test, _ = checked(many, many, [], [Chain(1)], given)
+    train, test, _ = check(many, many, [], [Chain(1)], given)
     assert len(train) == len(test) == 10_000 == MOST_LINES

@@ -10,7 +10,7 @@ import pytest
 from disting.cli.fit_data import data
 from disting.cli.parser import parser
 from disting.fit.search.cost import Cost
-from disting.fit.search.joint import Further, JointCost
+from disting.fit.search.joint import FurtherResponse, JointCost
 from disting.fit.search.setup import Setup
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse, read
@@ -92,7 +92,7 @@ def test_columns_and_files_of_two_sensors_are_the_same_data(bench):
         np.testing.assert_array_equal(one.further[0].measured.G, columns.further[0].measured.G)
     assert columns.further[0].setup == Setup(sensor="2") and columns.further[0].test is None
     assert swapped.train == columns.further[0].measured
-    assert swapped.further[0] == Further(columns.train, Setup(sensor="1"))
+    assert swapped.further[0] == FurtherResponse(columns.train, Setup(sensor="1"))
 
 
 def test_test_data_go_to_their_sensors(bench):

@@ -8,7 +8,7 @@ from math import pi
 import pytest
 
 from disting.fit.plan.fit_file import named_by
-from disting.fit.plan.next_experiment import bench_of, foretold
+from disting.fit.plan.next_experiment import bench_of, predictions
 from disting.model.chain import Chain
 from disting.model.kinds import SENSOR
 from tests.cli.process import called
@@ -118,7 +118,7 @@ def test_tables_hold_all_pairs_of_places(path):
         == ("sensor", "3:1", "2", "3:11", "2")
     ]  # fmt: skip
     assert moved["relation"] == "distinguishable" and float(moved["largest"]) > 1
-    found = foretold(named_by(path).left, bench_of(named_by(path)))
+    found = predictions(named_by(path).left, bench_of(named_by(path)))
     step = found.at(SENSOR, (0, 2), (2, 2))
     assert float(moved["noncentrality"]) == pytest.approx(step.noncentrality)
 

@@ -9,7 +9,7 @@ import pytest
 
 from disting.fit import select
 from disting.fit.plan.power import plan
-from disting.fit.results.export import predicted
+from disting.fit.results.export import predict
 from disting.measurement import FrequencyResponse, read, write_csv
 from disting.model.chain import Chain
 from disting.report.fit import selection_to_dict
@@ -61,7 +61,7 @@ def test_written_spectrum_is_run_by_the_command_that_is_named(written, tmp_path)
     ran = called(*command[1:], "--csv", tmp_path / "frf.csv")
     assert ran.returncode == 0, ran.stderr
     seen = read(tmp_path / "frf.csv")
-    assert predicted(MODEL, NUMBERS, seen.omega) == pytest.approx(seen.G, rel=1e-5)
+    assert predict(MODEL, NUMBERS, seen.omega) == pytest.approx(seen.G, rel=1e-5)
     plain = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
     assert len(seen) <= len(plain["frequency"]) == 120
     assert plain["optimal"]["noncentrality"] > 4 * plain["noncentrality"]

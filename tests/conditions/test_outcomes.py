@@ -20,7 +20,7 @@ from disting import (
     compare,
 )
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.profile import Unsearched, profile
+from disting.behaviour.profile import NoMatroid, profile
 from disting.behaviour.sample import Representation
 from disting.conditions import sufficient
 from disting.conditions.necessary import (
@@ -194,7 +194,7 @@ def test_condition_5_is_asked_after_3_and_4_only(other):
 
 def test_condition_5_is_abandoned_where_a_matroid_is_too_large():
     full, limited = handmade(GENERAL), handmade(GENERAL, limit=3)
-    assert limited.matroid == Unsearched(
+    assert limited.matroid == NoMatroid(
         "more than 3 sets of coefficients to look at: 4 rows of rank 3"
     )
     for pair in ((full, limited), (limited, full), (limited, limited)):
@@ -209,14 +209,14 @@ def test_condition_5_is_abandoned_where_a_matroid_is_too_large():
 def test_a_special_search_point_is_recognised(searched):
     """A dependence, or a rank, that is there at the search point only makes no matroid."""
     special = handmade(GENERAL, searched=searched)
-    assert special.matroid == Unsearched("every search point was special; choose another seed")
+    assert special.matroid == NoMatroid("every search point was special; choose another seed")
 
 
 def test_more_than_64_invariants_that_depend_on_each_other_are_not_searched():
     """Those that are zero, as of high powers of v that do not occur, are none of them."""
-    assert isinstance(handmade([[1]] * 65).matroid, Unsearched)
-    assert not isinstance(handmade([[1]] * 64).matroid, Unsearched)
-    assert not isinstance(handmade([*[[0]] * 65, [1]]).matroid, Unsearched)
+    assert isinstance(handmade([[1]] * 65).matroid, NoMatroid)
+    assert not isinstance(handmade([[1]] * 64).matroid, NoMatroid)
+    assert not isinstance(handmade([*[[0]] * 65, [1]]).matroid, NoMatroid)
 
 
 @pytest.mark.parametrize(("limit", "lost"), [(0, 14), (35, 14), (36, 4), (2000, 0)])

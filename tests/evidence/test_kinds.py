@@ -11,7 +11,7 @@ import disting.evidence
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import Theorem
 from disting.evidence.general import NoEquivalent
-from disting.evidence.ideals import ByRows, RowStep, Solved, Vanishing
+from disting.evidence.ideals import ByRows, RowStep, Solutions, Vanishing
 from disting.evidence.kind import read
 from disting.evidence.kinds import (
     Evidence,
@@ -21,7 +21,7 @@ from disting.evidence.kinds import (
 )
 from disting.evidence.limits import LargerProjection
 from disting.evidence.positive import EmptyFibre, Interlacing, PositiveEvidence, RowWords
-from disting.evidence.substitutes import AtInverse, Replaced
+from disting.evidence.substitutes import AtInverse, Replacement
 
 UNIONS = [set(get_args(union)) for union in (Evidence, InclusionEvidence, PositiveEvidence)]
 
@@ -69,7 +69,7 @@ def test_what_belongs_to_another_statement_is_refused():
                 True,
                 (
                     RowStep("same", "free", Vanishing(3)),
-                    RowStep("rigid", "free", Solved(True, ("x",), ((1, 2),))),
+                    RowStep("rigid", "free", Solutions(True, ("x",), ((1, 2),))),
                 ),
             ),
             {
@@ -116,17 +116,17 @@ def test_files_have_this_form_and_it_is_read_back(found, plain):
 def test_a_name_that_no_theorem_has_is_refused():
     with pytest.raises(ValueError, match="no theorem is called"):
         evidence_from({"kind": "theorem", "name": "wishful"})
-    assert evidence_from(Solved(True, ("a",), ((1, 2),)).to_dict()) == Solved(
+    assert evidence_from(Solutions(True, ("a",), ((1, 2),)).to_dict()) == Solutions(
         True, ("a",), ((1, 2),)
     )
 
 
 def test_evidence_inside_evidence_is_written_read_and_turned_with_it():
     inner = NoEquivalent("positive", True, ("p0 < 0",))
-    outer = AtInverse("a", "b", Replaced("c", "d", True, False, inner))
+    outer = AtInverse("a", "b", Replacement("c", "d", True, False, inner))
     replaced = {"kind": "replaced", "left": "c", "right": "d"}
     larger = {"left_larger": True, "right_larger": False, "inner": inner.to_dict()}
     plain = {"kind": "at-inverse", "left": "a", "right": "b", "inner": replaced | larger}
     assert outer.to_dict() == plain and AtInverse.from_dict(plain) == outer
-    turned = Replaced("d", "c", False, True, NoEquivalent("positive", False, ("p0 < 0",)))
+    turned = Replacement("d", "c", False, True, NoEquivalent("positive", False, ("p0 < 0",)))
     assert outer.turned == AtInverse("b", "a", turned)

@@ -7,7 +7,7 @@ import pytest
 
 from disting import Experiment, Family, Query, Settings, Verdict, View, compare, prove
 from disting.evidence.decision import FibreUnder
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.positive import OnlyOne
 from disting.experiments.exact import LIMITS, by_ideals, exact_finding, positive_finding
 from disting.experiments.experiment import MeasuredChain
@@ -49,13 +49,13 @@ def test_what_is_the_same_is_never_refuted_by_a_list():
     assert by_list(*inertia(1, 3), Settings()) is None
 
 
-@pytest.mark.parametrize(("i", "j", "kind"), [(1, 3, Solved), (2, 1, Refuted)])
+@pytest.mark.parametrize(("i", "j", "kind"), [(1, 3, Solutions), (2, 1, Refutation)])
 def test_ideals_solve_and_refute(i, j, kind):
     left, right = inertia(i, j)
     found = by_ideals(left, right, Settings(), LIMITS)
     assert isinstance(found.evidence, kind) and found.safety >= 100
     assert confirms(found.evidence, left, right)
-    other = inertia(2, 1) if kind is Solved else inertia(1, 3)
+    other = inertia(2, 1) if kind is Solutions else inertia(1, 3)
     assert not confirms(found.evidence, *other)
 
 

@@ -19,7 +19,7 @@ from disting.network import network_of
 from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
 from disting.verdict.network_placement import further_networks, measure
-from disting.verdict.next_experiments import further, places_of
+from disting.verdict.next_experiments import menu_for, places_of
 from disting.verdict.next_words import rows
 from disting.verdict.result import Relation
 
@@ -45,7 +45,7 @@ def test_chains_are_told_what_they_are_told_as_chains(n, damped, numbers, engine
     group = [family[m] for m in numbers]
     names = [f"{n}:{m}" for m in numbers]
     networks = [of_chain(chain, name) for name, chain in zip(names, group, strict=True)]
-    chains = further(list(zip(names, group, strict=True)), engine, costs=EVERY)
+    chains = menu_for(list(zip(names, group, strict=True)), engine, costs=EVERY)
     found = further_networks(list(zip(names, networks, strict=True)), engine, costs=EVERY)
     assert set(found.tables) == set(chains.tables)
     compared = 0

@@ -19,7 +19,7 @@ from disting.experiments.menu import Costs, Gain, Item, gain, measure_with
 from disting.model.kinds import FORCE, INERTIA, KINDS, LOCK, SENSOR
 from disting.model.names import chain_of
 from disting.verdict.engine import Engine
-from disting.verdict.next_experiments import Further, further
+from disting.verdict.next_experiments import Menu, menu_for
 from disting.verdict.next_words import conclusion, rows
 from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
@@ -43,7 +43,7 @@ def named(family, *numbers):
 
 @pytest.mark.parametrize("pair", SAME)
 def test_the_truth_as_told_by_next(pair, engine):
-    found = further(named(A, *pair), engine)
+    found = menu_for(named(A, *pair), engine)
     for kind, same in zip(TABLE.values(), SAME[pair], strict=True):
         left = {
             f"{i}/{j}"
@@ -55,7 +55,7 @@ def test_the_truth_as_told_by_next(pair, engine):
 
 
 def test_any_second_sensor_settles_the_dual_pair(engine):
-    found = further(named(A, 1, 11), engine)
+    found = menu_for(named(A, 1, 11), engine)
     assert all(found.anywhere(kind) for kind in Costs().kinds(3))
     assert {item.kind for option in found.least(0) for item in option.items} == {
         SENSOR,
@@ -65,7 +65,7 @@ def test_any_second_sensor_settles_the_dual_pair(engine):
 
 def test_the_group_of_five_undamped(engine):
     group = (1, 4, 6, 8, 11)
-    found = further(named(Family(3, damped=False), *group), engine)
+    found = menu_for(named(Family(3, damped=False), *group), engine)
     left = {
         kind: {
             (group[a], i, group[b], j)
@@ -90,7 +90,7 @@ def test_the_group_of_five_undamped(engine):
 def test_tables_say_what_compare_says(kind, engine):
     """Every pair of places of a group, one by one, without classes and buckets."""
     family, group = Family(3, damped=False), (8, 11)
-    found = further(named(family, *group), engine, costs=EVERY)
+    found = menu_for(named(family, *group), engine, costs=EVERY)
     for i, j in product((1, 2, 3), repeat=2):
         pairs = [tuple(Item(kind, at).experiment for at in (i, j))]
         chains = (family[m] for m in group)
@@ -122,7 +122,7 @@ def test_the_force_moved_is_the_sensor_moved_where_both_are_at_one_place():
 
 def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
     """Sensor at 2 leaves mass 1 of the other, inertia at 2 leaves mass 2: together nothing is."""
-    found = further(named(A, 9, 10), engine)
+    found = menu_for(named(A, 9, 10), engine)
     items = Item(SENSOR, 2), Item(INERTIA, 2)
     assert [found.option(0, (item,)).left for item in items] == [(1,), (1,)]
     assert found.option(0, items).left == ()
@@ -133,9 +133,9 @@ def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
 
 
 def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
-    whole = further(named(A, 2, 5), engine)
+    whole = menu_for(named(A, 2, 5), engine)
     tables = {k: whole.tables[k] for k in (LOCK, INERTIA)}
-    found = Further(whole.names, whole.structures, tables)
+    found = Menu(whole.names, whole.structures, tables)
     assert found.least(0) == found.least(1) == ()
     assert "by symmetry" in conclusion(found, 0)
     mirrored = {1: 3, 2: 2, 3: 1}
@@ -147,7 +147,7 @@ def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
 
 
 def test_costs_change_what_is_least(engine):
-    found = further(named(A, 1, 11), engine, costs=Costs.read("sensor=5,move=4,lock=0.5"))
+    found = menu_for(named(A, 1, 11), engine, costs=Costs.read("sensor=5,move=4,lock=0.5"))
     assert found.kinds == (LOCK, INERTIA, SENSOR, FORCE)
     assert {o.cost for o in found.least(0)} == {0.5}
 
@@ -163,7 +163,7 @@ def test_a_single_mass_is_not_locked():
 
 
 def test_rows_are_all_pairs_of_places(engine):
-    found = further(named(A, 2, 5), engine)
+    found = menu_for(named(A, 2, 5), engine)
     assert len(list(rows(found))) == 4 * 9
 
 
@@ -253,7 +253,7 @@ def test_nothing_to_do_and_bad_input(arguments, status, says, capsys, monkeypatc
 
 def test_an_inertia_whose_effect_is_foretold_excludes_where_another_one_is(engine):
     """A1 carries force and sensor at mass 1: G/(1 + J s^2 R) there, which no A11 shows."""
-    found = further(named(A, 1, 11), engine)
+    found = menu_for(named(A, 1, 11), engine)
     item = Item(INERTIA, 1)
     assert found.tables[INERTIA].gain((0, 1)) is Gain.REPEATS
     assert item in set(found.items(0)) and found.whole(0, item) is Answer.SURELY
@@ -267,7 +267,7 @@ def test_an_inertia_whose_effect_is_foretold_excludes_where_another_one_is(engin
 def test_what_is_said_of_any_mass_holds_of_every_mass(damped, engine):
     """Two structures whose effects are both foretold are alike there: no "any mass" then."""
     for group in next_catalog(3, damped=damped).groups:
-        found = further(named(Family(3, damped), *group), engine)
+        found = menu_for(named(Family(3, damped), *group), engine)
         table = found.tables[INERTIA]
         every = [
             table.look_up((a, i), (b, j))[0]

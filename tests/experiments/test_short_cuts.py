@@ -10,7 +10,7 @@ from sympy import Rational
 from disting import Chain, Experiment, Family, Settings
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.next_files import SHIPPED_SIZES, next_catalog
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.experiments.equal_machines import same_by_rows, standard
 from disting.experiments.exact import LIMITS, by_ideals, by_parts
 from disting.experiments.experiment import MeasuredChain
@@ -106,7 +106,7 @@ def test_rows_say_what_ideals_say(kind, i, j):
     """Two ports of a full grounded row, and what is done in the free row that both share."""
     pair = [measure_with(U[m], Item(kind, at)) for m, at in ((8, i), (11, j))]
     assert same_by_rows(*pair)
-    assert isinstance(by_ideals(*pair, Settings(), LIMITS).evidence, Solved)
+    assert isinstance(by_ideals(*pair, Settings(), LIMITS).evidence, Solutions)
     elsewhere = measure_with(U[11], Item(kind, 1 if j != 1 else 2))
     assert not same_by_rows(pair[0], elsewhere)
 
@@ -123,7 +123,7 @@ def test_an_inertia_in_the_coordinates_of_its_mass(pair, i, j, same):
     assert told_apart is None or not same
     if told_apart is None:
         found = by_ideals(*both, Settings(), LIMITS)
-        assert isinstance(found.evidence, Solved if same else Refuted)
+        assert isinstance(found.evidence, Solutions if same else Refutation)
 
 
 def test_inertias_of_two_sizes_are_not_compared_by_their_masses():
@@ -139,7 +139,7 @@ def test_five_damped_masses_have_bounds():
     chain = Family(5, damped=True)[44]
     one, two, four = (measure_with(chain, Item(INERTIA, at)) for at in (1, 2, 4))
     found = by_ideals(one, two, Settings(), LIMITS)
-    assert isinstance(found.evidence, Refuted) and found.safety >= LEAST_SAFETY
+    assert isinstance(found.evidence, Refutation) and found.safety >= LEAST_SAFETY
     by_ranks = by_parts(one, four, Settings())
     assert by_ranks.outcome.value == "fails" and by_ranks.safety >= LEAST_SAFETY
 

@@ -21,7 +21,7 @@ from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task
 from disting.fit.search.neighbours import neighbours
-from disting.fit.search.starts import Parameters, Scale, merged, scale, split, stacked
+from disting.fit.search.starts import Parameters, Scale, merge, scale, split, stack
 from disting.model.chain import Chain
 from tests.fit.drives import bench
 
@@ -86,7 +86,7 @@ def splits(
     """Random masses of smaller fits split, the part from a ten-thousandth on, tuned to a random
     frequency.
     """
-    choices = [(joint, fewer) for joint, fewer in merged(chain) if fewer in found]
+    choices = [(joint, fewer) for joint, fewer in merge(chain) if fewer in found]
     for _ in range(SPLITS if choices else 0):
         joint, fewer = choices[source.integers(len(choices))]
         start = dict(next(split(chain, joint, found[fewer][1], size)))
@@ -102,7 +102,7 @@ def splits(
 
 def descended(chain: Chain, task: Task, starts: list[Parameters], found: Found) -> bool:
     """Whether the best of the starts is better than what is known; then it is known."""
-    at = stacked(starts, chain.parameters)
+    at = stack(starts, chain.parameters)
     points, costs = rough(task.plant(chain), task.cost, task.box(chain.parameters), at, ITERATIONS)
     i = int(np.nanargmin(costs))
     better = chain not in found or costs[i] < found[chain][0] * (1 - GAIN)

@@ -21,8 +21,8 @@ from disting.fit.search.exchange import (
     estimates,
     with_smaller,
 )
-from disting.fit.search.neighbours import carried, conspicuous, neighbours, paired
-from disting.fit.search.starts import cauer, extrema, merged, scale, shortened
+from disting.fit.search.neighbours import carry_over, conspicuous, neighbours, split_starts
+from disting.fit.search.starts import cauer, extrema, merge, scale, shorten
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.store import Store
@@ -66,7 +66,7 @@ def test_noise_is_fitted_at_least_as_well_as_by_the_truth(case):
 def worst_excess(found):
     """Largest relative excess of a candidate's cost over that of one that it contains."""
     pairs = [
-        (found[c], found[smaller]) for c in found for smaller in shortened(c) if smaller in found
+        (found[c], found[smaller]) for c in found for smaller in shorten(c) if smaller in found
     ]
     return max(large.j / small.j - 1 for large, small in pairs)
 
@@ -171,12 +171,12 @@ def test_neighbours_are_mutual_and_their_fits_become_starts():
     values = truth(chain, 3)
     size = scale(response(chain, values))
     for other in near:
-        for start in carried(other, values, size):
+        for start in carry_over(other, values, size):
             assert set(start) == set(other.parameters) and all(v > 0 for v in start.values())
             assert all(start[p] == values[p] for p in other.parameters if p in values)
-    (moved,) = carried(replace(chain, ground_dampers=(3,)), values, size)
+    (moved,) = carry_over(replace(chain, ground_dampers=(3,)), values, size)
     assert moved["b3"] == values["b2"]
-    (swapped,) = carried(replace(chain, lag=True, dead_time=False), values, size)
+    (swapped,) = carry_over(replace(chain, lag=True, dead_time=False), values, size)
     assert swapped["T1"] == values["Td"]
 
 
@@ -186,7 +186,7 @@ def test_a_start_is_made_from_any_candidate_of_the_same_masses():
     made = 0
     for chain, other in permutations(chains, 2):
         size = scale(response(chain, values[chain]))
-        for start in carried(other, values[chain], size):
+        for start in carry_over(other, values[chain], size):
             shared = set(other.parameters) & set(chain.parameters)
             assert list(start) == list(other.parameters) and all(v > 0 for v in start.values())
             assert all(start[p] == values[chain][p] for p in shared)
@@ -198,7 +198,7 @@ def test_what_is_surplus_becomes_only_what_is_of_its_kind():
     chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
     other = Chain(2, damped=True, ground_dampers=(1, 2), lag=True)
     values = truth(chain, 2)
-    for start in carried(other, values, scale(response(chain, values))):
+    for start in carry_over(other, values, scale(response(chain, values))):
         assert start["T1"] == values["Td"] and start["b2"] not in values.values()
 
 
@@ -209,7 +209,7 @@ def test_one_more_pair_of_pole_and_zero_keeps_the_others_and_finds_a_mode_that_h
     fit = {p: values[p] for p in smaller.parameters}
     missed = [2 * np.pi * 90.0]
     size = scale(response(chain, values))
-    starts = list(paired(chain, 1, fit, size, missed))
+    starts = list(split_starts(chain, 1, fit, size, missed))
     before = np.array([fit[p] for p in smaller.parameters])
     after = np.array([starts[0][p] for p in chain.parameters])  # of the closest pair
     for roots in (poles, zeros):
@@ -296,12 +296,12 @@ def test_extrema_are_seen_where_they_are():
 
 def test_smaller_candidates_lead_to_larger_ones():
     chain = Chain(3, damped=True, ground_dampers=(2, 3), lag=True)
-    dampers = sorted(c.ground_dampers for _, c in merged(chain))
-    assert dampers == [(1, 2), (2,)] and all(c.lag and c.n_masses == 2 for _, c in merged(chain))
+    dampers = sorted(c.ground_dampers for _, c in merge(chain))
+    assert dampers == [(1, 2), (2,)] and all(c.lag and c.n_masses == 2 for _, c in merge(chain))
     assert {c.n_masses for c in with_smaller([chain])} == {1, 2, 3}
-    assert [c.ground_dampers for c in shortened(chain)] == [(3,), (2,), (2, 3)]
+    assert [c.ground_dampers for c in shorten(chain)] == [(3,), (2,), (2, 3)]
     gap = Chain(3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2, damped=False)
-    assert [c.indices for _, c in merged(gap)] == [(2, 1, 1, 2, 1, 2)]
+    assert [c.indices for _, c in merge(gap)] == [(2, 1, 1, 2, 1, 2)]
 
 
 # two lines wide, where lines of a logarithmic scale lie 23 lines apart

@@ -9,10 +9,10 @@ import pytest
 
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.explanation import LARGEST, chi2, explanation, yardsticks
-from disting.fit.noise.scatter import changed, scatter
+from disting.fit.noise.scatter import change, scatter
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost
-from disting.fit.search.data import Whitened
+from disting.fit.search.data import WhitenedCost
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.measurement.tabular import ASSUMED_LINEAR
@@ -244,9 +244,9 @@ def test_scatter_prefers_what_the_file_knows():
 def test_training_against_test_counts_where_it_is_larger():
     one, other = (response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2))
     own, there = scatter(one, [EXACT]), scatter(other, [EXACT])
-    assert changed(one, other, own, there) == changed(one, one, own, own) == 0.0
+    assert change(one, other, own, there) == change(one, one, own, own) == 0.0
     moved = replace(other, G=other.G * 1.2)
-    assert changed(one, moved, own, there) == pytest.approx(np.log(1.2) / 2, rel=0.05)
+    assert change(one, moved, own, there) == pytest.approx(np.log(1.2) / 2, rel=0.05)
     both = yardsticks(Cost(one), Cost(moved), [EXACT], [EXACT])
     assert [b.typical for b in both] == pytest.approx([np.log(1.2) / 2] * 2, rel=0.05)
     assert {b.source for b in both} == {"the difference of training and test data"}
@@ -257,7 +257,7 @@ def test_what_is_missed_is_named_by_its_frequencies():
     cost = Cost(data)
     wrong = EXACT * np.where(np.abs(data.frequency - 50) < 10, 1.3, 1.0)
     known = scatter(data, [EXACT])
-    whitened, ones = Whitened(cost, known), np.ones(2 * OMEGA.size)
+    whitened, ones = WhitenedCost(cost, known), np.ones(2 * OMEGA.size)
     assert chi2(whitened.residual(EXACT), ones) == pytest.approx(1, rel=0.4)
     (miss,) = explanation(whitened.residual(wrong), ones, cost, known).misses
     assert (

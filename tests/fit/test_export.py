@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.judge.modes import oscillating, poles, zeros
+from disting.fit.judge.modes import oscillations, poles, zeros
 from disting.fit.results.export import (
-    Exported,
+    NumberedStructure,
     control_script,
-    predicted,
+    predict,
     state_space,
     to_control,
     to_control_transfer_function,
@@ -28,7 +28,7 @@ from tests.fit.drives import CHAINS, OMEGA, response, truth
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_state_space_has_the_response(chain, sign):
     values = truth(chain, 3)
-    ss, expected = state_space(chain, values, sign), predicted(chain, values, OMEGA[::10], sign)
+    ss, expected = state_space(chain, values, sign), predict(chain, values, OMEGA[::10], sign)
     one = np.eye(len(ss.A))
     seen = [
         (ss.C @ np.linalg.solve(1j * w * one - ss.A, ss.B) + ss.D)[0, 0]
@@ -44,7 +44,7 @@ def test_python_control_sees_the_same(chain):
     pytest.importorskip("control", reason="python-control is not installed")
     values = truth(chain, 4)
     delay = np.exp(-1j * OMEGA[::10] * values.get("Td", 0.0))
-    expected = predicted(chain, values, OMEGA[::10])
+    expected = predict(chain, values, OMEGA[::10])
     np.testing.assert_allclose(
         to_control(chain, values)(1j * OMEGA[::10]) * delay, expected, rtol=1e-7
     )
@@ -56,7 +56,9 @@ def test_python_control_sees_the_same(chain):
 def left():
     """Two structures with numbers."""
     return [
-        Exported(f"model {k}", chain, truth(chain, k), dict.fromkeys(chain.parameters, "kg"))
+        NumberedStructure(
+            f"model {k}", chain, truth(chain, k), dict.fromkeys(chain.parameters, "kg")
+        )
         for k, chain in enumerate(CHAINS[2:4])
     ]
 
@@ -69,7 +71,7 @@ def test_zeros_poles_and_gain_have_the_response(chain, sign):
     s = 1j * OMEGA[::10]
     seen = found.gain * np.prod(s[:, None] - found.zeros, axis=1)
     seen = seen / np.prod(s[:, None] - found.poles, axis=1) * np.exp(-s * values.get("Td", 0.0))
-    np.testing.assert_allclose(seen, predicted(chain, values, OMEGA[::10], sign), rtol=1e-6)
+    np.testing.assert_allclose(seen, predict(chain, values, OMEGA[::10], sign), rtol=1e-6)
 
 
 def test_matlab_reads_every_model(tmp_path):
@@ -97,7 +99,7 @@ def test_the_script_makes_every_model_in_python_control():
         delay = np.exp(-1j * OMEGA[::10] * names["dead_times"][model.name])
         np.testing.assert_allclose(
             names["models"][model.name](1j * OMEGA[::10]) * delay,
-            predicted(model.chain, model.values, OMEGA[::10]),
+            predict(model.chain, model.values, OMEGA[::10]),
             rtol=1e-7,
         )
 
@@ -138,10 +140,10 @@ def test_poles_and_zeros_of_a_two_mass_drive_by_hand():
     """
     p = np.array([2.0, 1.0, 600.0])
     (resonance,), (antiresonance,) = (
-        oscillating(roots(Chain(2, damped=False).structure, p)) for roots in (poles, zeros)
+        oscillations(roots(Chain(2, damped=False).structure, p)) for roots in (poles, zeros)
     )
     assert resonance == pytest.approx(30j) and antiresonance == pytest.approx(np.sqrt(600) * 1j)
     free = Chain(3, damped=True)
     for seed in range(20):
         values = np.array(list(truth(free, seed).values()))
-        assert len(oscillating(poles(free.structure, values))) <= 2
+        assert len(oscillations(poles(free.structure, values))) <= 2

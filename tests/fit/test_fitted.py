@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from disting.fit import confidence, fit_percent, select
-from disting.fit.judge.candidate import judged, witnessed
+from disting.fit.judge.candidate import judge, observed_scatters
 from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.practical import covariance
 from disting.fit.results.selection import response_of
@@ -66,8 +66,8 @@ def test_nineteen_of_twenty_bands_hold_the_true_response():
             np.array(list(VALUES.values())),
         )
         fits = [Estimate(DRIVE, dict(zip(VALUES, p, strict=True)), j)]
-        known = witnessed(fits, task, task.cost)
-        (candidate,) = judged(fits, task, task.cost, known, Settings())
+        known = observed_scatters(fits, task, task.cost)
+        (candidate,) = judge(fits, task, task.cost, known, Settings())
         sure, ratio = (
             confidence(candidate, task, BETWEEN),
             response_of(candidate, task, BETWEEN) / exact,

@@ -13,15 +13,15 @@ from disting.fit.plan.next_experiment import (
     MOVES,
     STILL,
     Bench,
-    Standing,
+    Reason,
     bench_of,
-    foretold,
-    shown,
+    predictions,
+    response_under,
     step,
     stood,
 )
 from disting.fit.plan.power import power
-from disting.fit.results.export import predicted
+from disting.fit.results.export import predict
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR
@@ -100,16 +100,20 @@ def test_values_of_a_twin_go_to_the_masses_of_a_chain_that_is_counted_from_the_o
 def test_what_is_moved_shows_what_the_moved_chain_shows(item, twin):
     s = 1j * BENCH.omega
     slow = [dense_response(twin, VALUES, at) for at in s]
-    assert shown(FREE, VALUES, item, BENCH) == pytest.approx(np.array(slow), rel=1e-9)
+    assert response_under(FREE, VALUES, item, BENCH) == pytest.approx(np.array(slow), rel=1e-9)
 
 
 def test_a_locked_mass_and_an_added_inertia_are_limits_and_sums_of_masses():
     heavier = VALUES | {"m2": VALUES["m2"] + BENCH.inertia}
     slow = [dense_response(FREE, heavier, 1j * w) for w in BENCH.omega]
-    assert shown(FREE, VALUES, Item(INERTIA, 2), BENCH) == pytest.approx(np.array(slow), rel=1e-9)
+    assert response_under(FREE, VALUES, Item(INERTIA, 2), BENCH) == pytest.approx(
+        np.array(slow), rel=1e-9
+    )
     still = [dense_response(FREE, VALUES | {"m2": 1e14}, 1j * w) for w in BENCH.omega]
-    assert shown(FREE, VALUES, Item(LOCK, 2), BENCH) == pytest.approx(np.array(still), rel=1e-6)
-    assert shown(FREE, VALUES, Item(LOCK, 1), BENCH) is None
+    assert response_under(FREE, VALUES, Item(LOCK, 2), BENCH) == pytest.approx(
+        np.array(still), rel=1e-6
+    )
+    assert response_under(FREE, VALUES, Item(LOCK, 1), BENCH) is None
 
 
 def test_a_known_brake_is_a_damper_to_the_ground():
@@ -117,12 +121,14 @@ def test_a_known_brake_is_a_damper_to_the_ground():
     braked = replace(FREE, ground_dampers=(2,))
     values = VALUES | {"b2": BENCH.inertia * 2 * np.pi}  # 0.1 to 10 Hz
     slow = [dense_response(braked, values, 1j * w) for w in BENCH.omega]
-    assert shown(FREE, VALUES, Item(BRAKE, 2), BENCH) == pytest.approx(np.array(slow), rel=1e-9)
+    assert response_under(FREE, VALUES, Item(BRAKE, 2), BENCH) == pytest.approx(
+        np.array(slow), rel=1e-9
+    )
 
 
 def test_a_brake_is_on_the_menu_where_its_cost_is_named(left):
-    kinds = {item.kind for item in foretold(left, BENCH).items(0)}
-    seen = foretold(left, BENCH, costs=Costs.read("brake=2"))
+    kinds = {item.kind for item in predictions(left, BENCH).items(0)}
+    seen = predictions(left, BENCH, costs=Costs.read("brake=2"))
     assert {item.kind for item in seen.items(0)} - kinds == {BRAKE}
     assert seen.sizes == {"inertia": BENCH.inertia, "brake": BENCH.size(1)}
 
@@ -136,8 +142,8 @@ def test_a_step_is_measured_in_units_of_the_scatter():
 
 
 def test_twins_show_the_same_now_and_differ_under_what_surely_tells_them_apart(left):
-    seen = foretold(left, BENCH)
-    now = [predicted(one.chain, one.values[0], BENCH.omega) for one in (left[0], left[2])]
+    seen = predictions(left, BENCH)
+    now = [predict(one.chain, one.values[0], BENCH.omega) for one in (left[0], left[2])]
     assert step(*now, BENCH).largest < 1e-6
     assert Item(SENSOR, 1) not in seen.items(0) and Item(LOCK, 1) not in seen.items(0)
     for item in seen.items(0):
@@ -152,22 +158,22 @@ def test_other_values_of_a_structure_bring_it_nearer(left):
     values = dict.fromkeys(VALUES, 1.0)
     more = type(first)(first.chain, True, (VALUES, values))
     other = type(first)(first.chain, True, (values,))
-    assert foretold([first, other], BENCH).at(SENSOR, (0, 2), (1, 2)).largest > 1
-    assert foretold([more, other], BENCH).at(SENSOR, (0, 2), (1, 2)).largest < 1e-9
+    assert predictions([first, other], BENCH).at(SENSOR, (0, 2), (1, 2)).largest > 1
+    assert predictions([more, other], BENCH).at(SENSOR, (0, 2), (1, 2)).largest < 1e-9
 
 
 def test_what_noise_leaves_is_no_twin(left):
     found = stood(left, Engine())
     assert found.classes == ((0, 2), (1,)) and found.groups == ((0, 2),)
-    assert found.standing(0, 2) is Standing.EQUAL and found.standing(0, 1) is Standing.NOISE
+    assert found.standing(0, 2) is Reason.EQUAL and found.standing(0, 1) is Reason.NOISE
     assert found.rule(1, 2) == found.rule(2, 1) == found.rule(0, 1) != ""
     across = replace(found, across=frozenset({(0, 1)}))
-    assert across.standing(2, 1) is Standing.EQUAL and across.groups == found.groups
+    assert across.standing(2, 1) is Reason.EQUAL and across.groups == found.groups
 
 
 def test_what_behaves_the_same_for_its_values_alone_is_a_twin(left):
     other = type(left[0])(left[1].chain, False, (), (FREE,))
-    assert stood([left[0], other], Engine()).standing(0, 1) is Standing.TWIN
+    assert stood([left[0], other], Engine()).standing(0, 1) is Reason.TWIN
 
 
 def test_a_file_that_does_not_tell_its_lines_has_no_bench(tmp_path):

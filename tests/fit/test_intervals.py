@@ -11,7 +11,7 @@ from scipy.stats import f as f_distribution
 
 from disting.fit.judge.members import QUANTILE, disagreements
 from disting.fit.judge.practical import covariance, practical
-from disting.fit.noise.covariance import Noise, correlation, equal, expected, noise
+from disting.fit.noise.covariance import Noise, correlation, equal, expected_deviation, noise
 from disting.fit.noise.scatter import scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
@@ -59,7 +59,7 @@ def errors(chain, values, data):
     p, _ = fine(plant, task.cost, task.box(names), start)
     residual, columns = task.cost.of(plant, p)
     sigma = task.cost.scatter(scatter(data, [plant.response(p)]))
-    there = noise(residual, sigma, expected(columns, sigma))
+    there = noise(residual, sigma, expected_deviation(columns, sigma))
     return (p / start - 1) * start / (p * np.sqrt(np.diag(covariance(columns, there))))
 
 

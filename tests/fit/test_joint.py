@@ -11,7 +11,7 @@ from hypothesis import given, settings, strategies as st
 from disting.errors import InputError
 from disting.experiments.machine_model import rank_by
 from disting.fit.judge.alternatives import representatives
-from disting.fit.judge.explanation import JointNoise, noises, scatters, together
+from disting.fit.judge.explanation import JointNoise, merge, noises, scatters
 from disting.fit.judge.joint_verdicts import (
     behaves_alike,
     is_same_under_all,
@@ -20,12 +20,12 @@ from disting.fit.judge.joint_verdicts import (
 )
 from disting.fit.judge.members import QUANTILE
 from disting.fit.judge.practical import covariance
-from disting.fit.noise.covariance import expected
+from disting.fit.noise.covariance import expected_deviation
 from disting.fit.search.cost import Case, Cost, lines_by_deviation
-from disting.fit.search.data import Weighing
+from disting.fit.search.data import Weights
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
-from disting.fit.search.joint import Further, JointCost
+from disting.fit.search.joint import FurtherResponse, JointCost
 from disting.fit.search.setup import Setup, measured_chain
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
@@ -167,7 +167,7 @@ def test_a_stack_of_one_response_is_that_response():
         one.cost.of(one.plant(TWO), p), stacked.cost.of(stacked.plant(TWO), p), strict=True
     ):
         np.testing.assert_array_equal(a, b)
-    sigma = one.cost.scatter(together(scatters(one.cost, [])))
+    sigma = one.cost.scatter(merge(scatters(one.cost, [])))
     residual = one.cost.residual(data.G * 1.01)
     alone, both = noises(one.cost, residual, sigma), noises(stacked.cost, residual, sigma)
     np.testing.assert_array_equal(alone.sigma, both.sigma)
@@ -256,14 +256,14 @@ def errors(chain, values, data, further):
     truth.
     """
     start = np.array([values[n] for n in chain.parameters])
-    task = Task(Weighing(Cost(data), further=further).training())
+    task = Task(Weights(Cost(data), further=further).training())
     exact = task.plant(chain).response(start)
-    task = Task(Weighing(Cost(data), further=further).training([exact]))
+    task = Task(Weights(Cost(data), further=further).training([exact]))
     plant = task.plant(chain)
     p, j = fine(plant, task.cost, task.box(chain.parameters), start)
     residual, columns = task.cost.of(plant, p)
-    sigma = task.cost.scatter(together(scatters(task.cost, [plant.response(p)])))
-    there = noises(task.cost, residual, sigma, expected(columns, sigma))
+    sigma = task.cost.scatter(merge(scatters(task.cost, [plant.response(p)])))
+    there = noises(task.cost, residual, sigma, expected_deviation(columns, sigma))
     return (p - start) / (p * np.sqrt(np.diag(covariance(columns, there)))), j
 
 
@@ -275,7 +275,7 @@ def coverage(chain, count):
     for seed in range(count):
         values = drive(chain, seed)
         further = [
-            Further(white(chain, values, setup, level, 1000 * k + seed, OMEGA[k::2]), setup)
+            FurtherResponse(white(chain, values, setup, level, 1000 * k + seed, OMEGA[k::2]), setup)
             for k, (setup, level) in enumerate(
                 [(Setup(sensor="2"), 0.01), (Setup(locked=("last",)), 0.001)], 1
             )
@@ -302,11 +302,11 @@ def test_two_equal_responses_are_one_of_half_the_variance():
     data = [white(TWO, values, Setup(), 0.003, seed) for seed in (1, 2)]
     p = np.array([values[n] for n in TWO.parameters])
     sizes = []
-    for further in ([], [Further(data[1], Setup(sensor="1"))]):
-        task = Task(Weighing(Cost(data[0]), further=further, alike=True).training())
+    for further in ([], [FurtherResponse(data[1], Setup(sensor="1"))]):
+        task = Task(Weights(Cost(data[0]), further=further, alike=True).training())
         residual, columns = task.cost.of(task.plant(TWO), p)
-        sigma = task.cost.scatter(together(scatters(task.cost, [task.plant(TWO).response(p)])))
-        there = noises(task.cost, residual, sigma, expected(columns, sigma))
+        sigma = task.cost.scatter(merge(scatters(task.cost, [task.plant(TWO).response(p)])))
+        there = noises(task.cost, residual, sigma, expected_deviation(columns, sigma))
         sizes.append(np.sqrt(np.diag(covariance(columns, there))))
     np.testing.assert_allclose(sizes[0] / sizes[1], np.sqrt(2), rtol=0.1)
 
@@ -315,7 +315,9 @@ def test_a_search_reaches_the_cost_of_the_truth_and_finds_it():
     values = drive(TWO, 2)
     data = white(TWO, values, Setup(), 0.003, 2)
     further = [
-        Further(white(TWO, values, Setup(sensor="2"), 0.003, 3, OMEGA[::2]), Setup(sensor="2"))
+        FurtherResponse(
+            white(TWO, values, Setup(sensor="2"), 0.003, 3, OMEGA[::2]), Setup(sensor="2")
+        )
     ]
     found = select(
         data, [Chain(1, damped=True), TWO, replace(TWO, ground_dampers=(1,))], further=further
@@ -341,7 +343,7 @@ def test_a_second_sensor_identifies_what_the_first_leaves_open():
     data = [white(chain, values, Setup(sensor=s), 0.002, k) for k, s in enumerate("21")]
     alone = select(data[0], [chain]).candidates[0]
     assert not alone.admissible and alone.practical.unidentifiable
-    both = select(data[0], [chain], further=[Further(data[1], Setup(sensor="1"))])
+    both = select(data[0], [chain], further=[FurtherResponse(data[1], Setup(sensor="1"))])
     assert both.selected is not None and not both.selected.practical.unidentifiable
     for name, value in both.selected.estimate.parameters.items():
         assert value == pytest.approx(values[name], rel=0.1)
@@ -356,7 +358,7 @@ def test_what_behaves_alike_in_the_first_response_alone_is_not_merged():
     values = drive(one, 4)
     data = [white(one, values, Setup(sensor=s), 0.002, k) for k, s in enumerate("21")]
     assert select(data[0], [one, other]).saved == 1
-    both = select(data[0], [one, other], further=[Further(data[1], Setup(sensor="1"))])
+    both = select(data[0], [one, other], further=[FurtherResponse(data[1], Setup(sensor="1"))])
     assert both.saved == 0 and len(both.candidates) == 2
     assert both.selected.chain == one
     assert all(a.relation is not Relation.INDISTINGUISHABLE for a in both.alternatives)
@@ -418,7 +420,7 @@ def test_a_twin_must_have_all_responses():
 def test_a_response_that_is_zero_teaches_nothing_and_is_named():
     values = drive(TWO, 6)
     data = white(TWO, values, Setup(), 0.003, 6)
-    zero = Further(data, Setup(sensor="2", locked=("2",)))
+    zero = FurtherResponse(data, Setup(sensor="2", locked=("2",)))
     found = select(data, [TWO], further=[zero])
     assert found.silent == ("sensor 2, mass 2 locked",) and len(found.task.cost.parts) == 1
     assert found.selected.estimate.parameters == select(data, [TWO]).selected.estimate.parameters
@@ -444,7 +446,7 @@ def test_places_that_no_candidate_has_are_refused():
         (Setup(locked=("1", "2")), "all masses of a chain of 2 are locked"),
     ):
         with pytest.raises(InputError, match=said):
-            select(data, [TWO], further=[Further(data, setup)])
+            select(data, [TWO], further=[FurtherResponse(data, setup)])
 
 
 def test_a_coarse_grid_does_not_pass_for_scatter():
@@ -453,8 +455,8 @@ def test_a_coarse_grid_does_not_pass_for_scatter():
     """
     values, setup = drive(TWO, 2), Setup(sensor="2", delay="Td2")
     further = [
-        Further(white(TWO, values, Setup(sensor="2"), 0.003, 1, OMEGA[1::2]), setup),
-        Further(
+        FurtherResponse(white(TWO, values, Setup(sensor="2"), 0.003, 1, OMEGA[1::2]), setup),
+        FurtherResponse(
             white(TWO, values, Setup(locked=("2",)), 0.003, 2, OMEGA[2::2]), Setup(locked=("2",))
         ),
     ]
@@ -470,7 +472,7 @@ def test_the_load_side_of_the_bench_sharpens_the_intervals():
     """Weighted by deviations; without weights the load side, which is noisier, harms k12."""
     motor, load = bench("A"), bench("A", "load")
     sizes = {}
-    for name, further in (("motor", []), ("both", [Further(load, Setup(sensor="2"))])):
+    for name, further in (("motor", []), ("both", [FurtherResponse(load, Setup(sensor="2"))])):
         found = select(motor, [TWO], further=further, lines=lines_by_deviation)
         sizes[name] = found.candidates[0].practical.relative_errors
     ratio = {n: sizes["both"][n] / sizes["motor"][n] for n in sizes["both"]}

@@ -8,7 +8,7 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit.results.export import state_space
-from disting.fit.results.loop import Controller, controller_named, margins
+from disting.fit.results.loop import Controller, margins, read_controller
 from disting.model.chain import Chain, Sensor
 from tests.fit.drives import truth
 
@@ -93,7 +93,7 @@ def _opened(chain, values, given):
 def test_controller_is_read_from_text_and_file(tmp_path):
     path = tmp_path / "pi.json"
     path.write_text('{"P": 2, "I": 30.5, "loop": "velocity"}')
-    assert controller_named(str(path)) == controller_named("P=2, I=30.5") == Controller(2.0, 30.5)
+    assert read_controller(str(path)) == read_controller("P=2, I=30.5") == Controller(2.0, 30.5)
 
 
 @pytest.mark.parametrize(
@@ -113,7 +113,7 @@ def test_controller_is_read_from_text_and_file(tmp_path):
 )
 def test_bad_controllers_are_refused(text, words):
     with pytest.raises(InputError, match=words):
-        controller_named(text)
+        read_controller(text)
 
 
 def test_what_has_no_margins_says_so():

@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from disting.fit.judge.admissible import Rule, undetermined
+from disting.fit.judge.admissible import Rule, undetermined_sentence
 from disting.fit.judge.alternatives import limits_of
-from disting.fit.judge.candidate import witnessed
+from disting.fit.judge.candidate import observed_scatters
 from disting.fit.judge.members import members, twins
 from disting.fit.judge.practical import Thresholds
-from disting.fit.results.export import predicted
-from disting.fit.search.candidates import as_listed, reference
+from disting.fit.results.export import predict
+from disting.fit.search.candidates import listed_form, reference
 from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.model.symmetry import forms
-from disting.report.fit.links import commands, renamed
+from disting.report.fit.links import commands, new_names
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines
 from tests.fit.drives import OMEGA, response
@@ -41,7 +41,7 @@ def test_the_command_line_reads_the_names_that_a_fit_writes(n, data):
         lag=data.draw(st.booleans()),
         dead_time=data.draw(st.booleans()),
     )
-    assert as_listed(chain).chain == chain
+    assert listed_form(chain).chain == chain
     for form in forms(chain):  # masses counted from the other end, force and sensor exchanged
         assert chain_of(reference(form.chain), Family(1, damped=True)) in {
             other.chain for other in forms(chain)
@@ -55,7 +55,7 @@ def test_a_machine_counted_from_the_other_end_is_named_after_the_one_that_is_lis
     values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "b1": 3.0}
     there = {"m1": 0.6, "m2": 1.0, "k12": 3e4, "d12": 8.0, "b2": 3.0}
     assert twins(MIRRORED, values, limits_of({}, {"m2": 0.6})) == twins(
-        as_listed(MIRRORED).chain, there, limits_of({}, {"m1": 0.6})
+        listed_form(MIRRORED).chain, there, limits_of({}, {"m1": 0.6})
     )
     train, test = (response(MIRRORED, values, noise=0.005, seed=s) for s in (1, 2))
     found = select(train, [MIRRORED], test=test)
@@ -64,7 +64,7 @@ def test_a_machine_counted_from_the_other_end_is_named_after_the_one_that_is_lis
         first_lines(found)[0].startswith("2:1+b2 explains")
         and plain["selected"]["name"] == "2:1+b2"
     )
-    assert plain["selected"]["renamed"]["b1"] == "b2" and "m1 is m2 there" in renamed(found)
+    assert plain["selected"]["renamed"]["b1"] == "b2" and "m1 is m2 there" in new_names(found)
     command = commands(found)[-1].split()
     given = dict(pair.split("=") for pair in command[-1].split(","))
     assert command[2] == "2:1+b2" and float(given["b2"]) == pytest.approx(
@@ -78,7 +78,7 @@ def test_twins_come_from_the_whole_catalogue_and_behave_the_same():
     found, _ = twins(late, values, {})
     assert found[0].name == "3:11+delay"
     for twin in found:
-        same = predicted(twin.chain, twin.parameters, OMEGA) / predicted(late, values, OMEGA)
+        same = predict(twin.chain, twin.parameters, OMEGA) / predict(late, values, OMEGA)
         assert np.abs(same - 1).max() < 1e-9
 
 
@@ -97,7 +97,7 @@ def selection():
 def test_each_member_has_its_own_twins_in_whatever_order_workers_finish(selection):
     """The first one takes longest, so its twins come last."""
     chosen = sorted(selection.candidates, key=lambda c: -c.chain.n_masses)
-    known = witnessed([c.estimate for c in chosen], selection.task, None)
+    known = observed_scatters([c.estimate for c in chosen], selection.task, None)
     with ThreadPoolExecutor(len(chosen)) as pool:
         among, alone = (
             members(chosen, selection.task, None, known, {}, executor) for executor in (pool, None)
@@ -132,7 +132,10 @@ def test_a_well_determined_model_is_never_hidden_but_by_the_rule_of_the_paper(se
     strict = Thresholds(1.5, 1.5, 1.01)
     train = response(ROW, VALUES, noise=1e-4, seed=1)
     weighed, paper = (select(train, [ROW], thresholds=strict, rule=rule) for rule in Rule)
-    assert weighed.selected.chain == ROW and undetermined(weighed.selected, weighed.task) == ""
+    assert (
+        weighed.selected.chain == ROW
+        and undetermined_sentence(weighed.selected, weighed.task) == ""
+    )
     assert paper.selected is None and "condition index" in paper.candidates[0].reasons[0]
     assert paper.candidates[0].estimate == weighed.selected.estimate
 

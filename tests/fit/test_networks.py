@@ -8,7 +8,7 @@ import pytest
 
 from disting import InputError, Sensor
 from disting.fit.networks import fit_networks
-from disting.fit.noise.covariance import expected
+from disting.fit.noise.covariance import expected_deviation
 from disting.fit.search.network_plant import NetworkPlant, NetworkPlants
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse, read, write_csv
@@ -138,7 +138,9 @@ def test_a_sensor_between_two_masses_that_move_alike_keeps_its_digits():
 def test_what_a_fit_is_to_miss_is_a_number_where_values_hardly_matter():
     columns = np.random.default_rng(1).normal(size=(20, 3))
     tiny = columns * [1.0, 1e-60, 1e-161]
-    np.testing.assert_allclose(expected(tiny, np.ones(20)), expected(columns, np.ones(20)))
+    np.testing.assert_allclose(
+        expected_deviation(tiny, np.ones(20)), expected_deviation(columns, np.ones(20))
+    )
 
 
 def simulated(network: Network, draw: np.random.Generator, noise: float) -> FrequencyResponse:

@@ -11,19 +11,19 @@ import pytest
 from disting.errors import InputError
 from disting.fit import select
 from disting.fit.judge.exclusion import (
-    Fitted,
+    Fit,
     basis_of,
     contains,
-    excluded,
+    exclusions,
     limit,
     statistic,
     surplus,
 )
 from disting.fit.noise.covariance import Noise
 from disting.fit.noise.line_variance import coefficients
-from disting.fit.noise.scatter import changed, scatter
+from disting.fit.noise.scatter import change, scatter
 from disting.fit.search.cost import Case, Cost
-from disting.fit.search.data import Whitened
+from disting.fit.search.data import WhitenedCost
 from disting.measurement import FrequencyResponse, TimeSeries, mean_of
 from disting.model.chain import Chain
 from disting.model.question import Settings
@@ -112,7 +112,7 @@ def _standard_normal(machines, repeats):
     for machine in machines:
         data = measured(machine, repeats)
         response = exact(machine, data.omega)
-        whitened = Whitened(Cost(data), scatter(data, [response]))
+        whitened = WhitenedCost(Cost(data), scatter(data, [response]))
         size.append(np.mean(whitened.residual(response) ** 2))
     assert np.median(size) == pytest.approx(1, abs=0.12) and np.max(size) < 1.8
 
@@ -160,9 +160,9 @@ def test_a_machine_that_does_not_change_is_not_said_to():
         one, other = measured(machine, 1), measured(machine, 1, 1)
         response = exact(machine, one.omega)
         known = [scatter(data, [response]) for data in (one, other)]
-        assert changed(one, other, *known) == 0.0
+        assert change(one, other, *known) == 0.0
         moved = FrequencyResponse(other.omega, 2 * other.G)
-        assert changed(one, moved, *known) > 0.2
+        assert change(one, moved, *known) > 0.2
 
 
 def test_the_level_of_the_test_is_what_it_says():
@@ -175,7 +175,7 @@ def test_the_level_of_the_test_is_what_it_says():
     for _ in range(count):
         noise = source.normal(size=60)
         fits = [
-            Fitted(chain, noise - basis @ (basis.T @ noise), basis, Noise(np.ones(60)))
+            Fit(chain, noise - basis @ (basis.T @ noise), basis, Noise(np.ones(60)))
             for chain, basis in zip(chains, (small, large), strict=True)
         ]
         gain = fits[0].cost - fits[1].cost
@@ -191,11 +191,11 @@ def test_a_structure_that_misses_is_excluded_by_the_one_that_does_not():
     data = columns @ [1.0, 2.0, 3.0, 4.0] + source.normal(size=60)
     chains = Chain(2, damped=True), Chain(2, damped=True, ground_dampers=(1,))
     fits = [
-        Fitted(chain, data - basis @ (basis.T @ data), basis, Noise(np.ones(60)))
+        Fit(chain, data - basis @ (basis.T @ data), basis, Noise(np.ones(60)))
         for chain, basis in zip(chains, (basis_of(columns[:, :3]), basis_of(columns)), strict=True)
     ]
     for seen in (True, False):
-        (found,) = excluded(fits, 100.0, Settings(), seen=seen).items()
+        (found,) = exclusions(fits, 100.0, Settings(), seen=seen).items()
         assert found[0] == chains[0] and found[1].by == chains[1]
         assert found[1].statistic > found[1].limit == pytest.approx(limit(1, 100.0))
 

@@ -13,15 +13,15 @@ from disting.fit.plan.power import (
     LEVEL,
     POWER,
     Answer,
-    joined,
     plan,
     power,
     surplus,
     typical,
+    union,
 )
 from disting.fit.plan.rival import Trust, fitted_rival, gain
-from disting.fit.plan.sample import ideal, simulated
-from disting.fit.results.export import predicted
+from disting.fit.plan.sample import ideal, simulate
+from disting.fit.results.export import predict
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -73,11 +73,11 @@ def test_published_example_allows_a_noise_of_24_percent():
 
 def test_best_fit_of_the_rival_is_no_worse_than_that_of_another_optimiser(planned):
     rival = planned.rival
-    exact = predicted(MODEL, VALUES, OMEGA)
+    exact = predict(MODEL, VALUES, OMEGA)
 
     def cost(logarithms):
         values = dict(zip(RIVAL.parameters, np.exp(logarithms), strict=True))
-        ratio = predicted(RIVAL, values, OMEGA) / exact
+        ratio = predict(RIVAL, values, OMEGA) / exact
         return np.sum(np.abs(ratio - 1) ** 2 / rival.rho**2)
 
     start = np.log([VALUES.get(n, VALUES["b1"]) for n in RIVAL.parameters])
@@ -101,7 +101,7 @@ def test_effort_counts_as_its_square_in_amplitude_and_lines_by_their_number(plan
 def experiments(rival, chain, values, count, seed, effort=1.0):
     """T of simulated experiments with complex noise of the planned size."""
     source = np.random.default_rng(seed)
-    exact, rho = predicted(chain, values, OMEGA), rival.rho / np.sqrt(effort)
+    exact, rho = predict(chain, values, OMEGA), rival.rho / np.sqrt(effort)
     for _ in range(count):
         error = source.normal(size=len(rho)) + 1j * source.normal(size=len(rho))
         yield gain(rival, FrequencyResponse(OMEGA, exact * (1 + rho * error)))
@@ -156,13 +156,13 @@ def test_where_the_model_contains_the_rival_the_test_is_the_difference_of_the_co
     rival = fitted_rival(MODEL, VALUES, plain, OMEGA, alike(0.05))
     source = np.random.default_rng(8)
     noise = 0.05 * (source.normal(size=120) + 1j * source.normal(size=120))
-    exact = predicted(MODEL, VALUES, OMEGA)
+    exact = predict(MODEL, VALUES, OMEGA)
     data = FrequencyResponse(OMEGA, exact * (1 + noise))
 
     def lowest(chain, start):
         def cost(logarithms):
             values = dict(zip(chain.parameters, np.exp(logarithms), strict=True))
-            missed = predicted(chain, values, OMEGA) - data.G
+            missed = predict(chain, values, OMEGA) - data.G
             return np.sum(np.abs(missed / exact) ** 2) / 0.05**2
 
         begin = np.log([start[n] for n in chain.parameters])
@@ -174,10 +174,10 @@ def test_where_the_model_contains_the_rival_the_test_is_the_difference_of_the_co
 
 
 def test_surplus_is_what_the_joint_structure_has_more():
-    assert joined(MODEL, RIVAL) == BOTH and surplus(MODEL, RIVAL) == 1
+    assert union(MODEL, RIVAL) == BOTH and surplus(MODEL, RIVAL) == 1
     assert surplus(BOTH, Chain(2, damped=True)) == 2
     lag, delay = Chain(2, damped=True, lag=True), Chain(2, damped=True, dead_time=True)
-    assert surplus(lag, delay) == 1 and joined(MODEL, Chain(3, damped=True)) is None
+    assert surplus(lag, delay) == 1 and union(MODEL, Chain(3, damped=True)) is None
     assert surplus(Chain(3, damped=True), MODEL) == 2  # ranks 7 and 5
     assert surplus(MODEL, Chain(3, damped=True)) == 1
 
@@ -246,13 +246,13 @@ def test_bad_input_is_named(change, words):
 
 def test_data_at_other_lines_are_refused(planned):
     with pytest.raises(InputError, match="planned lines"):
-        gain(planned.rival, FrequencyResponse(OMEGA * 1.1, predicted(MODEL, VALUES, OMEGA)))
+        gain(planned.rival, FrequencyResponse(OMEGA * 1.1, predict(MODEL, VALUES, OMEGA)))
 
 
 def test_a_scatter_that_has_to_be_found_excludes_less(planned):
     """From one measurement the least, from fifty repeats what a known one does."""
     plain = planned.rival, planned.surplus, planned.level
-    found = [simulated(*plain, repeats) for repeats in (1, 2, 50)]
+    found = [simulate(*plain, repeats) for repeats in (1, 2, 50)]
     reached = [one.power(planned.noncentrality) for one in found]
     assert reached[0] < reached[1] < reached[2] == pytest.approx(planned.power, abs=0.01)
     assert found[0].needed() > found[1].needed() > planned.needed

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disting import Engine, Query, View, compare
-from disting.cli.fit_text import told
+from disting.cli.fit_text import fit_text
 from disting.fit.judge.alternatives import alternatives, limits_of, representatives, stands_for
 from disting.fit.judge.modes import physical
 from disting.fit.search.candidates import figure_1
@@ -39,7 +39,7 @@ def test_a_given_mass_is_known_to_the_verdicts_that_prune():
     assert mirrored.j_train > 10 * found.selected.j_train
     (other,) = found.alternatives
     assert other.relation is Relation.UNDECIDED and "m1 may not take every value" in other.sentence
-    assert "tell it apart" not in "".join(told(found, found.test))
+    assert "tell it apart" not in "".join(fit_text(found, found.test))
 
 
 def test_bounds_prune_only_where_they_cut_nothing():
@@ -102,7 +102,7 @@ def test_a_selection_of_given_values_alone():
     train = response(Chain(1, damped=True), {"m1": 2.0}, noise=0.01)
     found = select(train, [Chain(1, damped=True)], fixed={"m1": 2.0})
     assert found.selected.j_test == pytest.approx(found.selected.j_train)
-    assert "m1   = 2           given" in "\n".join(told(found, train))
+    assert "m1   = 2           given" in "\n".join(fit_text(found, train))
     (inertia,) = [r for r in physical(found.selected, found.task) if r.name == "total inertia"]
     assert (inertia.value, inertia.standard_error) == (2.0, 0.0)
     assert importance_bars(found.selected, found.thresholds) is None

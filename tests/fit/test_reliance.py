@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disting.fit.judge.modes import oscillating, poles
+from disting.fit.judge.modes import oscillations, poles
 from disting.fit.results.loop import Controller, margins
 from disting.fit.results.reliance import BETWEEN, FAMILY, WITHIN, Kind, Statement, total_inertia
-from disting.fit.results.samples import Drawn, drawn, draws, with_twins
+from disting.fit.results.samples import ParameterSamples, draw_samples, draws, with_twins
 from disting.fit.search.plant import Plant
 from disting.fit.select import select
 from disting.model.chain import Chain
@@ -32,7 +32,7 @@ def test_the_true_machine_lies_within_what_is_said(left):
     said = {s.name: s for s in left.relied_on}
     p = np.array(list(VALUES.values()))
     true = {f"resonance {i}": abs(r) / (2 * np.pi) for i, r in
-            enumerate(oscillating(poles(ROW.structure, p)), 1)}  # fmt: skip
+            enumerate(oscillations(poles(ROW.structure, p)), 1)}  # fmt: skip
     own = margins(ROW, p, LAW)
     true |= {"crossover": own.crossover, "phase margin": own.phase, "bandwidth": own.bandwidth}
     true |= {"peak of the sensitivity": own.sensitivity, "total inertia": 2.0}
@@ -60,7 +60,7 @@ def test_twins_share_what_the_sensor_shows_and_not_masses_nor_loads(left):
 
 def test_a_twin_is_drawn_along_with_its_structure(left):
     omega = left.task.cost.measured.omega
-    own, *twins = with_twins(left.members, drawn(left.members, left.task), omega)
+    own, *twins = with_twins(left.members, draw_samples(left.members, left.task), omega)
     assert [one.chain for one in twins] == [t.chain for t in left.members[0].twins]
     exact = Plant(own.chain.structure, omega).response(own.p)
     moved = np.abs(np.log(exact[1:] / exact[0])).max()
@@ -72,10 +72,10 @@ def test_a_twin_is_drawn_along_with_its_structure(left):
 def test_a_twin_of_values_far_away_does_the_same_or_is_left_out(left):
     """To first order values a factor e away lead to responses that are others, and overflow."""
     omega = left.task.cost.measured.omega
-    (own,) = drawn(left.members[:1], left.task)
+    (own,) = draw_samples(left.members[:1], left.task)
     away = np.exp(np.random.default_rng(5).normal(size=(40, own.p.shape[1])))
     away[0] = 1.0
-    wide = Drawn(own.chain, own.p[0] * away)
+    wide = ParameterSamples(own.chain, own.p[0] * away)
     exact = Plant(own.chain.structure, omega).response(wide.p)
     most = np.abs(np.log(exact / exact[0])).max()
     _, *twins = with_twins(left.members[:1], [wide], omega)
@@ -90,12 +90,12 @@ def test_what_is_known_badly_says_what_helps():
     source = np.random.default_rng(2)
     wide, narrow = (np.exp(s * source.normal(size=(200, 1))) for s in (0.5, 0.01))
     chain = Chain(1)
-    (said,) = [total_inertia([Drawn(chain, wide), Drawn(chain, narrow)], "")]
+    (said,) = [total_inertia([ParameterSamples(chain, wide), ParameterSamples(chain, narrow)], "")]
     assert said.note == WITHIN
-    assert total_inertia([Drawn(chain, narrow), Drawn(chain, 3 * narrow)], FAMILY).note == (
-        f"{FAMILY}; {BETWEEN}"
-    )
-    assert total_inertia([Drawn(chain, narrow)], "").note == ""
+    assert total_inertia(
+        [ParameterSamples(chain, narrow), ParameterSamples(chain, 3 * narrow)], FAMILY
+    ).note == (f"{FAMILY}; {BETWEEN}")
+    assert total_inertia([ParameterSamples(chain, narrow)], "").note == ""
 
 
 def test_zero_has_no_sign():

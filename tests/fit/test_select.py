@@ -11,9 +11,9 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from disting.errors import InputError
 from disting.fit.judge.admissible import Rule
-from disting.fit.judge.modes import oscillating, physical, poles, zeros
+from disting.fit.judge.modes import oscillations, physical, poles, zeros
 from disting.fit.judge.practical import Thresholds
-from disting.fit.results.export import predicted
+from disting.fit.results.export import predict
 from disting.fit.results.model_file import model_from_dict
 from disting.fit.results.selection import CRITERIA, profile, sweep
 from disting.fit.search.candidates import figure_1, variants
@@ -110,7 +110,7 @@ def test_physical_results_carry_their_errors(selection):
     )
     antiresonance, resonance = results["antiresonance 1"], results["resonance 1"]
     exact = [
-        oscillating(r(PLANTED.structure, np.array(list(VALUES.values()))))[0]
+        oscillations(r(PLANTED.structure, np.array(list(VALUES.values()))))[0]
         for r in (zeros, poles)
     ]
     for found, root in zip((antiresonance, resonance), exact, strict=True):
@@ -296,6 +296,6 @@ def test_the_bench_is_a_two_mass_drive_and_predicts_the_load_that_it_never_saw()
         ground_dampers=chosen.chain.ground_dampers,
         dead_time=chosen.chain.dead_time,
     )
-    seen = predicted(chain, chosen.estimate.parameters, load.omega)
+    seen = predict(chain, chosen.estimate.parameters, load.omega)
     band = load.omega < 2 * np.pi * 150
     assert np.median(np.abs(np.log(np.abs(seen / load.G))[band])) < 0.1

@@ -5,9 +5,9 @@ single lines.
 import numpy as np
 import pytest
 
-from disting.fit.plan.design import designed
+from disting.fit.plan.design import design
 from disting.fit.plan.power import plan
-from disting.fit.plan.rival import apart
+from disting.fit.plan.rival import relative_distance
 from disting.fit.plan.spectrum import (
     CLOSE,
     KEPT,
@@ -59,7 +59,7 @@ def refitted(rival, shares, starts):
     found = []
     for start in starts:
         p, _ = fine(rival.plant, cost, box, start)
-        found.append(len(shares) * np.sum(shares * (apart(rival, p) / rival.rho) ** 2))
+        found.append(len(shares) * np.sum(shares * (relative_distance(rival, p) / rival.rho) ** 2))
     return min(found)
 
 
@@ -114,7 +114,7 @@ def test_several_valleys_of_the_rival_do_not_lead_astray():
     """Three masses: local fits alone end in a spectrum whose true noncentrality is far lower."""
     model = Chain(3, damped=True, ground_dampers=(1,))
     rival = Chain(3, damped=True, ground_dampers=(2,))
-    found = designed(plan(model, THREE, rival, OMEGA, alike(0.2)))
+    found = design(plan(model, THREE, rival, OMEGA, alike(0.2)))
     assert found.optimum.noncentrality <= found.optimum.bound
     assert found.optimum.bound <= found.optimum.noncentrality * (1 + 3 * CLOSE)
     assert found.run.noncentrality >= (1 - KEPT) * found.optimum.noncentrality * (1 - CLOSE)
@@ -138,5 +138,5 @@ def test_a_rival_that_runs_to_a_limit_has_a_spectrum():
     model, rival = network_of("1=2=3, 2=4; F1; S4"), network_of("1=2=3=4; F1; S4")
     sizes = {"m": 0.01, "k": 400.0, "d": 0.1}
     values = {n: sizes[n[0]] * (1 + 0.3 * i) for i, n in enumerate(model.parameters)}
-    found = designed(plan(model, values, rival, OMEGA, alike(0.02)))
+    found = design(plan(model, values, rival, OMEGA, alike(0.02)))
     assert found.optimum.noncentrality <= found.optimum.bound < np.inf

@@ -11,7 +11,7 @@ from disting.equivalence.closed_forms import closed_forms
 from disting.errors import ContradictionError
 from disting.general.alternatives import alternatives
 from disting.general.any_model import of_network
-from disting.general.closed_form import confirmed
+from disting.general.closed_form import confirm
 from disting.general.field import Field, names_in
 from disting.general.synthesis import NoFormulas
 from disting.general.values_of_parts import by_parts
@@ -157,7 +157,7 @@ def test_what_can_be_shared_is_shared_equally():
     (form,) = by_parts(one, two)
     values = dict(form.values)
     assert (form.choices, values["R1"] == values["R4"]) == ((("R1", "R4"),), True)
-    assert confirmed(form, one, two).safety >= 100
+    assert confirm(form, one, two).safety >= 100
 
 
 def test_what_is_chosen_of_a_triangle_is_so_of_all_three():
@@ -165,17 +165,17 @@ def test_what_is_chosen_of_a_triangle_is_so_of_all_three():
     one, two = models("R1-p(R2,C1)", "C1 1 2; R1 1 3; R2 2 3; R3 2 0; R4 3 0; port 1 0")
     (form,) = by_parts(one, two)
     assert form.choices and all({"R1", "R2", "R4"} <= {*names} for names in form.choices)
-    assert confirmed(form, one, two).safety >= 100
+    assert confirm(form, one, two).safety >= 100
 
 
 def test_a_wrong_formula_is_refused():
     one, two = models(VOIGT, LADDER)
     (form,) = by_parts(one, two)
-    assert confirmed(form, one, two).safety >= 100
+    assert confirm(form, one, two).safety >= 100
     (name, value), *others = form.values
     wrong = replace(form, values=((name, value + value), *others))
     with pytest.raises(ContradictionError):
-        confirmed(wrong, one, two)
+        confirm(wrong, one, two)
 
 
 def test_one_wrong_sign_of_a_root_is_refused():
@@ -184,7 +184,7 @@ def test_one_wrong_sign_of_a_root_is_refused():
     first, second, *others = form.steps
     wrong = replace(form, steps=(first, replace(second, sign=1), *others))
     with pytest.raises(ContradictionError):
-        confirmed(wrong, one, two)
+        confirm(wrong, one, two)
 
 
 @pytest.mark.parametrize("kinds", ["RL", "LC"])
@@ -195,7 +195,7 @@ def test_ladders_of_any_length(sections, is_open, kinds):
     partial = "-".join([f"{a}0"] * is_open + [f"p({a}{i},{b}{i})" for i in range(1, sections + 1)])
     one, two = models(partial, _ladder(a, b, sections, is_open))
     (form,) = by_parts(one, two)
-    assert confirmed(form, one, two).safety >= 100
+    assert confirm(form, one, two).safety >= 100
     assert not any(s.root for s in form.steps)
 
 

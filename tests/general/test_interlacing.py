@@ -7,7 +7,7 @@ import pytest
 
 from disting import Relation, compare, verify
 from disting.general.any_model import of_network
-from disting.general.interlacing import interlaced
+from disting.general.interlacing import machine_type
 from disting.network.families import family_of
 from disting.network.notation import network_of
 from disting.verdict.verdict_file import verdict_file
@@ -44,15 +44,15 @@ def both_ways(pair, times):
 
 @pytest.mark.parametrize("text", OTHER)
 def test_machines_that_the_theorem_does_not_speak_of(text):
-    assert interlaced(of_network(network_of(text))) is None
+    assert machine_type(of_network(network_of(text))) is None
 
 
 def test_signs_and_numbers_of_zeros_are_told_apart():
     star, chain = ("#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S3")
-    one, other = (interlaced(of_network(network_of(t))) for t in (star, chain))
+    one, other = (machine_type(of_network(network_of(t))) for t in (star, chain))
     assert one != other
     turned = [of_network(network_of(f"#~1, 1~2, 1~3; F1; {s}")) for s in ("S2:1", "S1:2")]
-    assert [m and m.sign for m in map(interlaced, turned)] == [-1, 1]
+    assert [m and m.sign for m in map(machine_type, turned)] == [-1, 1]
 
 
 def test_a_verdict_is_verified_and_a_lie_is_not():
@@ -67,8 +67,8 @@ def test_a_verdict_is_verified_and_a_lie_is_not():
 @pytest.mark.parametrize("name", ["machines-3", "trees-4"])
 def test_all_pairs_of_a_family(name):
     """Each of 20 random points has a twin each way, and none is told apart otherwise."""
-    models = [m for m in map(of_network, family_of(name).networks) if interlaced(m)]
-    pairs = [p for p in combinations(models, 2) if interlaced(p[0]) == interlaced(p[1])]
+    models = [m for m in map(of_network, family_of(name).networks) if machine_type(m)]
+    pairs = [p for p in combinations(models, 2) if machine_type(p[0]) == machine_type(p[1])]
     random.Random(name).shuffle(pairs)
     for left, right in pairs[:40]:
         assert both_ways((left.network.name, right.network.name), 20), (left.name, right.name)

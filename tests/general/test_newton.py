@@ -10,7 +10,7 @@ import pytest
 
 from disting import Model, Relation, compare, local_identifiability, verify
 from disting.general.any_model import of_network
-from disting.general.newton import having
+from disting.general.newton import find_equivalent
 from disting.general.relations import (
     coefficients,
     dimension_at_least,
@@ -48,13 +48,13 @@ def test_an_equivalent_responds_alike_and_others_are_near(pair):
     draw, met = random.Random(3), 0
     for left_given, values, near in common_points(left, right):
         given, other = (left, right) if left_given else (right, left)
-        found = having(given, values, other, near)
+        found = find_equivalent(given, values, other, near)
         if not found:
             continue
         mine = [float(values[p]) for p in given.parameters]
         assert min(found) > 0 and respond_alike(given.network, mine, other.network, list(found))
         moved = {p: x * Fraction(1 + draw.uniform(-1e-3, 1e-3)) for p, x in values.items()}
-        again = having(given, moved, other, found)
+        again = find_equivalent(given, moved, other, found)
         assert again and max(abs(a / b - 1) for a, b in zip(again, found, strict=True)) < 1
         met += 1
     assert met
@@ -83,7 +83,7 @@ def test_what_is_excluded_has_none():
         for _ in range(4):
             mine, theirs = twin(given.network, other.network, draw, 20)
             values = {p: Fraction(x) for p, x in zip(given.parameters, mine, strict=True)}
-            found = having(given, values, other)
+            found = find_equivalent(given, values, other)
             assert not found or theirs
             counts[bool(found)] += 1
     assert all(counts.values())
@@ -93,15 +93,15 @@ def test_a_double_root_says_nothing_of_those_near_by():
     """(s + 1)^2 is (s + a)(s + b) at a = b = 1; of s^2 + 2 s + q with q > 1 none is."""
     given, other = tf(["1"], ["1", "p", "q"]), tf(["1"], "(s + a)*(s + b)")
     at = {"p": Fraction(2), "q": Fraction(1)}
-    assert having(given, at, other, (1.0, 1.0)) is None
-    assert having(given, at | {"q": Fraction(3, 4)}, other) is not None
-    assert having(given, at | {"q": Fraction(5, 4)}, other) is None
+    assert find_equivalent(given, at, other, (1.0, 1.0)) is None
+    assert find_equivalent(given, at | {"q": Fraction(3, 4)}, other) is not None
+    assert find_equivalent(given, at | {"q": Fraction(5, 4)}, other) is None
 
 
 def test_a_negative_zero_is_no_equivalent():
     given, other = tf(["1"], ["1", "p"]), tf(["1"], ["1", "a - 1"])
-    assert having(given, {"p": Fraction(1, 2)}, other) == pytest.approx((1.5,))
-    assert having(given, {"p": Fraction(1, 2)}, tf(["1"], ["1", "a + 1"]), (0.5,)) is None
+    assert find_equivalent(given, {"p": Fraction(1, 2)}, other) == pytest.approx((1.5,))
+    assert find_equivalent(given, {"p": Fraction(1, 2)}, tf(["1"], ["1", "a + 1"]), (0.5,)) is None
 
 
 def test_relations_hold_for_both_models_or_are_left_out():

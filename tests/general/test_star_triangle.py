@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from disting.general.balls import Balls
-from disting.general.star_triangle import unbridged
+from disting.general.star_triangle import without_bridges
 from disting.general.target import fraction
 from disting.network.notation import network_of
 
@@ -26,7 +26,7 @@ def test_the_middle_is_eliminated(kind, other, values):
     the admittances y: from i to j flows y_i y_j / (y_1 + y_2 + y_3) (u_i - u_j).
     """
     network = network_of(STAR.format(kind, other), "spice")
-    plain, (made,) = unbridged(network)
+    plain, (made,) = without_bridges(network)
     before, after = ends(network), ends(plain)
     known = dict(zip(made.names, values, strict=True))
     numbers = Balls(known)
@@ -55,6 +55,6 @@ def test_the_middle_is_eliminated(kind, other, values):
 )
 def test_only_what_leaves_fewer_edges(text, count):
     network = network_of(text, "spice")
-    plain, made = unbridged(network)
+    plain, made = without_bridges(network)
     assert len(made) == count
     assert (plain == network) is (count == 0)

@@ -26,8 +26,8 @@ from disting.general.intermediate_value import path
 from disting.general.model import Model
 from disting.general.model_evidence import confirms, confirms_models
 from disting.general.orthant import BRIEF, Effort, Orthant, value_at
-from disting.general.robust import Parted
-from disting.general.sections import held, sections
+from disting.general.robust import CaseSearch
+from disting.general.sections import sections, sign_on
 from disting.general.which_models import Way, way
 from disting.general.witnesses import points
 from disting.model.question import Domain, Settings
@@ -366,7 +366,9 @@ def test_elimination_keeps_off_denominators():
         )
         assert found and not left
         for section in found:
-            assert not held(ring, zero, section).is_zero() and not section.values[1].den.is_zero()
+            assert (
+                not sign_on(ring, zero, section).is_zero() and not section.values[1].den.is_zero()
+            )
 
 
 # three compartments without outflow, or with as many rates that cannot be told apart from those
@@ -430,7 +432,7 @@ def test_a_path_too_large_to_be_looked_at_is_found_by_counting():
     for equation, found in ((x**2 - x - p, True), (x**2 - x + p, False)):
         for degree in (0, 40):
             search = Search(replace(ring, degree=degree), (1, 2))
-            parted = Parted(search, (), (Case((equation,)),), ring.number(1))
+            parted = CaseSearch(search, (), (Case((equation,)),), ring.number(1))
             assert bool(Way(model, model, parted, ()).path()) is found
 
 

@@ -101,7 +101,7 @@ def test_fit_and_pages(folder):
 from disting.fit import Setup
 from disting.fit.search.joint import JointCost
 from disting.model.chain import Chain
-from disting.report.experiment_drawing import added, state
+from disting.report.experiment_drawing import draw_item, state
 from disting.model.kinds import MAGNET
 from disting.experiments.menu import Item
 
@@ -109,7 +109,7 @@ setup = Setup(magnets=(("last", 0.5),))
 print(setup.text, setup.added(2))
 shapes = [s for layer in state(Chain(2, damped=False), {}, setup.experiment(2).changes).layers for s in layer.shapes]
 print([s.text for s in shapes if getattr(s, "text", "").startswith("+")])
-print(added(Chain(2, damped=False), Item(MAGNET, 1)).name)
+print(draw_item(Chain(2, damped=False), Item(MAGNET, 1)).name)
 """,
     )
     assert said.splitlines() == [

@@ -26,7 +26,7 @@ ROW = """FORMATS = (
     Format(
         name="JSON",
         fits=lambda file, head: head.lstrip().startswith(b"{"),
-        response=lambda file, options: checked(read_json, options, file)(file, **options),
+        response=lambda file, options: check(read_json, options, file)(file, **options),
     ),
 """
 USE = """

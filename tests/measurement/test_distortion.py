@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disting.measurement import TimeSeries, read
-from disting.measurement.scaling import scaled
+from disting.measurement.scaling import scale
 from tests.measurement.bench_data import measured_data
 
 PERIOD, PERIODS = 1000, 21
@@ -54,7 +54,7 @@ def test_what_a_distorted_input_makes_through_the_plant_does_not_count():
 
 def test_distortion_follows_conversion_and_scale_and_copies():
     found = record(square=0.05, noise=0.01).response()
-    moved = scaled(found.to_quantity("acceleration"), 3.0)
+    moved = scale(found.to_quantity("acceleration"), 3.0)
     np.testing.assert_allclose(
         moved.distortion.level, 3 * found.distortion.level * found.distortion.omega**2
     )

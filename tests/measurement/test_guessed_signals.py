@@ -6,7 +6,7 @@ import scipy.io
 
 from disting.errors import InputError
 from disting.measurement import read, read_time_series
-from disting.measurement.files import guessed
+from disting.measurement.files import guess
 from tests.measurement.bench_data import measured_data
 
 TIME = np.arange(6000) / 1000
@@ -64,10 +64,10 @@ def test_names_of_the_real_axis_do_not_tell():
 )
 def test_words(names, found):
     if found:
-        assert guessed(names, "a")[:2] == found
+        assert guess(names, "a")[:2] == found
     else:
         with pytest.raises(InputError, match="which signal is the input"):
-            guessed(names, "a")
+            guess(names, "a")
 
 
 def test_an_export_without_sample_times_is_refused(tmp_path):

@@ -9,7 +9,7 @@ from hypothesis import given, strategies as st
 
 from disting.errors import InputError
 from disting.measurement import TimeSeries
-from disting.measurement.periodic import detected_period, excited
+from disting.measurement.periodic import detected_period, excited_lines
 from disting.model.chain import Sensor
 
 RATE, PERIOD = 1000.0, 500
@@ -145,8 +145,8 @@ def test_excited_lines_are_those_above_the_widest_gap():
     amplitude = np.full(101, 0.02)
     amplitude[[3, 5, 9]] = 1.0, 0.5, 0.7
     amplitude[0] = amplitude[-1] = 50.0  # constant part and half the sampling rate never count
-    assert excited(amplitude).tolist() == [3, 5, 9]
-    assert excited(np.ones(101)).tolist() == list(range(1, 100))
+    assert excited_lines(amplitude).tolist() == [3, 5, 9]
+    assert excited_lines(np.ones(101)).tolist() == list(range(1, 100))
 
 
 def test_welch_of_a_filter_with_noise_on_the_output():

@@ -14,8 +14,8 @@ from disting.measurement import (
     read,
     read_time_series,
 )
-from disting.measurement.repeats import outlying
-from disting.measurement.scaling import in_omega, scaled, with_constant
+from disting.measurement.repeats import find_outliers
+from disting.measurement.scaling import in_omega, scale, with_constant
 from disting.measurement.units import DRIVES, MOTIONS, motion, ratio
 from disting.model.chain import Sensor
 from disting.report.fit.words import unit_of
@@ -154,9 +154,9 @@ def test_a_torque_constant_makes_a_current_a_torque_or_a_force():
     ):
         with pytest.raises(InputError, match=r"leave --torque-constant away|is positive"):
             with_constant(response, constant)
-    np.testing.assert_allclose(scaled(linear, 1e-3).G, G / 35e3, rtol=1e-14)
+    np.testing.assert_allclose(scale(linear, 1e-3).G, G / 35e3, rtol=1e-14)
     with pytest.raises(InputError, match="a scale is a positive number"):
-        scaled(linear, -1.0)
+        scale(linear, -1.0)
 
 
 def test_the_real_bench_has_units_in_its_header():
@@ -224,7 +224,7 @@ def repeated(n, seed, lines=100):
 @pytest.mark.parametrize("n", [2, 3, 5, 10])
 def test_repeats_of_one_noise_have_no_outliers(n):
     """Neither lines nor whole repeats, in 300 sets."""
-    assert not any(outlying(repeated(n, seed)).any() for seed in range(300))
+    assert not any(find_outliers(repeated(n, seed)).any() for seed in range(300))
 
 
 def test_an_outlier_among_repeats_is_named_and_left_out_where_that_is_said():
@@ -250,7 +250,7 @@ def test_an_outlier_among_repeats_is_named_and_left_out_where_that_is_said():
 def test_a_whole_repeat_and_a_period_that_are_not_like_the_others():
     values = repeated(5, 1)
     values[2] += 1.5 * np.std(values[[0, 1, 3, 4]], axis=0).max()
-    assert outlying(values)[2].all() and not outlying(values)[[0, 1, 3, 4]].any()
+    assert find_outliers(values)[2].all() and not find_outliers(values)[[0, 1, 3, 4]].any()
     u = np.tile(np.random.default_rng(1).normal(size=64), 6)
     y = u + 0.01 * np.random.default_rng(2).normal(size=u.size)
     y[3 * 64 : 4 * 64] *= 1.5

@@ -12,7 +12,7 @@ from disting.fit.search.cost import Cost
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import Setup
 from disting.measurement import TimeSeries, mean_of
-from disting.measurement.window import Window, seen
+from disting.measurement.window import Window, line_weights
 from disting.model.chain import Chain
 from tests.fit.monte_carlo import drive, measured, response_at, truth
 from tests.measurement.test_time_series import RATE, resonance
@@ -37,7 +37,7 @@ def test_the_weights_are_the_integral_over_the_impulse_response(damping):
     h = 2 * np.real(np.exp(pole * time))
     r, step = hann_autocorrelation(n), np.where(time > 0, 1.0, 0.5) / n
     direct = np.exp(-1j * np.outer(omega, time)) @ (h * r * step)
-    points, weights = seen(Window(1.0, 0), omega, 0)
+    points, weights = line_weights(Window(1.0, 0), omega, 0)
     s = 1j * points
     found = weights @ (1 / (s - pole) + 1 / (s - pole.conjugate()))
     np.testing.assert_allclose(found, direct, rtol=0, atol=2e-3 * np.abs(direct).max())
@@ -50,7 +50,7 @@ def test_short_segments_show_the_response_under_their_window():
     window = found.window
     shown = found.windowed()
     assert window.duration == 500 / RATE and shown.window.ratio is None
-    points, weights = seen(shown.window, shown.omega, shown.sensor.order)
+    points, weights = line_weights(shown.window, shown.omega, shown.sensor.order)
     pole = np.exp((-0.005 + 1j) * 2 * np.pi * 50 / RATE)
     z = np.exp(1j * points / RATE)
     model = weights @ (z / (z - pole) / (z - pole.conjugate()))

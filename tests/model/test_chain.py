@@ -17,7 +17,7 @@ from disting import (
     View,
     compare,
 )
-from disting.model.structure import CONSTRAINTS, Indices, violated
+from disting.model.structure import CONSTRAINTS, Indices, violations
 from tests.laws.strategies import chains
 
 VALID = (3, 1, 1, 2, 1, 3)
@@ -88,7 +88,7 @@ def test_the_example_of_fig_9_is_refused():
     ],
 )
 def test_which_constraints_are_broken(indices, names):
-    assert [c.name for c in violated(Indices(*indices), (36, 37, 38))] == names
+    assert [c.name for c in violations(Indices(*indices), (36, 37, 38))] == names
 
 
 def test_nine_constraints():

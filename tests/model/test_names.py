@@ -19,7 +19,7 @@ from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes import combined_family
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.model.chain import Chain, Sensor
-from disting.model.names import chain_of, chains_named, name_of, read
+from disting.model.names import chain_of, name_of, read, read_together
 from disting.questions.identifiability.analysis import identifiability
 
 EXTRAS = [(), ("+b1",), ("+b3", "+b1"), ("+lag",), ("+delay", "+b2", "+lag")]
@@ -41,7 +41,7 @@ def test_what_is_written_is_read_as_the_same_chain(
     indices = family[1 + at % len(family)].indices
     on_it = tuple(i for i in dampers if i <= n)
     chain = Chain(*indices, sensor, damped, on_it, lag, late)
-    assert chains_named([name_of(chain)], damped=damped, sensor=sensor) == [chain]
+    assert read_together([name_of(chain)], damped=damped, sensor=sensor) == [chain]
     short = "A" + name_of(chain).partition(":")[2]
     assert chain_of(short, family, masses=n) == chain
 
@@ -59,23 +59,23 @@ def test_the_order_of_what_stands_behind_a_number_does_not_matter(extras: tuple[
 
 
 def test_a4_is_of_the_size_that_is_known() -> None:
-    assert [name_of(c) for c in chains_named(["A4", "3:1", "a2+b1"])] == ["3:4", "3:1", "3:2+b1"]
-    assert name_of(chains_named([Family(5, damped=False)[1], "A73"])[1]) == "5:73"
+    assert [name_of(c) for c in read_together(["A4", "3:1", "a2+b1"])] == ["3:4", "3:1", "3:2+b1"]
+    assert name_of(read_together([Family(5, damped=False)[1], "A73"])[1]) == "5:73"
     for unknown in (["A4"], ["A4", "A1"], ["A4", "3:1", "4:1"]):
         with pytest.raises(InputError, match="A4: the number of masses is not known here; write"):
-            chains_named(unknown)
+            read_together(unknown)
     with pytest.raises(InputError, match="models 1 to 11, not 12"):
-        chains_named(["3:1", "A12"])
+        read_together(["3:1", "A12"])
 
 
 def test_damping_and_sensor_are_said_or_taken_from_the_chain_beside() -> None:
     beside = Family(3, damped=False, sensor=Sensor.VELOCITY)[1]
-    assert chains_named(["3:4", beside])[0] == Family(3, False, Sensor.VELOCITY)[4]
-    said = chains_named(["3:4", beside], damped=True, sensor="position")
+    assert read_together(["3:4", beside])[0] == Family(3, False, Sensor.VELOCITY)[4]
+    said = read_together(["3:4", beside], damped=True, sensor="position")
     assert said == [Family(3, True, Sensor.POSITION)[4], beside]
-    assert chains_named(["3:4"]) == [Family(3, damped=True)[4]]
+    assert read_together(["3:4"]) == [Family(3, damped=True)[4]]
     with pytest.raises(InputError, match="sensor is position"):
-        chains_named(["3:4"], sensor="speed")
+        read_together(["3:4"], sensor="speed")
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_public_functions_take_names() -> None:
 
 def test_what_is_built_means_what_is_named():
     """Where nothing is said, a name, a chain, a family and every shipped table are damped."""
-    assert chains_named(["3:4"]) == [Family(3)[4]] == [Chain(3, 0, 0, 2, 0, 2)]
+    assert read_together(["3:4"]) == [Family(3)[4]] == [Chain(3, 0, 0, 2, 0, 2)]
     assert Chain(3).damped and Family(3).damped and catalog(3).damped
     assert damper_catalog(3).family.damped and sizes_catalog().damped
     assert next_catalog(3).further((1, 11)).structures[0].damped

@@ -9,7 +9,7 @@ from disting import Family, InputError, Sensor, compare, verify
 from disting.model.chain import Chain
 from disting.model.family import MOST_MASSES, after, before, count
 from disting.model.names import name_of, read
-from disting.model.structure import Indices, violated
+from disting.model.structure import Indices, violations
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Standing
 from tests.cli.process import called
@@ -21,7 +21,7 @@ def listed(n):
         low, high = range(gap + 1), range(gap + 1, n + 1)
         for ports in product(low, high, low, high):
             indices = Indices(n, gap, *ports)
-            if not any(violated(indices, (36, 37, 38))):
+            if not any(violations(indices, (36, 37, 38))):
                 yield indices
 
 

@@ -14,7 +14,7 @@ from disting.algebra.certainty import prime
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.errors import InputError
-from disting.general.any_model import of_network, unnamed
+from disting.general.any_model import of_network, without_names
 from disting.general.behaviour import GeneralModel
 from disting.general.expansion import TooLargeError
 from disting.general.network_model import NetworkModel, behaviour_of
@@ -33,7 +33,7 @@ def has_numbers(network):
 def profiles_agree(model) -> None:
     at_points, written = (
         profile(m, Representation.TF, 0, Settings())
-        for m in (behaviour_of(model), GeneralModel(unnamed(model)))
+        for m in (behaviour_of(model), GeneralModel(without_names(model)))
     )
     assert 0 <= written.safety - at_points.safety <= 4 * has_numbers(model.network)
     assert replace(at_points, safety=0) == replace(written, safety=0)
@@ -41,7 +41,7 @@ def profiles_agree(model) -> None:
 
 def agrees(model, draw):
     """Whether it is known at points; all that is said there is what the polynomials say."""
-    at_points, written = behaviour_of(model), GeneralModel(unnamed(model))
+    at_points, written = behaviour_of(model), GeneralModel(without_names(model))
     if not isinstance(at_points, NetworkModel):
         return False
     assert at_points.parameters == written.parameters

@@ -10,7 +10,7 @@ import pytest
 
 from disting import Relation, compare
 from disting.general.any_model import of_network
-from disting.general.interlacing import interlaced
+from disting.general.interlacing import machine_type
 from disting.general.replacement import full_set
 from disting.network.families import family_of
 from disting.network.notation import network_of
@@ -34,8 +34,8 @@ FAMILIES = {
     "parts of two kinds": ("cells-4", replaced),
     "parts of three kinds": ("circuits-5", replaced),
     "compartments": ("compartments-3", replaced),
-    "interlacing": ("machines-3", interlaced),
-    "interlacing of 4": ("trees-4", interlaced),
+    "interlacing": ("machines-3", machine_type),
+    "interlacing of 4": ("trees-4", machine_type),
 }
 
 

@@ -85,7 +85,7 @@ def test_no_search_finds_what_lists_deny_and_all_around_it(pair):
     tried = 0
     for given, other in ((left, right), (right, left)):
         for values in islice(points(given, Domain.POSITIVE, "lists"), 2):
-            if fibre_lists.lacking(given, values, other):
+            if fibre_lists.has_none(given, values, other):
                 assert distance(given, values, other, rng) > 1e-7
                 around = near(values, rng, 1e-6)
                 assert distance(given, around, other, rng, 4) > 1e-7
@@ -100,7 +100,7 @@ def test_what_lists_find_is_found_around_it_too(pair):
     found = 0
     for given, other in ((left, right), (right, left)):
         for values in islice(points(given, Domain.POSITIVE, "lists"), 10):
-            equivalent = fibre_lists.having(given, values, other)
+            equivalent = fibre_lists.find_equivalent(given, values, other)
             if equivalent:
                 seen, wanted = response(other), response(given)
                 around = near(values, rng, 1e-4)
@@ -138,8 +138,8 @@ def test_lists_agree_with_formulas():
         verdict = compare(left, right)
         values = next(points(left, Domain.POSITIVE, "agree"))
         has, none = (
-            fibre_lists.having(left, values, right),
-            fibre_lists.lacking(left, values, right),
+            fibre_lists.find_equivalent(left, values, right),
+            fibre_lists.has_none(left, values, right),
         )
         assert not (has and none)
         if has:
@@ -156,11 +156,11 @@ def test_a_function_of_a_minor_has_equivalents_near_by():
     (whole, part) = models(("R1-p(R2,C1)", "p(R2,C1)"))
     at = {"a": Fraction(2), "b": Fraction(3), "c": Fraction(0)}
     near_by = at | {"c": Fraction(1, 10**6)}
-    assert fibre_lists.having(given, near_by, whole) is not None
-    assert fibre_lists.having(given, at, whole) is None
-    assert not fibre_lists.lacking(given, at, whole)
+    assert fibre_lists.find_equivalent(given, near_by, whole) is not None
+    assert fibre_lists.find_equivalent(given, at, whole) is None
+    assert not fibre_lists.has_none(given, at, whole)
     negative = at | {"c": Fraction(-1, 10**6)}
-    assert fibre_lists.lacking(given, negative, whole) and fibre_lists.lacking(
+    assert fibre_lists.has_none(given, negative, whole) and fibre_lists.has_none(
         given, negative, part
     )
 
@@ -175,8 +175,8 @@ def test_a_lie_is_refused():
 def test_values_without_a_transfer_function_are_passed_over():
     given = Model.from_transfer_function(["a"], ["a - b", "c"])
     values = {"a": Fraction(1), "b": Fraction(1), "c": Fraction(1)}
-    assert fibre_lists.having(given, values, given) is None
-    assert not fibre_lists.lacking(given, values, given)
+    assert fibre_lists.find_equivalent(given, values, given) is None
+    assert not fibre_lists.has_none(given, values, given)
     assert admissible_finding(given, given, Domain.POSITIVE, "disting").outcome is not None
 
 
@@ -185,4 +185,4 @@ def test_a_special_value_says_nothing_of_those_near_by():
     given = Model.from_transfer_function(["1", "d"], "(s + a)*(s + b)*c")
     other = Model.from_transfer_function(["1"], ["p", "q"])
     values = {"a": Fraction(2), "b": Fraction(3), "c": Fraction(1), "d": Fraction(2)}
-    assert fibre_lists.having(given, values, other) is None
+    assert fibre_lists.find_equivalent(given, values, other) is None

@@ -16,7 +16,7 @@ from disting.general.any_model import of_network
 from disting.general.behaviour import GeneralModel
 from disting.network import Network, Port
 from disting.network.element import Element
-from disting.network.gears import ungeared, units, unknown_ratios
+from disting.network.gears import units, unknown_ratios, without_gears
 from disting.network.notation import network_of
 from disting.network.simplest import simplest
 from disting.verdict.result import Relation
@@ -58,7 +58,7 @@ def response(network, values):
 def test_values_in_other_units_give_the_same(network, seed) -> None:
     draw = random.Random(seed)
     values = {name: draw.randrange(1, P) for name in network.parameters}
-    plain = ungeared(network)
+    plain = without_gears(network)
     assert plain is not None and not any(e.ratio for e in plain.elements)
     others = dict(values)
     for name, (number, powers) in units(network).items():
@@ -80,7 +80,7 @@ def test_values_in_other_units_give_the_same(network, seed) -> None:
 )
 def test_gears_that_are_no_units(text, why) -> None:
     network = network_of(text)
-    assert ungeared(network) is None
+    assert without_gears(network) is None
     assert simplest(network) is None
 
 
@@ -88,13 +88,13 @@ def test_a_part_that_only_the_casing_of_its_gear_holds() -> None:
     """Without the gear it would hang on nothing."""
     elements = Element("j0", "j", (1, 3), "g"), Element("j1", "j", (2, 0))
     network = Network(elements, (Port(2),), (Port(2),), order=0)
-    assert ungeared(network) is None
+    assert without_gears(network) is None
     assert compare(network, network).relation is Relation.INDISTINGUISHABLE
 
 
 def test_two_sensors_in_the_same_units() -> None:
     network = network_of("1=2*3, 1=3*3; F1; S2; S3")
-    assert ungeared(network) is not None
+    assert without_gears(network) is not None
     assert units(network)["m2"] == (Fraction(1, 3), ())
 
 

@@ -9,7 +9,7 @@ import pytest
 from disting import compare
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
-from disting.evidence.substitutes import AtInverse, Replaced
+from disting.evidence.substitutes import AtInverse, Replacement
 from disting.general.any_model import of_network
 from disting.general.forms import by_inverse, confirms_forms
 from disting.network.families import family_of
@@ -82,7 +82,7 @@ def test_its_evidence_is_checked(asked):
     for forged in (replace(evidence, left=evidence.right), replace(evidence, right="R1")):
         assert not confirms_forms(forged, left, right, "tf")
     inner = evidence.inner
-    whole = isinstance(inner, Replaced)
+    whole = isinstance(inner, Replacement)
     points = inner.inner if whole else inner
     lie = replace(
         points, point_without=points.point_with, without_left_given=points.with_left_given

@@ -11,7 +11,7 @@ from disting.evidence.limits import Minor
 from disting.general.any_model import of_network
 from disting.general.model_inclusions import confirms_inclusion
 from disting.network import Port, network_of
-from disting.network.branches import branches, rest_of, taken_away
+from disting.network.branches import branches, remainder, rest_of
 from disting.network.families import family_of
 from disting.network.minors import minors
 from tests.oracles.plain_network import response
@@ -74,7 +74,7 @@ def pairs(name, step):
 def test_a_one_port_is_what_remains_of_another_one_exactly_where_numbers_show_it(family, step):
     counts = {True: 0, False: 0}
     for part, whole in pairs(family, step):
-        told = taken_away(part, whole)
+        told = remainder(part, whole)
         assert (told is not None) == comes_near(part, whole), f"{part.name} in {whole.name}"
         if next(minors(part.grounded, whole.grounded), None) is not None:
             assert told is not None, f"{part.name} in {whole.name}"
@@ -115,7 +115,7 @@ def test_forged_evidence_of_missing_elements_does_not_hold():
 
 def test_bridges_and_networks_with_force_and_sensor_apart_have_no_branches():
     bridge = network_of("C1 1 2; R1 1 3; R2 2 3; R3 2 0; C2 3 0")
-    gone = taken_away(network_of("R1-C1"), bridge)
+    gone = remainder(network_of("R1-C1"), bridge)
     assert branches(bridge) is None
     assert gone is not None and rest_of(bridge, *gone) == branches(network_of("C1-R1"))
-    assert taken_away(network_of("1~2; F1; S2"), network_of("1~2~3; F1; S2")) is None
+    assert remainder(network_of("1~2; F1; S2"), network_of("1~2~3; F1; S2")) is None

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from disting import compare
-from disting.network.outflows import reached, simplest_outflows
+from disting.network.outflows import reachable, simplest_outflows
 
 ALL = [
     # where the only outflow of a graph is, and where all are, if input and output are one
@@ -70,8 +70,8 @@ def drawn(draw):
         enter, leave = draw.randrange(n), draw.randrange(n)
         leaks = set(draw.sample(range(n), draw.randint(1, n)))
         back = {(j, i) for i, j in flows}
-        whole = len(reached({enter}, flows)) == len(reached({leave}, back)) == n
-        if whole and reached({leave}, flows) & leaks:
+        whole = len(reachable({enter}, flows)) == len(reachable({leave}, back)) == n
+        if whole and reachable({leave}, flows) & leaks:
             return n, flows, leaks, enter, leave
 
 

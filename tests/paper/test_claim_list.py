@@ -8,7 +8,7 @@ from math import pi
 import pytest
 
 from disting.fit.search.candidates import figure_1
-from disting.paper import CLAIMS, Claim, Findings, Found, Outcome
+from disting.paper import CLAIMS, Claim, Findings, Observed, Outcome
 from disting.paper.refit import GIVEN, refit
 
 FOUND = {
@@ -120,7 +120,7 @@ def claim(key):
 @pytest.mark.parametrize("key", FOUND)
 def test_what_a_check_finds(findings, key):
     found = claim(key).check(findings)
-    assert found == Found(FOUND[key], claim(key).outcome is Outcome.AGREES, found.seen)
+    assert found == Observed(FOUND[key], claim(key).outcome is Outcome.AGREES, found.seen)
 
 
 @pytest.mark.slow
@@ -132,7 +132,7 @@ def test_a_fit_of_small_candidates_follows_the_thresholds_too(findings):
 @pytest.mark.slow
 def test_what_the_fit_of_all_candidates_finds():
     found = claim("thresholds").check(Findings())
-    assert found == Found(WHOLE_FIT["thresholds"], agrees=True)
+    assert found == Observed(WHOLE_FIT["thresholds"], agrees=True)
 
 
 def test_every_claim_is_tested_once_and_its_outcome_is_the_documented_one():
@@ -144,7 +144,7 @@ def test_every_claim_is_tested_once_and_its_outcome_is_the_documented_one():
 
 def test_what_does_not_agree_has_a_reason():
     with pytest.raises(ValueError, match="reason"):
-        Claim("k", "place", "text", "printed", lambda findings: Found("", False), about="k")
+        Claim("k", "place", "text", "printed", lambda findings: Observed("", False), about="k")
     with pytest.raises(ValueError, match="reason"):
         Claim("k", "place", "text", "printed")
 

@@ -12,7 +12,7 @@ from disting.paper import CLAIMS, Findings, Outcome
 from disting.report.matrix import LETTER
 from disting.report.paper import paper_figures, paper_page, write_paper
 from disting.report.paper.figures import of_decisions, triangles
-from disting.report.paper.paper_page import raised
+from disting.report.paper.paper_page import with_scripts
 from disting.report.paper.picture import of_scene
 from disting.report.paper.refit import refit_figure
 from disting.report.scene import Text
@@ -71,7 +71,10 @@ def test_every_claim_stands_on_the_page_with_its_outcome(page):
     for claim in CLAIMS:
         assert f"claim-{claim.key}" in ids
         for text in (claim.about, claim.place, claim.text, claim.printed, claim.reason):
-            assert re.sub(r"\s+", " ", html.unescape(re.sub("<[^>]*>", "", raised(text)))) in said
+            assert (
+                re.sub(r"\s+", " ", html.unescape(re.sub("<[^>]*>", "", with_scripts(text))))
+                in said
+            )
 
 
 def test_nothing_comes_from_elsewhere(page):
@@ -191,7 +194,7 @@ def test_another_computation_gives_the_same_bytes(folder):
 
 
 def test_subscripts_of_hostile_text():
-    assert raised("<b>_x^2") == "&lt;b&gt;<sub>x</sub><sup>2</sup>"
+    assert with_scripts("<b>_x^2") == "&lt;b&gt;<sub>x</sub><sup>2</sup>"
 
 
 def test_report_needs_something_to_report(capsys):

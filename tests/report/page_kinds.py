@@ -13,7 +13,7 @@ from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
-from disting.fit.search.joint import Further
+from disting.fit.search.joint import FurtherResponse
 from disting.fit.search.setup import Setup
 from disting.fit.select import select
 from disting.general.model_files import ModelList
@@ -21,8 +21,8 @@ from disting.measurement import FrequencyResponse
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.links import Site
-from disting.report.fit.style import Drawn
-from disting.report.listing import Listing, judged
+from disting.report.fit.style import FigureFiles
+from disting.report.listing import Listing, judge
 from disting.report.model_list import write_model_list
 from tests.report.fit.conftest import DRIVE, response
 from tests.report.fit.test_responses import data
@@ -89,16 +89,14 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
         across=[sizes if whole else SizesCatalog(sizes.catalogs[:3], sizes.records)],
     )
     engine = Engine()
-    write_model_list(Listing(judged(of(MODELS), engine), "Two vessels", "list-vessels"), folder)
+    write_model_list(Listing(judge(of(MODELS), engine), "Two vessels", "list-vessels"), folder)
     recall("circuits-4", engine)  # as `disting report circuits-4` does
     circuits = list_of("circuits-4")
     models = circuits.models
     shown = circuits if whole else ModelList((*models[:26], models[44]))  # the last has an equal
-    family = judged(shown, engine)
+    family = judge(shown, engine)
     write_model_list(Listing(family, "Circuits", "list-circuits-4"), folder)
-    write_model_list(
-        Listing(judged(hostile(), engine), "Hostile", "list-hostile"), folder / "alone"
-    )
+    write_model_list(Listing(judge(hostile(), engine), "Hostile", "list-hostile"), folder / "alone")
     found = fits(whole)
     starts = waterfall(found[0][1].described)
     for address, selection, train, test in found:
@@ -113,7 +111,7 @@ def fits(whole: bool) -> list[tuple[str, Selection, FrequencyResponse, Frequency
     train, test = response(0, 2, 1), response(1, 3, 2)
     some = figure_1((1, 2)) if whole else [replace(DRIVE, dead_time=late) for late in (False, True)]
     second = Setup("2")
-    further = Further(data(second, 2, 0.01), second, data(second, 3, 0.03))
+    further = FurtherResponse(data(second, 2, 0.01), second, data(second, 3, 0.03))
     both = data(Setup(), 10, 0.01), data(Setup(), 11, 0.03)
     pair = [DRIVE, replace(DRIVE, ground_dampers=(1, 2))]
     return [
@@ -123,7 +121,7 @@ def fits(whole: bool) -> list[tuple[str, Selection, FrequencyResponse, Frequency
     ]
 
 
-def _write_fit(selection: Selection, out: Path, train: FrequencyResponse, one: Drawn) -> None:
+def _write_fit(selection: Selection, out: Path, train: FrequencyResponse, one: FigureFiles) -> None:
     """The page of a fit with one figure, and empty files beside it."""
     out.mkdir(parents=True, exist_ok=True)
     page = fit_page(selection, [], [one], train, site=Site(out.parent, out))

@@ -15,13 +15,13 @@ from disting.catalogs.dampers import DamperSets
 from disting.errors import InputError
 from disting.report import damper_page
 from disting.report.damper_page import counts
-from disting.report.damper_payload import bits, mirror, numbered, payload
+from disting.report.damper_payload import bits, mirror, number_classes, payload
 from disting.report.drawing import draw
 from disting.report.index import runs
-from disting.report.page_drawing import Drawing, ground_dampers, held
+from disting.report.page_drawing import Drawing, ground_dampers, share
 from disting.report.scene import PAGE_PALETTE, Ink
 from disting.report.search import families
-from disting.report.svg import drawn
+from disting.report.svg import draw_layer
 from disting.verdict.result import Relation
 
 
@@ -37,7 +37,7 @@ def text(found: DamperFamily) -> str:
 
 def _opened(found: DamperFamily) -> DamperFamily:
     """The same, as if the largest class and the next were not decided."""
-    by_size = numbered(found.found)
+    by_size = number_classes(found.found)
     a, b = sorted(int(found.found.group[i]) for i in by_size.first[:2])
     columns = found.found.columns.copy()
     for group in (a, b):
@@ -48,7 +48,7 @@ def _opened(found: DamperFamily) -> DamperFamily:
 
 
 def test_classes_are_numbered_by_size(found: DamperFamily) -> None:
-    by_size = numbered(found.found)
+    by_size = number_classes(found.found)
     sizes = [len(by_size.members(g)) for g in range(len(by_size.sizes))]
     assert sizes == sorted(sizes, reverse=True) == by_size.sizes.tolist() and sum(sizes) == 88
     assert sorted(by_size.members(g) for g in range(by_size.several)) == sorted(
@@ -60,7 +60,7 @@ def test_classes_whose_buckets_disagree_are_refused(found: DamperFamily) -> None
     columns = found.found.columns.copy()
     columns[found.found.classes()[0][0], 0] += 1
     with pytest.raises(InputError):
-        numbered(replace(found.found, columns=columns))
+        number_classes(replace(found.found, columns=columns))
 
 
 def test_no_pair_is_sent(found: DamperFamily, text: str) -> None:
@@ -87,14 +87,14 @@ def test_the_mirror_is_the_one_of_the_free_part(found: DamperFamily) -> None:
 
 def test_shared_drawings_are_the_single_ones(found: DamperFamily) -> None:
     drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(found.family, 1)]
-    *lines, _ = f"{held(drawings)}\n".split("\n")
+    *lines, _ = f"{share(drawings)}\n".split("\n")
     parts = dict(
         re.fullmatch(r'<g id="(part-\d+)">(.*)</g>', line).groups()
         for line in lines[: -len(drawings)]
     )  # type: ignore[union-attr]
     assert len(set(parts.values())) == len(parts) < sum(len(d.scene.layers) for d in drawings) / 2
     for drawing, line in zip(drawings, lines[-len(drawings) :], strict=True):
-        single = [drawn(layer, PAGE_PALETTE) for layer in drawing.scene.layers]
+        single = [draw_layer(layer, PAGE_PALETTE) for layer in drawing.scene.layers]
         assert [parts[name] for name in re.findall(r'href="#(.*?)"', line)] == single
 
 

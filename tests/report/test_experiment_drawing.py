@@ -13,7 +13,7 @@ from disting.model.family import Family
 from disting.model.kinds import FORCE, KINDS, LOCK, SENSOR
 from disting.report import model_page
 from disting.report.drawing import draw
-from disting.report.experiment_drawing import added, additions, sketch, state
+from disting.report.experiment_drawing import additions, draw_item, sketch, state
 from disting.report.next_steps import advice, found_for, sketches_for_pairs
 from disting.report.page import next_page
 from disting.report.scene import Text, extent
@@ -36,7 +36,7 @@ def with_item(chain, item):
     """The drawing of a chain that a page holds, with what an item adds."""
     below = draw(chain, item.kind == SENSOR)
     kept = below.layers[:-1] if item.kind == FORCE else below.layers
-    return replace(below, layers=(*kept, added(chain, item)))
+    return replace(below, layers=(*kept, draw_item(chain, item)))
 
 
 def test_nothing_leaves_the_picture_and_no_letters_overlap():
@@ -58,11 +58,11 @@ def test_every_experiment_is_drawn_differently_and_said():
     for chain in CHAINS:
         found = [sketch(1, chain, (item,)) for item in items(chain)]
         assert len({one.label for one in found}) == len(found)
-        assert len({added(chain, item) for item in items(chain)}) == len(found)
+        assert len({draw_item(chain, item) for item in items(chain)}) == len(found)
         for item, one in zip(items(chain), found, strict=True):
             scene = with_item(chain, item)
             assert item.text in one.label and one.size == (scene.width, scene.height)
-            assert one.parts[1] == f"more-{added(chain, item).name}"
+            assert one.parts[1] == f"more-{draw_item(chain, item).name}"
 
 
 def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():
@@ -70,7 +70,7 @@ def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():
         parts = {}
         for chain in (c for damped in (False, True) for c in Family(n, damped)):
             for item in items(chain):
-                layer = added(chain, item)
+                layer = draw_item(chain, item)
                 assert parts.setdefault(layer.name, layer) == layer
 
 
@@ -81,7 +81,7 @@ def test_what_an_experiment_adds_covers_no_name_and_no_sign():
                 continue  # stands in the place of the first one
             shapes = draw(chain, item.kind == SENSOR).shapes
             signs = [s for s in shapes if isinstance(s, Text) and s.text[0] != "m"]
-            for shape in added(chain, item).shapes:
+            for shape in draw_item(chain, item).shapes:
                 assert not any(meet(sign, shape) for sign in signs), (chain, item, shape)
 
 

@@ -14,7 +14,7 @@ from disting.general.any_model import of_network
 from disting.general.model_files import ModelList
 from disting.network.families import FAMILIES
 from disting.report import network_svg, write_report
-from disting.report.listing import Listing, judged
+from disting.report.listing import Listing, judge
 from disting.report.model_list import write_model_list
 from disting.verdict.engine import Engine
 from disting.verdict.query import View
@@ -29,7 +29,7 @@ PAIR = tuple([n.name for n in SOME].index(name) + 1 for name in PAIR_OF)
 def family():  # type: ignore[no-untyped-def]
     engine = Engine()
     recall("circuits-4", engine)  # as `disting report circuits-4` does
-    return judged(ModelList(tuple(map(of_network, SOME))), engine)
+    return judge(ModelList(tuple(map(of_network, SOME))), engine)
 
 
 @pytest.fixture(scope="module")

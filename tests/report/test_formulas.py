@@ -16,8 +16,8 @@ from disting.catalogs import catalog
 from disting.equivalence.duplicates import Assignment
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.report.formulas import correspondence, written, written_values
-from disting.report.mathml import expression, primed, summands, symbol
+from disting.report.formulas import correspondence, transfer_function_parts, written_values
+from disting.report.mathml import expression, prime, summands, symbol
 from tests.algebra.test_rational_function import trees as rational_functions
 
 FAMILIES = [Family(n, damped) for n, damped in product((1, 2, 3, 4), (False, True))]
@@ -104,7 +104,7 @@ def test_the_typeset_coefficients_are_those_of_the_transfer_function(family: Fam
     for chain in (
         (family[len(family)],) if family.n_masses == 4 else (family[1], family[len(family)])
     ):
-        found = written(chain)
+        found = transfer_function_parts(chain)
         stiffness = {
             sympy.Symbol(f"κ{n[1:]}"): sympy.Symbol(n) + s * sympy.Symbol(f"d{n[1:]}")
             for n in chain.parameters
@@ -121,13 +121,13 @@ def test_the_typeset_coefficients_are_those_of_the_transfer_function(family: Fam
 
 def test_the_latex_names_every_coefficient_and_balances() -> None:
     for chain in (Chain(3, damped=True), Chain(5, damped=True)):
-        found = written(chain)
+        found = transfer_function_parts(chain)
         assert found.latex.count(" &= ") == 1 + len(found.lines)
         assert found.latex.count("{") == found.latex.count("}")
         assert found.latex.count(r"\left(") == found.latex.count(r"\right)")
     assert (
-        r"\kappa_{12}" in written(Chain(5, damped=True)).latex
-        and " k_{" not in written(Chain(5, damped=True)).latex
+        r"\kappa_{12}" in transfer_function_parts(Chain(5, damped=True)).latex
+        and " k_{" not in transfer_function_parts(Chain(5, damped=True)).latex
     )
 
 
@@ -146,7 +146,7 @@ def plain(latex: str) -> str:
     ids=str,
 )
 def test_the_latex_is_what_is_typeset(chain: Chain) -> None:
-    found = written(chain)
+    found = transfer_function_parts(chain)
     rows = [line.split(" &= ")[1].removesuffix(r" \\") for line in found.latex.splitlines()[2:-1]]
     for (label, parts), row in zip(found.lines, rows, strict=True):
         typeset = read(parts).subs(
@@ -160,7 +160,7 @@ def test_a_map_is_typeset_as_its_formulas() -> None:
     assert found is not None and len(found.equations) == 4
     left, right = found.equations[0].split("<mo>=</mo>")
     m1, m2 = sympy.symbols("m1 m2")
-    assert left == "<math>" + primed("m1")
+    assert left == "<math>" + prime("m1")
     assert sympy.simplify(read(("<math>" + right,)) - m1 * (m1 + m2) / m2) == 0
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disting import Chain
-from disting.fit import predicted
+from disting.fit import predict
 from disting.measurement import from_arrays, write_csv
 from tests.cli.process import called
 from tests.measurement.bench_data import measured_data
@@ -138,7 +138,7 @@ def responses(tmp_path_factory: pytest.TempPathFactory) -> Path:
     def response(sensor: int, force: int = 1, **changed: float) -> np.ndarray:
         brakes = tuple(int(name[1:]) for name in changed if name[0] == "b")
         chain = Chain(2, act_plus=force, meas_plus=sensor, ground_dampers=brakes)
-        return np.asarray(predicted(chain, values | changed, 2 * np.pi * hertz) * scatter)
+        return np.asarray(predict(chain, values | changed, 2 * np.pi * hertz) * scatter)
 
     motor, load = response(1), response(2)
     for name, G in {

@@ -14,7 +14,7 @@ from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report import index, model_page, page
 from disting.report.fit import fit_page
-from disting.report.fit.style import Drawn
+from disting.report.fit.style import FigureFiles
 from disting.report.glossary import HARD, PAGE, hard_words
 from disting.report.guide import guide
 
@@ -81,7 +81,11 @@ def test_pages_of_catalogues_and_the_start_page() -> None:
     assert [unexplained(text) for text in texts] == [set()] * 4
 
 
-def test_the_page_of_a_fit(selection: Selection, train: FrequencyResponse, starts: Drawn) -> None:  # noqa: F811
+def test_the_page_of_a_fit(
+    selection: Selection,  # noqa: F811
+    train: FrequencyResponse,  # noqa: F811
+    starts: FigureFiles,  # noqa: F811
+) -> None:
     text = fit_page(selection, physical(selection.described, selection.task), [starts], train)
     assert unexplained(text) == set()
     assert {"chi2-per-line", "akaike-weight", "hit-rate", "j-train"} <= Read(text).explained

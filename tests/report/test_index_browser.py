@@ -16,7 +16,7 @@ from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.model.chain import Chain
 from disting.model.names import chain_of
-from disting.model.structure import violated
+from disting.model.structure import violations
 from disting.model.symmetry import Symmetry, forms
 from disting.report import write_report
 from disting.report.describe_machine import descriptions, machines, part_name, parts
@@ -108,7 +108,7 @@ def test_a_description_outside_of_the_family_leads_to_its_model_by_the_symmetrie
             named = EXCHANGE * exchanged + (Symmetry.REFLECTION,) * mirrored
             listed = family[int(found["model"].split(":")[1])]
             assert next(form.chain for form in forms(chain) if form.symmetries == named) == listed
-            assert (found["remark"] != "") == any(violated(chain.indices, (38,)))
+            assert (found["remark"] != "") == any(violations(chain.indices, (38,)))
             seen.add((mirrored, exchanged))
     assert len(seen) == 4
 

@@ -11,14 +11,14 @@ import pytest
 from disting import Domain, Engine, Network, compare, network_of
 from disting.catalogs.network_files import recall
 from disting.cli.verdicts import list_of
-from disting.evidence.substitutes import Replaced
+from disting.evidence.substitutes import Replacement
 from disting.general.any_model import of_network
 from disting.general.identifiability import local_identifiability
 from disting.network.exact import within
 from disting.network.families import FAMILIES
 from disting.report.ladenheim import classes, is_canonical, ladenheim_page, open_pairs
 from disting.report.listed_model import listed_model_page
-from disting.report.listing import Listing, judged
+from disting.report.listing import Listing, judge
 from disting.report.model_list import model_list_page, write_model_list
 from tests.report.outline import Outline
 from tests.report.test_hard_words import unexplained
@@ -35,7 +35,7 @@ def test_108_of_148_circuits_determine_their_values() -> None:
 def four() -> Listing:
     engine = Engine()
     recall("circuits-4", engine)
-    return Listing(judged(list_of("circuits-4"), engine), "Circuits of 4", "list-circuits-4")
+    return Listing(judge(list_of("circuits-4"), engine), "Circuits of 4", "list-circuits-4")
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +102,7 @@ def test_exact_sets(family: str, size: int, apart: int, joined: int) -> None:
     for one, other in JOINED[:joined]:
         evidence = compare(one, other).evidence
         assert not always_the_same(network_of(one), network_of(other))
-        if isinstance(evidence, Replaced):
+        if isinstance(evidence, Replacement):
             assert always_the_same(network_of(one), network_of(evidence.left))
             assert always_the_same(network_of(other), network_of(evidence.right))
             evidence = evidence.inner
@@ -133,7 +133,7 @@ def test_all_of_them() -> None:
     """
     engine = Engine()
     recall("circuits-5", engine)
-    shown = Listing(judged(list_of("circuits-5"), engine), "Circuits of 5", "list-circuits-5")
+    shown = Listing(judge(list_of("circuits-5"), engine), "Circuits of 5", "list-circuits-5")
     found = classes(shown)
     assert sum(map(is_canonical, shown.cards)) == 108
     assert (len(found), sum(len(c.parts) for c in found)) == (54, 60)

@@ -7,8 +7,8 @@ import pytest
 from disting.catalogs import Catalog, catalog
 from disting.conditions.inclusion import Inclusion
 from disting.evidence.positive import Share
-from disting.report.domains import one_sided
-from disting.report.model import limits, model_page, standing, told_apart
+from disting.report.domains import one_sided_pairs
+from disting.report.model import limits, model_page, reasons_apart, relation_from
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 from tests.report.outline import Outline
@@ -79,7 +79,7 @@ def test_what_tells_it_apart_adds_up(shipped: Catalog) -> None:
     for row in shipped.rows:
         found = _verdicts(shipped, row.number)
         apart = sum(v.relation is Relation.DISTINGUISHABLE for v in found.values())  # type: ignore[attr-defined]
-        assert sum(count for _, count in told_apart(found)) == apart  # type: ignore[arg-type]
+        assert sum(count for _, count in reasons_apart(found)) == apart  # type: ignore[arg-type]
 
 
 def test_no_page_says_that_no_experiment_tells_what_some_values_do_tell_apart() -> None:
@@ -142,13 +142,13 @@ def test_a_distinguishable_pair_may_be_one_sided() -> None:
     rules the larger one out.
     """
     shipped = catalog(4, damped=False)
-    sides = list(one_sided(shipped))
+    sides = list(one_sided_pairs(shipped))
     assert len(sides) == 4 and {x.share for x in sides} == {Share.SOMETIMES}
     for x in sides:
         verdict = shipped.verdict(x.given, x.other)
         assert verdict.relation is Relation.DISTINGUISHABLE
-        assert standing(x.given, x.other, verdict) is Relation.SOMETIMES
-        assert standing(x.other, x.given, verdict) is Relation.DISTINGUISHABLE
+        assert relation_from(x.given, x.other, verdict) is Relation.SOMETIMES
+        assert relation_from(x.other, x.given, verdict) is Relation.DISTINGUISHABLE
         assert (
             f"generic ones of A{x.other} have none here"
             in Outline(model_page(shipped, x.given)).text

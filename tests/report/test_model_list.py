@@ -15,8 +15,8 @@ from disting.general.model_files import models_of
 from disting.report import write_family
 from disting.report.formulas import written_model
 from disting.report.listed_model import listed_model_page
-from disting.report.listing import Listing, judged
-from disting.report.model_list import lists_beside, model_list_page, page_name, write_model_list
+from disting.report.listing import Listing, judge
+from disting.report.model_list import list_pages, model_list_page, page_name, write_model_list
 from tests.cli.process import called
 from tests.report.outline import Outline
 
@@ -50,14 +50,14 @@ def hostile():
 
 @pytest.fixture(scope="module")
 def vessels():
-    return judged(of(MODELS), Engine())
+    return judge(of(MODELS), Engine())
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory, vessels) -> Path:  # type: ignore[no-untyped-def]
     folder = tmp_path_factory.mktemp("lists")
     write_model_list(Listing(vessels, "Two vessels", NAME), folder)
-    bad = Listing(judged(hostile(), Engine()), HOSTILE[0], "list-hostile")
+    bad = Listing(judge(hostile(), Engine()), HOSTILE[0], "list-hostile")
     write_model_list(bad, folder)
     return folder
 
@@ -323,7 +323,7 @@ def test_what_lies_beside_and_is_no_list_is_passed_over(tmp_path: Path) -> None:
     (tmp_path / "list-broken-models.csv").write_bytes(b"\xff,../../x\n1,2\n" + b"7,x,,,,,,,\n")
     (tmp_path / "list-alone.html").write_text("<h1>No table</h1>")
     (tmp_path / "list-bare.html").write_text("nothing")
-    found = dict(lists_beside(tmp_path))
+    found = dict(list_pages(tmp_path))
     titles = {link[0]: link[1] for link in found}
     assert titles["list-two-more.html"] == "Two & more" and "list-alone.html" not in titles
     models = {link[0]: of for link, of in found.items()}

@@ -17,7 +17,7 @@ from disting.general.model_files import ModelList
 from disting.model.chain import Sensor
 from disting.network import network_of
 from disting.network.families import family_of
-from disting.report.listing import Listing, judged
+from disting.report.listing import Listing, judge
 from disting.report.model_list import write_model_list
 from disting.report.network_motion import (
     drawing_of,
@@ -45,7 +45,7 @@ PAGE = "list-loops-motion.html"
 
 def listed(texts):
     models = tuple(of_network(network_of(t, name=n)) for n, t in texts.items())
-    return Listing(judged(ModelList(models), Engine()), "Loops", "list-loops")
+    return Listing(judge(ModelList(models), Engine()), "Loops", "list-loops")
 
 
 @pytest.fixture(scope="module")

@@ -31,10 +31,10 @@ from disting import (
 )
 from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes_files import sizes_catalog
-from disting.fit import figure_1, plan, predicted, select
+from disting.fit import figure_1, plan, predict, select
 from disting.fit.networks import fit_networks
 from disting.measurement import FrequencyResponse
-from disting.model.presentation import Shown
+from disting.model.presentation import NotebookTable
 from disting.questions.identifiability.analysis import identifiability
 from disting.report import chain_svg
 from disting.report.notebook.network_tables import table_of
@@ -44,7 +44,7 @@ DRIVE = Chain(2, damped=True, ground_dampers=(1,))
 VALUES = {"m1": 0.02, "m2": 0.01, "k12": 500.0, "d12": 0.1, "b1": 0.3}
 OMEGA = 2 * np.pi * np.geomspace(5, 200, 60)
 UNITS = {"input": ("<F>", "N"), "output": ("a", "m/s^2")}
-DATA = FrequencyResponse(OMEGA, predicted(DRIVE, VALUES, OMEGA), **UNITS, origin="a & b.csv")
+DATA = FrequencyResponse(OMEGA, predict(DRIVE, VALUES, OMEGA), **UNITS, origin="a & b.csv")
 POLES = Model.from_transfer_function("c", "(s + a)*(s + b)", name="<i>poles</i>")
 LARGEST = 60_000  # characters
 
@@ -101,7 +101,9 @@ def test_whatever_is_shown_as_a_table_has_one():
         m.name for m in walk_packages(disting.__path__, "disting.") if "__main__" not in m.name
     ]
     kinds = {x for name in every for x in vars(import_module(name)).values() if isinstance(x, type)}
-    tabled = [kind for kind in kinds if issubclass(kind, Shown) and kind is not Shown]
+    tabled = [
+        kind for kind in kinds if issubclass(kind, NotebookTable) and kind is not NotebookTable
+    ]
     unknown = table_of.registry[object]
     assert len(tabled) > 15
     assert [kind.__name__ for kind in tabled if table_of.dispatch(kind) is unknown] == []

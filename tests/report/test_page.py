@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 
 from disting.catalogs import Catalog, catalog
 from disting.report import index, page
-from disting.report.payload import packed, script_json
+from disting.report.payload import pack, script_json
 from disting.report.words import VIEW_TITLES
 from disting.verdict.meaning import meaning_sentence
 from disting.verdict.query import View
@@ -46,7 +46,7 @@ def outline(text: str) -> Outline:
 
 
 def _unpacked(runs: list[int]) -> list[int]:
-    """Independent of `packed`: a negative number repeats what is before it."""
+    """Independent of `pack`: a negative number repeats what is before it."""
     found: list[int] = []
     for number in runs:
         found += [number] if number >= 0 else [found[-1]] * -number
@@ -69,7 +69,7 @@ def test_it_holds_every_pair_in_every_view(shipped: Catalog, text: str) -> None:
 
 @given(st.lists(st.integers(0, 3)))
 def test_packed_numbers_come_back(numbers: list[int]) -> None:
-    assert _unpacked(packed(numbers)) == numbers and len(packed(numbers)) <= len(numbers)
+    assert _unpacked(pack(numbers)) == numbers and len(pack(numbers)) <= len(numbers)
 
 
 def test_ids_are_unique_and_links_lead_somewhere(outline: Outline) -> None:

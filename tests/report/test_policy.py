@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from disting import Engine, report
 from disting.report.environment import Policy, environment, source_of
-from disting.report.listing import Listing, judged
+from disting.report.listing import Listing, judge
 from disting.report.model_list import write_model_list
 from tests.report.conftest import heard
 from tests.report.test_model_list import MODELS, of
@@ -32,7 +32,7 @@ PUSHED_IN = (
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("list")
-    write_model_list(Listing(judged(of(MODELS), Engine()), "Two vessels", "list-vessels"), folder)
+    write_model_list(Listing(judge(of(MODELS), Engine()), "Two vessels", "list-vessels"), folder)
     return folder / "list-vessels.html"
 
 

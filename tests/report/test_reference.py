@@ -8,7 +8,7 @@ import pytest
 from disting.cli.parser import parser
 from disting.report.reference.commands import command_page, commands
 from disting.report.reference.entries import Entry, Kind, entries
-from disting.report.reference.python_pages import MODULES, python_pages, rendered
+from disting.report.reference.python_pages import MODULES, as_html, python_pages
 from tests.report.outline import Outline
 
 
@@ -87,7 +87,7 @@ def test_two_runs_make_the_same_pages() -> None:
     ["m1*m2*m3 and *one*", "[1FS]=[2], `a`", "# [1]=[2fs]", "<b>&amp;</b>", "a_b_c \\n", "> 1"],
 )
 def test_signs_of_markdown_are_text_in_docstrings(text: str) -> None:
-    shown = Outline(str(rendered(text, lambda name: "")))
+    shown = Outline(str(as_html(text, lambda name: "")))
     assert shown.text.strip() == text.replace("`", "")
     assert {tag for tag, _ in shown.elements} <= {"p", "code"}
 

@@ -17,7 +17,7 @@ from disting.errors import InputError
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, Share
 from disting.fit.networks import fit_networks
-from disting.fit.plan.next_experiment import Standing
+from disting.fit.plan.next_experiment import Reason
 from disting.fit.plan.power import Answer
 from disting.fit.plan.rival import Limit, Trust
 from disting.fit.search.setup import Setup
@@ -224,7 +224,7 @@ def test_words_of_the_schemas_are_those_of_the_program() -> None:
     extents = networks["properties"]["extent"]["enum"]
     assert extents == ["", *(e.value for e in Extent), POSITIVE]
     pairs = schema(Format.NEXT_OF_FIT)["properties"]["pairs"]["items"]["properties"]
-    assert pairs["standing"]["enum"] == [s.value for s in Standing]
+    assert pairs["standing"]["enum"] == [s.value for s in Reason]
 
 
 def test_the_command_prints_a_schema_that_needs_no_other_file() -> None:

@@ -11,12 +11,12 @@ from hypothesis import Phase, given, settings, strategies as st
 
 from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
-from disting.evidence.decision import THEOREMS, Excluded, Theorem
+from disting.evidence.decision import THEOREMS, Exclusion, Theorem
 from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import Empirical, PositiveEvidence, PositiveFinding, Share
 from disting.evidence.real import BothWays, RealWitnesses
-from disting.evidence.substitutes import AtInverse, OfPart, Replaced
+from disting.evidence.substitutes import AtInverse, OfPart, Replacement
 from disting.experiments.experiment import MeasuredChain
 from disting.general.model_files import read_models
 from disting.verdict.cascade import decide
@@ -187,8 +187,8 @@ EVIDENCE_OF_SHARES = sorted(get_args(PositiveEvidence), key=lambda kind: kind.ki
 theorems = st.sampled_from(sorted(THEOREMS))
 known = {
     Theorem: {"name": theorems},
-    Excluded: {"name": st.just("decay")},
-    Replaced: {"inner": st.builds(Theorem, name=theorems)},
+    Exclusion: {"name": st.just("decay")},
+    Replacement: {"inner": st.builds(Theorem, name=theorems)},
     AtInverse: {"inner": st.builds(Theorem, name=theorems)},
     OfPart: {"inner": st.builds(Theorem, name=theorems)},
 }

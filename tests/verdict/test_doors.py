@@ -13,7 +13,7 @@ from disting import Engine, Family, Query, Sensor, View, catalog, compare, read_
 from disting.general.model import Model
 from disting.general.model_files import ModelList, models_of, write_models
 from disting.model.names import name_of
-from disting.report.listing import judged
+from disting.report.listing import judge
 from disting.verdict.joint import family_safety
 from disting.verdict.verification import Standing
 from tests.cli.process import called
@@ -97,7 +97,7 @@ def test_all_pairs_of_one_to_three_masses(damped):
 @pytest.mark.parametrize("damped", [False, True])
 def test_pages_tell_the_same(damped, numbers):
     chains = [Family(3, damped)[number] for number in numbers]
-    page = judged(models_of({"models": [*map(entry, chains), STRANGER]}), Engine())
+    page = judge(models_of({"models": [*map(entry, chains), STRANGER]}), Engine())
     for i, j in combinations(range(len(chains)), 2):
         assert told(page.verdict(i + 1, j + 1, View.POSITIVE)) == told(
             compare(chains[i], chains[j])

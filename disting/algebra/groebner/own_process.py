@@ -33,7 +33,7 @@ Value = TypeVar("Value")
 
 
 @dataclass(frozen=True, slots=True)
-class Ended(Generic[Value]):
+class ProcessResult(Generic[Value]):
     """`value` is the task's result where `end` is DONE, and None otherwise; `detail` says
     more, if there is more.
     """
@@ -55,7 +55,7 @@ def run_limited(
     arguments: tuple[object, ...],
     seconds: float,
     megabytes: int = 4096,
-) -> Ended[Value]:
+) -> ProcessResult[Value]:
     """Result of task(*arguments) in a fresh process, killed after so many seconds; both must be
     picklable.
 
@@ -77,12 +77,12 @@ def run_limited(
             env=environment,
         )
     except subprocess.TimeoutExpired:
-        return Ended(End.OUT_OF_TIME, detail=f"{seconds:g} s")
+        return ProcessResult(End.OUT_OF_TIME, detail=f"{seconds:g} s")
     except OSError as reason:
-        return Ended(End.FAILED, detail=f"no process can be started: {reason.strerror}")
+        return ProcessResult(End.FAILED, detail=f"no process can be started: {reason.strerror}")
     if done.returncode or not done.stdout:
-        return Ended(End.DIED, detail=f"exit status {done.returncode}")
-    ended: Ended[Value] = pickle.loads(done.stdout)
+        return ProcessResult(End.DIED, detail=f"exit status {done.returncode}")
+    ended: ProcessResult[Value] = pickle.loads(done.stdout)
     return ended
 
 
@@ -95,14 +95,14 @@ def serve() -> None:
         answer.write(pickle.dumps(_ended(megabytes)))
 
 
-def _ended(megabytes: int) -> Ended[object]:
+def _ended(megabytes: int) -> ProcessResult[object]:
     try:
         task, arguments = pickle.load(sys.stdin.buffer)
-        return Ended(End.DONE, task(*arguments))
+        return ProcessResult(End.DONE, task(*arguments))
     except MemoryError:
-        return Ended(End.OUT_OF_MEMORY, detail=f"{megabytes} MB")
+        return ProcessResult(End.OUT_OF_MEMORY, detail=f"{megabytes} MB")
     except Exception as error:  # reported to the caller, who cannot see it otherwise
-        return Ended(End.FAILED, detail=f"{type(error).__name__}: {error}")
+        return ProcessResult(End.FAILED, detail=f"{type(error).__name__}: {error}")
 
 
 def _limit(seconds: float, megabytes: int) -> None:

@@ -132,7 +132,7 @@ ROUNDING = 1 + 2.0**-40  # of a sum of logarithms in floating point
 
 
 @dataclass(frozen=True, slots=True)
-class Bounded:
+class PolynomialBound:
     """A polynomial of degree `degree` at most, 1 or more, and with the sum 2**norm of the sizes
     of its coefficients at most.
     """
@@ -151,10 +151,10 @@ class Relation:
     bits: float
 
 
-def relation(polynomials: Sequence[Bounded]) -> Relation:
+def relation(polynomials: Sequence[PolynomialBound]) -> Relation:
     """Bounds of a relation between k + 1 polynomials in k variables, and of each of its factors.
 
-    >>> relation([Bounded(2, 0.0), Bounded(3, 0.0)]).weight
+    >>> relation([PolynomialBound(2, 0.0), PolynomialBound(3, 0.0)]).weight
     6
     """
     delta, count = prod(q.degree for q in polynomials), len(polynomials)
@@ -167,7 +167,7 @@ def _log_sum(norm: float) -> float:
     return norm + log2(1 + 2.0 ** (1 - norm))
 
 
-VARIABLE = Bounded(1, 0.0)
+VARIABLE = PolynomialBound(1, 0.0)
 LEAST = 8  # bits of one run: with fewer, too many runs would be needed
 
 
@@ -228,9 +228,9 @@ def safety_of_one_value(model: PolynomialMap) -> int:
     """
     shape, n = _shape([c + c for c in model.coordinates]), len(model.parameters)
     degrees = shape.degrees[:n]
-    difference = Bounded(1, 1.0)
+    difference = PolynomialBound(1, 1.0)
     others = [difference] + [VARIABLE] * (2 * n - len(degrees))
-    bounds = relation([*(Bounded(d, shape.norm) for d in degrees), *others])
+    bounds = relation([*(PolynomialBound(d, shape.norm) for d in degrees), *others])
     minor = sum(degrees)
     minor_bits = n * (shape.norm + log2(shape.degrees[0] * max(n, 1)))
     size = Size(
@@ -249,7 +249,7 @@ def safety_of_other_values(model: PolynomialMap) -> int:
     shape, n = _shape(model.coordinates), len(model.parameters)
     forms = sorted((*shape.degrees[: n + 1], 2), reverse=True)[: n + 1]
     norm = shape.norm + _mixing(prod(forms) ** 2, len(shape.degrees) + 1)
-    bounds = relation([Bounded(d, norm) for d in forms] + [VARIABLE] * (n + 2 - len(forms)))
+    bounds = relation([PolynomialBound(d, norm) for d in forms] + [VARIABLE] * (n + 2 - len(forms)))
     put_in = bounds.weight * norm + (len(forms) + 1) * log2(bounds.weight + 1)
     return _safety(Size(bounds.weight, int(bounds.bits + put_in) + 1), BITS)
 
@@ -260,7 +260,7 @@ def _related(shape: _Shape, equations: int, combined: bool, variables: int) -> R
     """
     degrees = shape.degrees[:equations]
     norm = shape.norm + (_mixing(prod(degrees), len(shape.degrees)) if combined else 0.0)
-    polynomials = [Bounded(d, norm) for d in degrees]
+    polynomials = [PolynomialBound(d, norm) for d in degrees]
     return relation(polynomials + [VARIABLE] * (variables + 1 - len(polynomials)))
 
 

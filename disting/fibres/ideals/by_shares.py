@@ -20,7 +20,7 @@ tell the others apart.
 from collections.abc import Sequence
 from dataclasses import replace
 
-from disting.evidence.ideals import Shared
+from disting.evidence.ideals import NoShares
 from disting.fibres.ideals.factored_map import row_factors
 from disting.fibres.ideals.shares import TRIES, Try, tell_apart
 from disting.fibres.ideals.splits import gap, poles_are_inseparable
@@ -30,7 +30,7 @@ from disting.model.structure import Structure
 
 def tell_chains_apart(
     a: Structure, b: Structure, seed: str, tries: Sequence[Try] = TRIES
-) -> tuple[Shared, int] | None:
+) -> tuple[NoShares, int] | None:
     """Evidence that two chains with dampers, of equal rank and size, have different closures, and
     its bits; None where there is none.
 

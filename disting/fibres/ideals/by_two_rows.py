@@ -19,7 +19,7 @@ from dataclasses import replace
 
 from flint import fmpz_mpoly
 
-from disting.evidence.ideals import ByRows, RowStep, Shown, Solved, Vanishing
+from disting.evidence.ideals import ByRows, FibreEvidence, RowStep, Solutions, Vanishing
 from disting.evidence.kinds import Decision
 from disting.fibres.ideals.confirm import confirms
 from disting.fibres.ideals.fibre_ideal import generic_rank
@@ -50,7 +50,7 @@ def refuted_by_rows(structure: Structure, other: Structure, seed: str) -> ByRows
     """A proof, without any chance, that generic models of `structure` have no equivalent in
     `other`; None if there is none.
     """
-    if not_covered(structure, other, f"{seed}:poles"):
+    if obstacle(structure, other, f"{seed}:poles"):
         return None
     steps = [vanishing_step(split, receptances(other)) for split in splits(structure, gap(other))]
     differing = tuple(step for step in steps if step is not None)
@@ -81,7 +81,7 @@ def _members(
         if rank > most or short < 0 or (rank == most and short):
             return None
         decided = decide(wanted, reached, equal_rank=rank == most, seed=seed, limits=limits)
-        if not isinstance(decided.evidence, Solved) or decided.safety < limits.safety:
+        if not isinstance(decided.evidence, Solutions) or decided.safety < limits.safety:
             return None
         steps.append(RowStep(split.name, name, replace(decided.evidence, is_normalised=True)))
     return tuple(steps)
@@ -93,7 +93,7 @@ def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> boo
     """
     structure, other = (left, right) if evidence.left_given else (right, left)
     if not _are_alike(structure, other) or (
-        not evidence.is_member and not_covered(structure, other, "verify:poles")
+        not evidence.is_member and obstacle(structure, other, "verify:poles")
     ):
         return False
     searched, possible = (
@@ -107,14 +107,14 @@ def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> boo
         complete = len(covered_splits) == 1 and {s.part for s in evidence.steps} == set(searched)
     else:
         complete = covered_splits == set(possible) and not any(
-            isinstance(s.shown, Solved) for s in evidence.steps
+            isinstance(s.shown, Solutions) for s in evidence.steps
         )
     return complete and all(
         _confirms(s.shown, possible[s.split][s.part], searched[s.part]) for s in evidence.steps
     )
 
 
-def not_covered(structure: Structure, other: Structure, label: str) -> str:
+def obstacle(structure: Structure, other: Structure, label: str) -> str:
     """Why the theorem does not apply; empty if it does."""
     if not _are_alike(structure, other):
         return (
@@ -167,7 +167,7 @@ def vanishing_step(split: Split, searched: Receptances) -> RowStep | None:
     is none.
     """
     constants = (
-        (name, vanishing(wanted, reached)) for name, wanted, reached in _pairs(split, searched)
+        (name, refuting_index(wanted, reached)) for name, wanted, reached in _pairs(split, searched)
     )
     return next(
         (
@@ -179,13 +179,13 @@ def vanishing_step(split: Split, searched: Receptances) -> RowStep | None:
     )
 
 
-def vanishing(wanted: CoefficientMap, reached: CoefficientMap) -> int | None:
+def refuting_index(wanted: CoefficientMap, reached: CoefficientMap) -> int | None:
     """Index of a Markov parameter that refutes the row, among its first two; None if there is
     none.
 
     >>> from disting.model.chain import Chain
     >>> chains = (Chain(2, 0, 0, 1, 0, port, damped=True) for port in (2, 1))
-    >>> vanishing(*(receptances(c.structure).free for c in chains))
+    >>> refuting_index(*(receptances(c.structure).free for c in chains))
     2
     """
     first = relative_degree(reached)
@@ -212,7 +212,7 @@ def _markov(model: CoefficientMap, index: int) -> fmpz_mpoly:
     return scaled[index]
 
 
-def _confirms(shown: Shown, wanted: CoefficientMap, reached: CoefficientMap) -> bool:
+def _confirms(shown: FibreEvidence, wanted: CoefficientMap, reached: CoefficientMap) -> bool:
     if isinstance(shown, Vanishing):
         return shown.index > 0 and _refutes(shown.index, wanted, reached)
     ranks = _ranks(wanted, reached, "rank:verify")

@@ -17,7 +17,7 @@ from math import comb
 from flint import fmpz_mpoly, nmod_poly
 
 from disting.algebra.groebner.modular import Sparse, matrix as modular_matrix
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, draw_point, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
@@ -71,7 +71,7 @@ def _echelon(
 
 
 def find_again(
-    evidence: Solved | Refuted,
+    evidence: Solutions | Refutation,
     left: PolynomialMap,
     right: PolynomialMap,
     limits: Limits = AGAIN,
@@ -82,12 +82,12 @@ def find_again(
     A contradiction of some degree is one of any larger degree too. Raises NotSeenError where none
     is found within the limits.
     """
-    if isinstance(evidence, Refuted) and evidence.degree < 0:
+    if isinstance(evidence, Refutation) and evidence.degree < 0:
         return False
     by_maps = isinstance(left, CoefficientMap) and isinstance(right, CoefficientMap)
     check = confirms if by_maps else confirms_matched
     unknowns = max(len(left.parameters), len(right.parameters))
-    if isinstance(evidence, Solved) or _is_small(evidence.degree, unknowns):
+    if isinstance(evidence, Solutions) or _is_small(evidence.degree, unknowns):
         return check(evidence, left, right)  # type: ignore[arg-type]
     if by_maps:
         left, right = match_maps(left, right)  # type: ignore[arg-type]
@@ -96,7 +96,7 @@ def find_again(
 
 def refuted_at(
     labels: Sequence[str],
-    evidence: Refuted,
+    evidence: Refutation,
     left: PolynomialMap,
     right: PolynomialMap,
     limits: Limits = AGAIN,
@@ -115,24 +115,26 @@ def _is_small(degree: int, unknowns: int) -> bool:
     return degree <= PLAIN_MONOMIALS and comb(unknowns + degree, degree) <= PLAIN_MONOMIALS
 
 
-def confirms(evidence: Solved | Refuted, left: CoefficientMap, right: CoefficientMap) -> bool:
+def confirms(evidence: Solutions | Refutation, left: CoefficientMap, right: CoefficientMap) -> bool:
     """Whether the evidence holds for these models, seen anew.
 
     A solution is put into both transfer functions. A refutation is found again by plain Macaulay
     matrices, which takes long and much memory for many unknowns and high degrees (10 unknowns,
     degree 5: minutes).
     """
-    if isinstance(evidence, Refuted):
+    if isinstance(evidence, Refutation):
         return bool(evidence.labels) and confirms_matched(evidence, *match_maps(left, right))
     model, other = (left, right) if evidence.left_given else (right, left)
     runs = zip(evidence.labels, evidence.solutions, strict=True)
     return bool(evidence.labels) and all(_agree(model, other, label, q) for label, q in runs)
 
 
-def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap) -> bool:
+def confirms_matched(
+    evidence: Solutions | Refutation, left: PolynomialMap, right: PolynomialMap
+) -> bool:
     """The same for maps whose coordinates can be compared, of whatever they are."""
     model, other = (left, right) if evidence.left_given else (right, left)
-    if isinstance(evidence, Solved):
+    if isinstance(evidence, Solutions):
         runs = zip(evidence.labels, evidence.solutions, strict=True)
         return bool(evidence.labels) and all(
             len(q) == len(other.parameters) and agree(model, point, other, q, modulus)
@@ -146,7 +148,7 @@ def confirms_matched(evidence: Solved | Refuted, left: PolynomialMap, right: Pol
 
 
 def safety_of(
-    evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap, seed: str
+    evidence: Solutions | Refutation, left: PolynomialMap, right: PolynomialMap, seed: str
 ) -> int:
     """Bits b of the bound 2**-b on the error of evidence on two models of equal rank, as
     `membership.decide_matched` counts them; 0 where the seed does not draw its labels.
@@ -155,12 +157,12 @@ def safety_of(
     """
     count = len(evidence.labels)
     model, other = (left, right) if evidence.left_given else (right, left)
-    most = SPARE * count if isinstance(evidence, Solved) else count
+    most = SPARE * count if isinstance(evidence, Solutions) else count
     drawn_ones = labels_of(seed, left, right, most)
     named = [label for label in drawn_ones if label in set(evidence.labels)]
     if not count or tuple(named) != evidence.labels:
         return 0
-    if isinstance(evidence, Solved):
+    if isinstance(evidence, Solutions):
         return safety_of_member(model, other) * count - 1
     if not evidence.tangent:
         return 0

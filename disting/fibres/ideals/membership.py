@@ -25,7 +25,7 @@ from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
 from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.points import free_variable, solution
 from disting.errors import ContradictionError, InputError, NotSeenError
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.kinds import Decision
 from disting.fibres.ideals.bounds import LEAST, bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import (
@@ -60,10 +60,10 @@ class Limits:
     long: bool = False
 
 
-Told = Decision[Solved | Refuted]
+IdealDecision = Decision[Solutions | Refutation]
 
 
-def _unknown(reason: str) -> Told:
+def _unknown(reason: str) -> IdealDecision:
     return Decision(Membership.UNKNOWN, reason=reason)
 
 
@@ -120,7 +120,7 @@ def decide(
     seed: str = "disting",
     limits: Limits = Limits(),
     members: bool = True,
-) -> Told:
+) -> IdealDecision:
     """Whether generic models of `model` are models of `other`; `equal_rank` lets the other
     direction decide as well. Without `members` it is UNKNOWN that they are: only what refutes is
     looked for.
@@ -144,7 +144,7 @@ def decide_matched(
     seed: str = "disting",
     limits: Limits = Limits(),
     members: bool = True,
-) -> Told:
+) -> IdealDecision:
     """The same for two maps whose coordinates can be compared, whatever they are of: several
     transfer functions of one model, for instance. The bounds rest on nothing else.
     """
@@ -225,7 +225,7 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
     raise GivenUp(f"too large: {why}")
 
 
-def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
+def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> IdealDecision:
     bits = run.ideal.modulus.bit_length()
     each = safety_of_empty(*question.sides(run.left_given), question.equal_rank, bits)
     labels, degree, reason = [run.label], basis.degree, ""
@@ -239,11 +239,11 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
             degree = max(degree, next_basis.degree)
     except GivenUp as why:
         reason = str(why)
-    evidence = Refuted(run.left_given, tuple(labels), degree, question.equal_rank)
+    evidence = Refutation(run.left_given, tuple(labels), degree, question.equal_rank)
     return Decision(Membership.EXCLUDED, each * len(labels) - question.price, evidence, reason)
 
 
-def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
+def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> IdealDecision:
     each = safety_of_member(*question.sides(run.left_given))
     solutions, reason, wanted = dict[str, tuple[int, ...]](), "", _needed(question, each)
     try:
@@ -259,7 +259,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> Told:
         reason = str(why)
     if not solutions:
         return _unknown(reason or "no solution with coordinates modulo the prime was found")
-    evidence = Solved(run.left_given, tuple(solutions), tuple(solutions.values()))
+    evidence = Solutions(run.left_given, tuple(solutions), tuple(solutions.values()))
     return Decision(Membership.MEMBER, each * len(solutions) - question.price, evidence, reason)
 
 

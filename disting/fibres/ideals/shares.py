@@ -34,7 +34,7 @@ from flint import fmpz, fmpz_mod_poly
 from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
 from disting.algebra.groebner.modular import Sparse, long_polynomial
-from disting.evidence.ideals import Shared
+from disting.evidence.ideals import NoShares
 from disting.fibres.ideals.bounds import safety_of_empty
 from disting.fibres.ideals.factored_map import (
     FactoredMap,
@@ -62,7 +62,7 @@ class _SolvableError(Exception):
 
 def tell_apart(
     left: FactoredMap, right: FactoredMap, seed: str, tries: Sequence[Try] = TRIES
-) -> tuple[Shared, int] | None:
+) -> tuple[NoShares, int] | None:
     """Evidence that two rows of equal rank have different closures, and its bits; None where
     nothing is found.
 
@@ -83,7 +83,7 @@ def tell_apart(
             return None
         if way is not None and is_refuted:
             bits = safety_of_empty(*match_maps(model.whole, other.whole), True, BITS)
-            shared = Shared(
+            shared = NoShares(
                 left_given=left_given,
                 part="",
                 label=way.label,

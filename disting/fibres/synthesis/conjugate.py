@@ -31,7 +31,7 @@ PRIMES = 400  # tried; a degree m needs about m of them, and r factors about 2^r
 FIRST = 1 << 20
 # which zero is -rho, which are those of A and of B
 Way = tuple[int, tuple[int, ...], tuple[int, ...]]
-Shown = set[tuple[int, str]]  # number of the factor, and what is known of its zeros
+Signs = set[tuple[int, str]]  # number of the factor, and what is known of its zeros
 
 
 def conjugate_factors(numerator: fmpq_poly) -> tuple[fmpz_poly, ...]:
@@ -61,7 +61,7 @@ def conjugate_factors(numerator: fmpq_poly) -> tuple[fmpz_poly, ...]:
 _WANTED = ((), (), ("transposition",), ("transitive", "doubly", "transposition"))
 
 
-def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Shown:
+def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Signs:
     """What the factors modulo a prime show of the group; nothing if one is multiple or a degree
     falls.
     """

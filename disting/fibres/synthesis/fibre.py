@@ -86,12 +86,12 @@ def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
 def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
     if chain.damped and chain.gap and 1 in chain.ground_dampers:
         single = replace(chain, ground_dampers=chain.ground_dampers[1:])
-        return shared(chain, _canonical_fibre(single, target, confirm))
+        return share_dampers(chain, _canonical_fibre(single, target, confirm))
     if chain.lag and not chain.damped and not chain.ground_dampers:
         factors = without_lag(target)
         if factors is None:
             return _without_lag_pole(chain, target)
-        return lagged(
+        return with_lag(
             chain, _canonical_fibre(replace(chain, lag=False), factors[0], confirm), factors[1]
         )
     ruled_out = _ruled_out(chain, target)
@@ -231,7 +231,7 @@ def _status(solutions: tuple[Solution, ...], tests: Exclusions) -> tuple[Status,
     return Status.EMPTY, "every branch is refuted"
 
 
-def shared(chain: Chain, whole: Fibre) -> Fibre:
+def share_dampers(chain: Chain, whole: Fibre) -> Fibre:
     """The fibre of the chain with both dampers from that of the chain without b_1: half and half
     of each solution.
 
@@ -281,7 +281,7 @@ def without_lag(t: Target) -> tuple[Target, fmpq] | None:
     return Target(t.numerator * time, denominator), time
 
 
-def lagged(chain: Chain, whole: Fibre, time: fmpq) -> Fibre:
+def with_lag(chain: Chain, whole: Fibre, time: fmpq) -> Fibre:
     """The fibre of the undamped chain with its lag."""
     with ctx.workprec(max(whole.precision_bits, ctx.prec)):
         return replace(whole, solutions=tuple(_with(chain, s, acb(time)) for s in whole.solutions))

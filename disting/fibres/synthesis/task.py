@@ -15,7 +15,7 @@ from disting.model.structure import Structure
 Ball = acb
 Exact = fmpq_poly
 Point = Mapping[str, fmpq]
-Values = Mapping[str, fmpq | acb]
+SolutionValues = Mapping[str, fmpq | acb]
 """Parameters by name, exact where that is possible."""
 
 

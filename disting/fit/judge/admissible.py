@@ -39,11 +39,11 @@ def reasons(candidate: Candidate, task: Task, limits: Thresholds, rule: Rule) ->
     exceeded = limits.reasons(candidate.practical)
     if rule is Rule.PAPER or not exceeded or candidate.practical.unidentifiable:
         return exceeded + bound
-    unknown = undetermined(candidate, task)
+    unknown = undetermined_sentence(candidate, task)
     return (*exceeded, unknown, *bound) if unknown else bound
 
 
-def undetermined(candidate: Candidate, task: Task) -> str:
+def undetermined_sentence(candidate: Candidate, task: Task) -> str:
     """What the data do not determine well, in one sentence; "" where they determine all."""
     loose = {n: e for n, e in candidate.practical.relative_errors.items() if not e <= FROM_ZERO}
     if not loose:

@@ -175,7 +175,7 @@ def _surely_apart(winner: Chain, other: Chain) -> bool:
 def _shipped() -> stored.Matrix | None:
     """The shipped verdicts; a missing or damaged file costs time only."""
     try:
-        return stored.shipped()
+        return stored.shipped_matrix()
     except CatalogError:
         return None
 

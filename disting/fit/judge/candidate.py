@@ -8,13 +8,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from disting.fit.judge.exclusion import Exclusion
-from disting.fit.judge.explanation import chi2, explained, noises, scatters, together, yardsticks
-from disting.fit.judge.practical import Practical, Seen, practical
+from disting.fit.judge.explanation import chi2, explain, merge, noises, scatters, yardsticks
+from disting.fit.judge.practical import NoiseModel, Practical, practical
 from disting.fit.judge.structural import with_structure
-from disting.fit.noise.covariance import expected
+from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.candidates import reference
-from disting.fit.search.data import Whitened
+from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import Indices, fine
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.joint import AnyCost
@@ -38,7 +38,7 @@ class Candidate:
     """A fitted candidate; `reasons` say which of its parameters are not determined, `residual` is
     that on the test data, shape (n_y,), whitened, and `missed` what it is expected to be.
 
-    `chi2` per line, see `explained`; `noise` = covariance of the residuals on the training data,
+    `chi2` per line, see `explain`; `noise` = covariance of the residuals on the training data,
     from which all standard errors follow; `trained` = its whitened residual there; `excluded`: by
     which other candidate, if by any.
     """
@@ -51,7 +51,7 @@ class Candidate:
     at_bound: tuple[str, ...]
     residual: Real = field(repr=False, compare=False)
     missed: Real = field(repr=False, compare=False)
-    noise: Seen = field(repr=False, compare=False)
+    noise: NoiseModel = field(repr=False, compare=False)
     trained: Real = field(repr=False, compare=False)
     reasons: tuple[str, ...] = ()
     akaike_weight: float = 0.0
@@ -87,7 +87,9 @@ class Candidate:
         }
 
 
-def witnessed(estimates: Iterable[Estimate], task: Task, test_cost: AnyCost | None) -> Scatters:
+def observed_scatters(
+    estimates: Iterable[Estimate], task: Task, test_cost: AnyCost | None
+) -> Scatters:
     """The scatter of training and judged data about the best estimates."""
     cost = test_cost or task.cost
     best = sorted(estimates, key=lambda e: e.j)[:WITNESSES]
@@ -99,7 +101,7 @@ def witnessed(estimates: Iterable[Estimate], task: Task, test_cost: AnyCost | No
     )
 
 
-def judged(
+def judge(
     estimates: Iterable[Estimate],
     task: Task,
     test_cost: AnyCost | None,
@@ -127,8 +129,8 @@ def explains(estimate: Estimate, task: Task, most: Real) -> bool:
     scatter = replace(own, rho=sigma / (np.sqrt(2) * own.size))
     missed = _expected(estimate, task, None, scatter, scatter)
     response = _cross_validated(estimate, task, values_of(estimate, task))
-    residual = Whitened(task.cost, scatter).residual(response)
-    return explained(task.cost, residual, missed, scatter).explains
+    residual = WhitenedCost(task.cost, scatter).residual(response)
+    return explain(task.cost, residual, missed, scatter).explains
 
 
 def share_about(estimate: Estimate, task: Task) -> Real:
@@ -140,7 +142,7 @@ def share_about(estimate: Estimate, task: Task) -> Real:
 
 def _scatter_about(estimate: Estimate, task: Task) -> Scatter:
     """Scatter of the data about one estimate."""
-    return together(scatters(task.cost, [_response(estimate, task)]))
+    return merge(scatters(task.cost, [_response(estimate, task)]))
 
 
 def values_of(estimate: Estimate, task: Task) -> Real:
@@ -152,7 +154,7 @@ def _response(estimate: Estimate, task: Task) -> Complex:
     return task.plant(estimate.chain).response(values_of(estimate, task))
 
 
-Criteria = tuple[Practical, Seen, Real]
+Criteria = tuple[Practical, NoiseModel, Real]
 """Criteria of an estimate, noise of its residuals, and these whitened."""
 
 
@@ -165,13 +167,13 @@ def _criteria(estimate: Estimate, task: Task, scatter: Scatter) -> Criteria:
     free = task.box(names).free
     residual, columns = task.cost.of(task.plant(chain), p)
     sigma = task.cost.scatter(scatter)
-    noise = noises(task.cost, residual, sigma, expected(columns[:, free], sigma))
+    noise = noises(task.cost, residual, sigma, expected_deviation(columns[:, free], sigma))
     return (
         practical(
             columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], noise
         ),
         noise,
-        Whitened(task.cost, scatter).residual(task.plant(chain).response(p)),
+        WhitenedCost(task.cost, scatter).residual(task.plant(chain).response(p)),
     )
 
 
@@ -193,7 +195,7 @@ def _candidate(
     near = (box.high - p <= AT_BOUND * p) | ((box.low > 0) & (p - box.low <= AT_BOUND * p))
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
     missed = _expected(estimate, task, test, *own_scatters)
-    whitened = Whitened(cost, own_scatters[1]).residual(response)
+    whitened = WhitenedCost(cost, own_scatters[1]).residual(response)
     return Candidate(
         chain,
         estimate,
@@ -217,14 +219,14 @@ def _expected(
     p, free = values_of(estimate, task), task.box(task.names(estimate.chain)).free
     plant, sigma, judging = task.plant(estimate.chain), task.cost.scatter(inside), test or task.cost
     other_plant = replace(task, cost=judging).plant(estimate.chain)
-    seen = Whitened(judging, outside).of(other_plant, p)[1][:, free]
+    seen = WhitenedCost(judging, outside).of(other_plant, p)[1][:, free]
     ones = np.ones(len(seen))
     if test is not None:
-        return expected(task.cost.of(plant, p)[1][:, free], sigma, seen, ones)
+        return expected_deviation(task.cost.of(plant, p)[1][:, free], sigma, seen, ones)
     rows = np.concatenate([np.tile(fold, 2) for fold in _folds(task.cost)])
     for fold in range(FOLDS):
         kept = _without(task, fold).cost.of(plant, p)[1][:, free]
-        ones[rows == fold] = expected(kept, sigma, seen[rows == fold], ones[rows == fold])
+        ones[rows == fold] = expected_deviation(kept, sigma, seen[rows == fold], ones[rows == fold])
     return ones
 
 

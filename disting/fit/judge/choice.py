@@ -14,11 +14,11 @@ import numpy as np
 
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate, Scatters, values_of
-from disting.fit.judge.exclusion import Exclusion, Fitted, basis_of, excluded, limit, statistic
-from disting.fit.judge.explanation import Explanation, allowed, explained, noises
+from disting.fit.judge.exclusion import Exclusion, Fit, basis_of, exclusions, limit, statistic
+from disting.fit.judge.explanation import Explanation, explain, largest_cost, noises
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
-from disting.fit.search.data import Whitened
+from disting.fit.search.data import WhitenedCost
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
 from disting.measurement.arrays import Real
@@ -26,7 +26,7 @@ from disting.model.chain import Chain
 from disting.model.question import Settings
 
 
-def akaike_weighted(candidates: Sequence[Candidate], task: Task) -> list[Candidate]:
+def with_akaike_weights(candidates: Sequence[Candidate], task: Task) -> list[Candidate]:
     """Akaike weights among the admissible ones: exp(-AIC/2), AIC = sum n_y ln(J/n_y) + 2 N_p over
     the responses, each with its own variance; in all 1.
     """
@@ -82,7 +82,7 @@ def choice(
     judging, seen = test or task.cost, scatters[1]
     asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
     asked = [c for c in asked if not c.practical.unidentifiable] or asked
-    explaining = [c for c in asked if c.chi2 <= allowed(seen)]
+    explaining = [c for c in asked if c.chi2 <= largest_cost(seen)]
     if not explaining:
         best = asked[0] if asked else None
         said = _explained(best or fitted[0], judging, seen)
@@ -98,7 +98,7 @@ def choice(
 
 
 def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
-    return explained(judging, described.residual, described.missed, seen)
+    return explain(judging, described.residual, described.missed, seen)
 
 
 def _excluded(
@@ -113,24 +113,26 @@ def _excluded(
     """
     inside, outside = scatters
     if test is None:
-        return excluded([trained_as(c, task, inside) for c in candidates], inside.freedom, settings)
+        return exclusions(
+            [trained_as(c, task, inside) for c in candidates], inside.freedom, settings
+        )
     other_task = replace(task, cost=test)
     tested = [_fitted(c, c.residual, other_task, outside) for c in candidates]
-    return excluded(tested, outside.freedom, settings, seen=False)
+    return exclusions(tested, outside.freedom, settings, seen=False)
 
 
-def trained_as(candidate: Candidate, task: Task, scatter: Scatter) -> Fitted:
+def trained_as(candidate: Candidate, task: Task, scatter: Scatter) -> Fit:
     """What the test of exclusion asks of a candidate on the data of its fit."""
     return _fitted(candidate, candidate.trained, task, scatter)
 
 
-def _fitted(candidate: Candidate, residual: Real, task: Task, scatter: Scatter) -> Fitted:
-    whitened = Whitened(task.cost, scatter)
+def _fitted(candidate: Candidate, residual: Real, task: Task, scatter: Scatter) -> Fit:
+    whitened = WhitenedCost(task.cost, scatter)
     p = values_of(candidate.estimate, task)
     columns = whitened.of(task.plant(candidate.chain), p)[1]
     free = task.box(task.names(candidate.chain)).free
     noise = noises(task.cost, residual, np.ones(residual.size))
-    return Fitted(candidate.chain, residual, basis_of(columns[:, free]), noise)
+    return Fit(candidate.chain, residual, basis_of(columns[:, free]), noise)
 
 
 def _better(

@@ -24,7 +24,7 @@ from typing import Protocol
 import numpy as np
 from scipy.stats import chi2, f as f_distribution
 
-from disting.fit.judge.practical import Seen
+from disting.fit.judge.practical import NoiseModel
 from disting.fit.noise.covariance import VANISHING
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
@@ -50,12 +50,12 @@ class Residuals(Protocol):
         """That of the sensitivities."""
 
     @property
-    def noise(self) -> Seen:
+    def noise(self) -> NoiseModel:
         """The noise that it leaves."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Fitted:
+class Fit:
     """Whitened residual r, shape (n_y,), of a fitted structure, an orthonormal basis of its
     sensitivities, shape (n_y, n), and the noise that it leaves, in units of the scatter.
     """
@@ -63,7 +63,7 @@ class Fitted:
     chain: Chain
     residual: Real
     basis: Real
-    noise: Seen
+    noise: NoiseModel
 
     @property
     def cost(self) -> float:
@@ -123,8 +123,8 @@ def trials(chain: Chain, other: Chain, lines: int) -> int:
     return max(lines, 1) if other.n_masses > chain.n_masses else 1
 
 
-def excluded(
-    fitted: Sequence[Fitted], freedom: float, settings: Settings, *, seen: bool = True
+def exclusions(
+    fitted: Sequence[Fit], freedom: float, settings: Settings, *, seen: bool = True
 ) -> dict[Chain, Exclusion]:
     """The structures that others exclude, each with the one that does so most clearly; `seen`:
     by the data that all were fitted to.
@@ -161,11 +161,11 @@ def surplus(model: Chain, rival: Chain, settings: Settings | None = None) -> int
     1
     """
     settings = settings or Settings()
-    larger = joined(model, rival) or model
+    larger = union(model, rival) or model
     return max(1, _rank(larger, settings) - _rank(rival, settings))
 
 
-def joined(model: Chain, rival: Chain) -> Chain | None:
+def union(model: Chain, rival: Chain) -> Chain | None:
     """The smallest structure that contains both; None where they differ in more than dampers to
     the ground, lag and dead time.
     """

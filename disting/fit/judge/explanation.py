@@ -15,7 +15,7 @@ What is said of several responses one by one: how much each scatters, and what i
 like.
 
 Responses of one machine share their parameters and no noise: nothing is carried from the last line
-of one to the first of the next. Of one response all this is what `scatter`, `noise` and `explained`
+of one to the first of the next. Of one response all this is what `scatter`, `noise` and `explain`
 say.
 """
 
@@ -27,7 +27,7 @@ import numpy as np
 from scipy.stats import chi2 as chi2_distribution, f as f_distribution
 
 from disting.fit.noise.covariance import Noise, correlation, noise
-from disting.fit.noise.scatter import Scatter, changed, scatter, widened
+from disting.fit.noise.scatter import Scatter, change, scatter, widen
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
@@ -101,7 +101,7 @@ class Explanation:
         """Whether the candidate misses no more than the data scatter, and there is more than
         noise.
         """
-        return self.chi2 <= allowed(self.scatter) and not self.noisy
+        return self.chi2 <= largest_cost(self.scatter) and not self.noisy
 
     @property
     def noisy(self) -> bool:
@@ -109,7 +109,7 @@ class Explanation:
         return (self.scatter.clear if self.clear is None else self.clear) < FEW_CLEAR
 
 
-def allowed(own_scatter: Scatter) -> float:
+def largest_cost(own_scatter: Scatter) -> float:
     """Largest chi2 per line of a model that explains data of this scatter."""
     count = 2 * len(own_scatter.rho)
     if isfinite(own_scatter.freedom):
@@ -201,14 +201,14 @@ def yardsticks(
     """
     inside = scatters(train, fitted)
     if train is judged:
-        return together(inside), together(inside)
+        return merge(inside), merge(inside)
     outside = scatters(judged, seen)
     for k, part in enumerate(judged.parts):
         at = train.setups.index(judged.setups[k])
         first = train.parts[at].measured
-        tau = changed(first, part.measured, inside[at], outside[k])
-        inside[at], outside[k] = widened(inside[at], tau), widened(outside[k], tau)
-    return together(inside), together(outside)
+        tau = change(first, part.measured, inside[at], outside[k])
+        inside[at], outside[k] = widen(inside[at], tau), widen(outside[k], tau)
+    return merge(inside), merge(outside)
 
 
 def partners(train: AnyCost, judged: AnyCost) -> list[FrequencyResponse]:
@@ -248,7 +248,7 @@ def explanations(
     )
 
 
-def explained(cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter) -> Explanation:
+def explain(cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter) -> Explanation:
     """What the residuals of all responses say together."""
     each = explanations(cost, residual, missed, own_scatter)
     if len(each) == 1:
@@ -278,7 +278,7 @@ def _each(cost: AnyCost, fitted: Sequence[Complex]) -> list[list[Complex]]:
     ]
 
 
-def together(each: Iterable[Scatter]) -> Scatter:
+def merge(each: Iterable[Scatter]) -> Scatter:
     """The scatter of all lines."""
     the_scatters = list(each)
     return Scatter(

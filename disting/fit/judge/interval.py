@@ -30,7 +30,7 @@ from disting.fit.judge.exclusion import FELT, limit
 from disting.fit.judge.practical import covariance
 from disting.fit.noise.covariance import equal
 from disting.fit.noise.scatter import Scatter
-from disting.fit.search.data import Whitened
+from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task
 from disting.fit.search.starts import natural, scale
@@ -55,7 +55,7 @@ class _Likelihood:
 
     task: Task
     candidate: Candidate
-    whitened: Whitened
+    whitened: WhitenedCost
     known: Scatter
     best: Real
     lowest: float
@@ -116,7 +116,7 @@ def _with_valleys(
 
 
 def _likelihood(candidate: Candidate, task: Task, scatter: Scatter) -> _Likelihood:
-    names, whitened = task.names(candidate.chain), Whitened(task.cost, scatter)
+    names, whitened = task.names(candidate.chain), WhitenedCost(task.cost, scatter)
     plant, box = task.plant(candidate.chain), task.box(names)
     best, lowest = fine(plant, whitened, box, values_of(candidate.estimate, task))
     columns = whitened.of(plant, best)[1][:, box.free]

@@ -11,14 +11,14 @@ from math import inf
 
 import numpy as np
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_model import is_renaming
 from disting.fit.judge.alternatives import Alternative, Limits, is_within
 from disting.fit.search.candidates import reference
 from disting.fit.search.estimate import Task
 from disting.fit.search.exchange import SEARCHED, body, estimates
-from disting.fit.search.joint import AnyCost, Further, JointCost
+from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.fit.search.setup import Setup, measurable, measured_chain
 from disting.measurement.arrays import Complex
 from disting.model.chain import Chain
@@ -151,7 +151,7 @@ def placements(chain: Chain, other: Chain, setups: Sequence[Setup]) -> Iterator[
             yield moved
 
 
-def located(task: Task, candidates: Sequence[Chain], home: Chain, store: Store) -> Task:
+def locate(task: Task, candidates: Sequence[Chain], home: Chain, store: Store) -> Task:
     """The task with the places of further responses in every candidate. Their names are those of
     `home`, and of chains that differ from it in dampers, lag and dead time alone; which mass is
     which in another one is not known: every choice is fitted, and the best is taken.
@@ -176,16 +176,16 @@ def located(task: Task, candidates: Sequence[Chain], home: Chain, store: Store) 
     return replace(task, cost=replace(cost, places=the_setups))
 
 
-def learning(
-    candidates: Sequence[Chain], further: Sequence[Further], home: Chain | None = None
-) -> tuple[list[Chain], list[Further], list[str]]:
+def informative(
+    candidates: Sequence[Chain], further: Sequence[FurtherResponse], home: Chain | None = None
+) -> tuple[list[Chain], list[FurtherResponse], list[str]]:
     """The candidates that have all places, the responses that say something of them, and in words
-    those that do not; raises InputError where no candidate has the places. `home`: as in `located`.
+    those that do not; raises InputError where no candidate has the places. `home`: as in `locate`.
     """
     if home is not None:
         lacking = [extra.setup.missing(home.structure) for extra in further]
         if any(lacking):
-            said = listed(list(filter(None, lacking)))
+            said = enumeration(list(filter(None, lacking)))
             raise InputError(f"{reference(home)} cannot be measured like this: {said}")
         setups = [Setup(), *(extra.setup for extra in further)]
         other_chains = [
@@ -198,7 +198,7 @@ def learning(
         reasons |= dict.fromkeys(filter(None, missing.values()))
         kept = [c for c in kept if not missing[c.n_masses]]
     if not kept:
-        raise InputError(f"no candidate can be measured like this: {listed(reasons)}")
+        raise InputError(f"no candidate can be measured like this: {enumeration(reasons)}")
     silent = [all(extra.setup.is_silent(c.structure) for c in kept) for extra in further]
     heard = [extra for extra, dead in zip(further, silent, strict=True) if not dead]
     kept = [c for c in kept if not any(extra.setup.is_silent(c.structure) for extra in heard)]

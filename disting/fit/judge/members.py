@@ -18,19 +18,19 @@ from disting.equivalence import Origin, Signs, equivalents
 from disting.fit.judge.alternatives import Limits
 from disting.fit.judge.candidate import Candidate, Scatters
 from disting.fit.judge.exclusion import contains
-from disting.fit.judge.explanation import noises, scatters, together
+from disting.fit.judge.explanation import merge, noises, scatters
 from disting.fit.judge.interval import Interval, intervals
 from disting.fit.judge.joint_verdicts import behaves_alike
 from disting.fit.judge.practical import practical
-from disting.fit.noise.covariance import expected
-from disting.fit.search.candidates import as_listed, reference
+from disting.fit.noise.covariance import expected_deviation
+from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.presentation import plural, summary
-from disting.store.scheduling import mapped
+from disting.store.scheduling import map_tasks
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
 EVERY_SET = 4
@@ -127,7 +127,7 @@ def members(
         for c in chosen
     ]
     twins_of = dict[Chain, tuple[tuple[Twin, ...], tuple[str, ...]]]()
-    for (chain, values, _), both in mapped(twins, rows, executor):
+    for (chain, values, _), both in map_tasks(twins, rows, executor):
         twins_of[chain] = _in_all(chain, values, *both, task)
         progress("equivalents", len(twins_of), len(rows))
     return tuple(
@@ -158,7 +158,7 @@ def twins(
     """Structures with the same behaviour within the limits, and the names of those of which
     that is not known.
     """
-    the_twins, unknown, form = list[Twin](), list[str](), as_listed(chain)
+    the_twins, unknown, form = list[Twin](), list[str](), listed_form(chain)
     text = {form.renaming[name]: repr(max(value, NOTHING)) for name, value in values.items()}
     limits = {form.renaming.get(name, name): both for name, both in limits.items()}
     for other in _catalogue(chain):
@@ -230,11 +230,11 @@ def disagreements(candidate: Candidate, task: Task, test: AnyCost) -> tuple[Disa
         return ()
     p, _ = fine(plant, test, box, start)
     residual, columns = test.of(plant, p)
-    scatter = together(scatters(test, [plant.response(p)]))
+    scatter = merge(scatters(test, [plant.response(p)]))
     free = [n for n, chosen in zip(names, box.free, strict=True) if chosen]
     sigma, columns = test.scatter(scatter), columns[:, box.free]
     other = practical(
-        columns, free, noises(test, residual, sigma, expected(columns, sigma))
+        columns, free, noises(test, residual, sigma, expected_deviation(columns, sigma))
     ).relative_errors
     values = dict(zip(names, map(float, p), strict=True))
     the_disagreements = []

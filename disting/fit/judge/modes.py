@@ -124,7 +124,7 @@ def _values(structure: Structure, p: Real) -> list[Result]:
         if n[0] == "T"
     ]
     for what, roots in (("antiresonance", zeros(structure, p)), ("resonance", poles(structure, p))):
-        for i, root in enumerate(oscillating(roots), 1):
+        for i, root in enumerate(oscillations(roots), 1):
             rows.append((f"{what} {i}", abs(root) / (2 * pi), "Hz"))
             rows.append((f"damping ratio of {what} {i}", 0.0 - root.real / abs(root), ""))
     return [Result(name, value, 0.0, unit) for name, value, unit in rows]
@@ -148,7 +148,7 @@ def _named(structure: Structure, p: Real) -> dict[str, float]:
     return dict(zip(structure.parameters, map(float, p), strict=True))
 
 
-def oscillating(roots: Complex) -> list[complex]:
+def oscillations(roots: Complex) -> list[complex]:
     """One of each pair of conjugate roots, by rising frequency |s|; the motion as one rigid
     body is none.
     """
@@ -172,7 +172,7 @@ def between_lines(
     []
     """
     p = np.array([values[name] for name in structure.parameters])
-    pairs = [oscillating(roots(structure, p)) for roots in (poles, zeros)]
+    pairs = [oscillations(roots(structure, p)) for roots in (poles, zeros)]
     for pole, zero in product(*pairs):
         hertz = np.array([pole.imag, zero.imag]) / (2 * pi)
         before, other = np.searchsorted(grid, hertz)

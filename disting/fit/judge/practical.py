@@ -24,7 +24,7 @@ ROUNDING = 1e-15  # a singular value below this share of the largest one is zero
 LOST = 1e-6
 
 
-class Seen(Protocol):
+class NoiseModel(Protocol):
     """Noise as standard errors see it."""
 
     def seen(self, columns: Real) -> Real:
@@ -143,7 +143,7 @@ class Practical:
         return self.condition_indices[-1] if self.condition_indices else 1.0
 
 
-def practical(columns: Real, names: Sequence[str], noise: Seen) -> Practical:
+def practical(columns: Real, names: Sequence[str], noise: NoiseModel) -> Practical:
     """Criteria at an optimum with residuals of covariance `noise`; `columns` = S_j p_j, shape
     (n_y, n_p), of free parameters.
 
@@ -170,7 +170,7 @@ def practical(columns: Real, names: Sequence[str], noise: Seen) -> Practical:
     )
 
 
-def covariance(columns: Real, noise: Seen) -> Real:
+def covariance(columns: Real, noise: NoiseModel) -> Real:
     """Covariance of ln p, shape (n_p, n_p): H (S' C S) H, H = (S' S)^-1, with C of the
     residuals; infinite if S is singular.
     """
@@ -183,7 +183,7 @@ def covariance(columns: Real, noise: Seen) -> Real:
     return np.asarray(half.T @ half)
 
 
-def standard_errors(slopes: Real, columns: Real, noise: Seen, rank: int) -> Real:
+def standard_errors(slopes: Real, columns: Real, noise: NoiseModel, rank: int) -> Real:
     """Standard errors of functions of ln p with gradients `slopes`, shape (n, n_p): sqrt(g' C g),
     without cancellation.
 

@@ -18,7 +18,7 @@ from disting.fit.judge.candidate import Candidate, explains, share_about
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import Case
 from disting.fit.search.estimate import Estimate, Task
-from disting.fit.search.exchange import estimates, explored
+from disting.fit.search.exchange import estimates, explore
 from disting.fit.search.joint import JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
@@ -43,14 +43,14 @@ def read_in_words(measured: FrequencyResponse) -> str:
     """
     origin = f"{measured.origin}: " if measured.origin else ""
     reading = f"{measured.reading}; " if measured.reading else ""
-    quantity = assumed(measured)
+    quantity = assumed_quantity(measured)
     phrase = "" if quantity is None else " (assumed)"
     if quantity is not None and quantity is not measured.sensor:
         phrase = f", from a {quantity.value} (assumed)"
     return f"{origin}{reading}sensor: {measured.sensor.value}{phrase}"
 
 
-def assumed(measured: FrequencyResponse) -> Sensor | None:
+def assumed_quantity(measured: FrequencyResponse) -> Sensor | None:
     """The quantity that the sensor, or the recorded output, is taken to show; None where somebody
     said it.
     """
@@ -70,10 +70,10 @@ def other_quantities(
     cost = task.cost
     if isinstance(cost, JointCost) or cost.case is not Case.LOGARITHM:
         return ()
-    taken = assumed(cost.measured)
+    taken = assumed_quantity(cost.measured)
     if taken is None:
         return ()
-    task, own_estimates = explored(searched, task)
+    task, own_estimates = explore(searched, task)
     nearest = min(own_estimates, key=lambda fit: _criterion(fit, task))
     before, most = _criterion(nearest, task), share_about(nearest, task)
     pairs = list[tuple[float, Sensor, Estimate]]()

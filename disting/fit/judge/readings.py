@@ -19,7 +19,7 @@ import numpy as np
 from disting.errors import ConstraintViolation
 from disting.fit.judge.candidate import explains, share_about
 from disting.fit.search.estimate import Estimate, Task
-from disting.fit.search.exchange import SEARCHED, estimates, explored
+from disting.fit.search.exchange import SEARCHED, estimates, explore
 from disting.fit.search.joint import AnyCost, JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex
@@ -38,7 +38,7 @@ MOST_DB = 400.0  # of a gain
 HELD = (2.0, 2.5, 4.0)  # rates of a hold, as ratios to the highest frequency
 
 
-def signed(task: Task, candidates: Sequence[Chain]) -> Task:
+def better_sign(task: Task, candidates: Sequence[Chain]) -> Task:
     """The sign with which candidates fit better, the best of the largest and the smallest ones
     of each size; of further responses each is tried beside the first one.
     """
@@ -119,7 +119,7 @@ def readings(
     """Readings under which the data fit much better than the best of the estimates does, small
     changes first.
     """
-    task, own_estimates = explored(searched, task)
+    task, own_estimates = explore(searched, task)
     small = [e for e in own_estimates if e.chain.n_masses <= SMALL] or own_estimates
     base = _loose(min(small, key=lambda e: e.j).chain)
     largest = max((e.chain for e in own_estimates), key=lambda c: c.n_masses)

@@ -66,7 +66,7 @@ def equal(j: float, n_y: int, n_p: int) -> Noise:
     return Noise(np.full(n_y, sqrt(j / (n_y - n_p)) if n_y > n_p else np.inf))
 
 
-def expected(
+def expected_deviation(
     fitted: Real, sigma: Real, seen: Real | None = None, other_values: Real | None = None
 ) -> Real:
     """Standard deviation of residuals of the true structure, shape (n_y,): scatter of the lines
@@ -97,7 +97,7 @@ def expected(
 
 def noise(residual: Real, sigma: Real, missed: Real | None = None) -> Noise:
     """C of residuals, shape (n_y,), at lines that scatter by `sigma`; `missed` = what a fit is
-    to miss (`expected`).
+    to miss (`expected_deviation`).
     """
     sigma = np.maximum(sigma, np.finfo(float).tiny)  # a line of weight zero
     missed = sigma if missed is None else np.maximum(missed, sigma)

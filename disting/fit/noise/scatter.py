@@ -233,13 +233,13 @@ def _balanced(excess: Callable[[float], float]) -> float:
     return MOST_TAU if excess(MOST_TAU) > 0 else float(brentq(excess, 0.0, MOST_TAU, xtol=1e-6))
 
 
-def changed(
+def change(
     own_response: FrequencyResponse, other: FrequencyResponse, own: Scatter, other_scatter: Scatter
 ) -> float:
     """tau by which a machine changes between two measurements, from lines that both have; 0 where
     what both scatter accounts for their difference.
     """
-    at, common = shared(own_response, other)
+    at, common = nearest_lines(own_response, other)
     if own_response is other or common.sum() < COMMON:
         return 0.0
     power = np.abs(np.log(other.G[common] / own_response.G[at[common]])) ** 2
@@ -250,7 +250,7 @@ def changed(
     return _balanced(lambda tau: float(np.mean(power / (both + 4 * tau**2))) - 1)
 
 
-def widened(own: Scatter, tau: float) -> Scatter:
+def widen(own: Scatter, tau: float) -> Scatter:
     """The scatter with what a machine changes by between two measurements."""
     if not tau:
         return own
@@ -259,7 +259,7 @@ def widened(own: Scatter, tau: float) -> Scatter:
     )
 
 
-def shared(
+def nearest_lines(
     response: FrequencyResponse, other: FrequencyResponse
 ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
     """For each line of `other` the nearest one of `response`, and whether they are the same; shape

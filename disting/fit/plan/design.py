@@ -22,7 +22,7 @@ RESOLVED = 20  # lines of the bench below the lowest planned one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Designed:
+class Design:
     """The best band, the optimal spectrum, and the one to be run, on lines [Hz]."""
 
     hertz: Real
@@ -69,17 +69,17 @@ class Designed:
         return self.run.noncentrality * (before / after) ** 2
 
 
-def designed(plan: Plan) -> Designed | None:
+def design(plan: Plan) -> Design | None:
     """Band and spectra against a rival; None where no effort is enough."""
     if plan.rival is None or plan.answer is Answer.SAME:
         return None
     adversary = Adversary(plan.rival)
     band = best_band(adversary)
     best = optimal(adversary)
-    return Designed(plan.rival.hertz, band, best, runnable(adversary, best))
+    return Design(plan.rival.hertz, band, best, runnable(adversary, best))
 
 
-def designed_to_dict(plan: Plan, best: Designed | None) -> dict[str, Any]:
+def designed_to_dict(plan: Plan, best: Design | None) -> dict[str, Any]:
     """Plain data of a plan with its spectra; `shares` of the power by line."""
     plain = plan_to_dict(plan)
     if best is None:

@@ -12,11 +12,11 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from disting.errors import InputError, listed
+from disting.errors import InputError, enumeration
 from disting.files import Format, read_json
 from disting.fit.results.model_file import FIT_FILE, chain_from_dict, model_from_dict, number_of
 from disting.fit.results.networks import BAR
-from disting.fit.search.candidates import as_listed, reference
+from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.starts import Parameters
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -30,7 +30,7 @@ REASON = "the same responses for all positive values"
 
 
 @dataclass(frozen=True, slots=True)
-class Left:
+class Survivor:
     """A structure that the data leave, `fitted` or behaving as one that was: `like` names those
     whose response it has for their fitted values. `values`: all its parameter vectors that are
     known to do so, its own fit first; `free`: dimension of the family that some are taken from.
@@ -49,7 +49,7 @@ class Left:
 
 
 @dataclass(frozen=True, slots=True)
-class Named:
+class FitRecord:
     """`explained`: whether the selected structure explains the data; `same`: names of what behaves
     the same, with the reason; `rivals` with their fitted values, none of those that were not
     fitted; `left`: the structures that the data leave, the selected one first; `scatter` of a line;
@@ -64,7 +64,7 @@ class Named:
     explained: bool
     rivals: dict[Chain, Parameters]
     same: dict[str, str]
-    left: tuple[Left, ...]
+    left: tuple[Survivor, ...]
     scatter: float
     low: float
     high: float
@@ -80,7 +80,7 @@ class Named:
         return tuple(survivor.chain for survivor in self.left)
 
 
-def named_by(path: Path) -> Named:
+def named_by(path: Path) -> FitRecord:
     """What a JSON file of `disting fit` names; raises InputError."""
     plain = read_json(path, FIT_FILE)
     if not isinstance(plain, dict) or not isinstance(plain.get("selected"), dict):
@@ -89,7 +89,7 @@ def named_by(path: Path) -> Named:
     try:
         range_of = plain.get("frequencies", {"low": 0.0, "high": 0.0, "lines": 0})
         same = dict(_same(plain))
-        return Named(
+        return FitRecord(
             model,
             values,
             plain["explained"] is True,
@@ -129,7 +129,7 @@ def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, Parameters]]:
     yield from map(model_from_dict, members)
 
 
-def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[Left]:
+def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[Survivor]:
     """The selected structure, the others that were fitted, then what behaves as one of these;
     each once.
     """
@@ -157,7 +157,7 @@ def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[L
         if value["relation"] == Relation.INDISTINGUISHABLE:
             add(reference(chain_from_dict(value)), model)
     for chain, all_values in own.items():
-        yield Left(
+        yield Survivor(
             chain, chain in fitted, tuple(all_values), tuple(like[chain]), free.get(chain, 0)
         )
 
@@ -171,7 +171,7 @@ def _whole(entries: Parameters, chain: Chain) -> Iterator[Parameters]:
     """Values under the names of the listed form, under those of the chain; nothing where some are
     missing.
     """
-    other_entries = as_listed(chain).renaming
+    other_entries = listed_form(chain).renaming
     if all(other_entries[name] in entries for name in chain.parameters):
         yield {name: number_of(entries[other_entries[name]]) for name in chain.parameters}
 
@@ -268,7 +268,7 @@ def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, .
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise _broken(path, reason) from None
     if not survivors:
-        tried = listed(entries, BAR)
+        tried = enumeration(entries, BAR)
         raise InputError(f"none of the networks of {path} explains its data ({tried}): try others")
     return tuple(sorted(survivors, key=lambda survivor: survivor.network.name != plain["selected"]))
 

@@ -32,7 +32,7 @@ import numpy as np
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.menu import Costs, Gain, Item, gain
 from disting.fit.judge.exclusion import LEVEL, surplus, trials
-from disting.fit.plan.fit_file import Left, Named
+from disting.fit.plan.fit_file import FitRecord, Survivor
 from disting.fit.plan.power import power
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import Parameters
@@ -49,7 +49,7 @@ Spot = tuple[int, int]
 LINES = 120  # where the file of a fit does not say how many
 
 
-class Standing(StrEnum):
+class Reason(StrEnum):
     """Of two structures that the data leave.
 
     EQUAL: indistinguishable by this force and sensor, over generic complex parameters; TWIN: one
@@ -71,7 +71,7 @@ class Stood:
     that are EQUAL though of two sizes.
     """
 
-    left: tuple[Left, ...]
+    left: tuple[Survivor, ...]
     classes: tuple[tuple[int, ...], ...]
     rules: dict[tuple[int, int], str]
     across: frozenset[tuple[int, int]] = frozenset()
@@ -81,18 +81,18 @@ class Stood:
         """The classes of several structures."""
         return tuple(c for c in self.classes if len(c) > 1)
 
-    def standing(self, a: int, b: int) -> Standing:
+    def standing(self, a: int, b: int) -> Reason:
         """Of two different structures."""
         survivor, other = self.left[a], self.left[b]
         if self._class(a) == self._class(b) or self._classes(a, b) in self.across:
-            return Standing.EQUAL
+            return Reason.EQUAL
         if (
             survivor.chain in other.like
             or other.chain in survivor.like
             or set(survivor.like) & set(other.like)
         ):
-            return Standing.TWIN
-        return Standing.NOISE if self.rule(a, b) else Standing.OPEN
+            return Reason.TWIN
+        return Reason.NOISE if self.rule(a, b) else Reason.OPEN
 
     def rule(self, a: int, b: int) -> str:
         """What tells two structures of different classes apart now; "" where nothing does."""
@@ -106,7 +106,7 @@ class Stood:
         return next(k for k, members in enumerate(self.classes) if at in members)
 
 
-def stood(left: Sequence[Left], engine: Engine, progress: Progress = silent) -> Stood:
+def stood(left: Sequence[Survivor], engine: Engine, progress: Progress = silent) -> Stood:
     """Sort the structures into classes; those of other sizes are in other classes."""
     sides = [engine.subject(survivor.name, survivor.chain) for survivor in left]
     query = Query(View.EXACT, inclusion=False)
@@ -182,7 +182,7 @@ STILL = Step(0.0, 0.0, 0.0)
 MOVES = Step(inf, inf, 0.0)
 
 
-def bench_of(named: Named) -> Bench | None:
+def bench_of(named: FitRecord) -> Bench | None:
     """The lines of the fit with their typical scatter, and an inertia as large as the mean mass of
     the selected structure; None where the file does not tell the lines.
     """
@@ -194,7 +194,7 @@ def bench_of(named: Named) -> Bench | None:
     return Bench(omega, np.full(count, named.scatter), float(np.mean(masses)))
 
 
-def shown(chain: Chain, values: Parameters, item: Item, bench: Bench) -> Complex | None:
+def response_under(chain: Chain, values: Parameters, item: Item, bench: Bench) -> Complex | None:
     """Response of a chain under an item of the menu, shape (n_f,); None where the sensor does not
     move.
     """
@@ -218,12 +218,12 @@ def step(values: Complex | None, other: Complex | None, bench: Bench) -> Step:
 
 
 @dataclass(frozen=True, eq=False)
-class Foretold:
+class Predictions:
     """The structures `left` under every item of the menu; `responses[item, k]`: those of structure
     k, one for each of its parameter vectors.
     """
 
-    left: tuple[Left, ...]
+    left: tuple[Survivor, ...]
     bench: Bench
     responses: Mapping[tuple[Item, int], Sequence[Complex | None]]
     settings: Settings
@@ -266,20 +266,22 @@ class Foretold:
         return power(the_step.noncentrality, surplus(*chains, self.settings), LEVEL / count)
 
 
-def foretold(
-    left: Sequence[Left],
+def predictions(
+    left: Sequence[Survivor],
     bench: Bench,
     settings: Settings | None = None,
     costs: Costs | None = None,
-) -> Foretold:
+) -> Predictions:
     """Every structure under every item of its menu, of all kinds that have a cost."""
     costs = costs or Costs()
     responses = {
-        (item, k): [shown(survivor.chain, values, item, bench) for values in survivor.values]
+        (item, k): [
+            response_under(survivor.chain, values, item, bench) for values in survivor.values
+        ]
         for k, survivor in enumerate(left)
         for item in _menu(survivor.chain, costs)
     }
-    return Foretold(tuple(left), bench, responses, settings or Settings(), costs)
+    return Predictions(tuple(left), bench, responses, settings or Settings(), costs)
 
 
 def _menu(chain: Chain, costs: Costs) -> list[Item]:

@@ -29,13 +29,13 @@ from typing import Any
 
 from disting.conditions.inclusion import Inclusion
 from disting.files import Format
-from disting.fit.judge.exclusion import LEVEL, joined, surplus, trials
+from disting.fit.judge.exclusion import LEVEL, surplus, trials, union
 from disting.fit.plan.rival import Rival, Trust, fitted_rival
-from disting.fit.plan.sample import POWER, Sample, ideal, simulated
+from disting.fit.plan.sample import POWER, Sample, ideal, simulate
 from disting.fit.plan.search import AnyStructure, name_of, sensor_of, shown_as
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
-from disting.model.presentation import Shown, summary
+from disting.model.presentation import NotebookTable, summary
 from disting.network.network import Network
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine, Progress, silent
@@ -61,7 +61,7 @@ def power(noncentrality: float, surplus: int = 1, level: float = LEVEL) -> float
 
 
 @dataclass(frozen=True, eq=False)
-class Plan(Shown):
+class Plan(NotebookTable):
     """What is planned for one rival; `rival` is None where the verdict makes a fit idle, `verdict`
     where none was asked for. `repeats`: of the measurement, from which a fit finds the scatter;
     None where it is known.
@@ -106,7 +106,7 @@ class Plan(Shown):
         and dead time alone.
         """
         if isinstance(self.model, Chain) and isinstance(self.other, Chain):
-            return joined(self.model, self.other)
+            return union(self.model, self.other)
         return None
 
     @property
@@ -129,7 +129,7 @@ class Plan(Shown):
         if self.repeats is None or not self.noncentrality > 0:
             return ideal(self.surplus, self.level)
         assert self.rival is not None
-        return simulated(self.rival, self.surplus, self.level, self.repeats)
+        return simulate(self.rival, self.surplus, self.level, self.repeats)
 
     @property
     def level(self) -> float:

@@ -123,7 +123,7 @@ class Rival:
         """|G_B/G_A - 1| of every line, shape (n_f,); of several responses the root of the sum of
         squares.
         """
-        return apart(self, self.best.p)
+        return relative_distance(self, self.best.p)
 
     @property
     def is_same(self) -> bool:
@@ -158,7 +158,7 @@ def _limit(share: float) -> Limit:
     return Limit.INFINITY if share > EXTREME else Limit.ANY
 
 
-def apart(rival: Rival, p: Real) -> Real:
+def relative_distance(rival: Rival, p: Real) -> Real:
     """|G_B/G_A - 1| of every line, shape (n_f,), for parameters `p`, shape (n_p,), of the rival; of
     several responses the root of the sum of squares.
     """
@@ -215,7 +215,7 @@ def _cost(responses: Sequence[FrequencyResponse], weights: Real) -> AnyCost:
     return parts[0] if len(parts) == 1 else JointCost(parts, (Setup(),) * len(parts))
 
 
-def weighted(rival: Rival, weights: Real) -> AnyCost:
+def reweight(rival: Rival, weights: Real) -> AnyCost:
     """The rival's cost with further weights of its lines, shape (n_f,)."""
     return _cost([part.measured for part in rival.cost.parts], weights / rival.rho)
 

@@ -61,7 +61,7 @@ def ideal(surplus: int = 1, level: float = LEVEL) -> Sample:
     return Sample(ones * limit(surplus, np.inf, level=level), ones, ones, surplus)
 
 
-def simulated(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
+def simulate(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
     """The test with the scatter as so many repeats tell it."""
     source = np.random.default_rng(SEED)
     residual, columns = rival.cost.of(rival.plant, rival.best.p)

@@ -9,24 +9,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.networks import SEED, STARTS, BestFit, searched
+from disting.fit.networks import SEED, STARTS, BestFit, search_from
 from disting.fit.search.candidates import reference
 from disting.fit.search.descent import Box, fine
 from disting.fit.search.estimate import Estimate, Task, estimate
 from disting.fit.search.exchange import estimates
 from disting.fit.search.joint import AnyCost
-from disting.fit.search.neighbours import carried
+from disting.fit.search.neighbours import carry_over
 from disting.fit.search.network_plant import (
     AnyNetworkPlant,
     network_plant,
     random_starts,
 )
 from disting.fit.search.plant import Plant
-from disting.fit.search.starts import Scale, natural, scale, stacked
+from disting.fit.search.starts import Scale, natural, scale, stack
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Sensor
 from disting.network.network import Network
-from disting.simulation.mechanics import checked
+from disting.simulation.mechanics import check_values
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
@@ -82,7 +82,7 @@ def responses_of(
     values; raises InputError for missing, unknown or negative ones, and where one is zero.
     """
     plant = plant_of(structure, omega)
-    source_values = checked(structure, values)
+    source_values = check_values(structure, values)
     whole = plant.response(np.array([source_values[name] for name in plant.parameters]))
     if not np.all(whole):
         raise InputError(
@@ -146,7 +146,7 @@ def _from_values(rival: Chain, values: Mapping[str, float], size: Scale) -> Real
     first, second = ({n for n in some if n[0] in "mk"} for some in (values, names))
     if first != second:
         return np.empty((0, len(names)))
-    return stacked(list(carried(rival, dict(values), size)), names)
+    return stack(list(carry_over(rival, dict(values), size)), names)
 
 
 def _of_networks(
@@ -154,7 +154,7 @@ def _of_networks(
 ) -> Search:
     def again(other: AnyCost) -> BestFit:
         return _better(
-            searched(other_network_plant, other, starts), other_network_plant, other, own
+            search_from(other_network_plant, other, starts), other_network_plant, other, own
         )
 
     measured = cost.measured
@@ -174,7 +174,7 @@ def _of_networks(
         (own_network_plant, other_network_plant),
         again(cost),
         again,
-        searched(own_network_plant, cost, others).j,
+        search_from(own_network_plant, cost, others).j,
         usual,
     )
 

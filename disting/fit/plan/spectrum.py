@@ -24,7 +24,7 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import linprog
 
-from disting.fit.plan.rival import Rival, apart, weighted
+from disting.fit.plan.rival import Rival, relative_distance, reweight
 from disting.fit.plan.search import box_of
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import different
@@ -83,7 +83,7 @@ class Adversary:
 
     def add(self, p: Real) -> None:
         """One more fit."""
-        values = len(self.rival.rho) * (apart(self.rival, p) / self.rival.rho) ** 2
+        values = len(self.rival.rho) * (relative_distance(self.rival, p) / self.rival.rho) ** 2
         self.points.append(p)
         self.cuts.append(values)
 
@@ -106,7 +106,7 @@ class Adversary:
         return self.bound(shares)
 
     def _cost(self, shares: Real) -> AnyCost:
-        return weighted(self.rival, np.sqrt(len(shares) * np.maximum(shares, 0.0)))
+        return reweight(self.rival, np.sqrt(len(shares) * np.maximum(shares, 0.0)))
 
 
 def optimal(adversary: Adversary) -> Spectrum:

@@ -19,7 +19,7 @@ from disting.measurement.response import as_sign
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.simulation import matrices, port_vectors
-from disting.simulation.mechanics import checked
+from disting.simulation.mechanics import check_values
 
 if TYPE_CHECKING:
     import control
@@ -136,7 +136,7 @@ def zero_pole(chain: Chain, values: dict[str, float], sign: int = 1) -> ZeroPole
     >>> len(found.zeros), len(found.poles), found.gain
     (2, 2, 0.5)
     """
-    structure, sign, values = chain.structure, as_sign(sign), checked(chain, values)
+    structure, sign, values = chain.structure, as_sign(sign), check_values(chain, values)
     p = np.array([values[name] for name in structure.parameters])
     bottom, top = poles(structure, p), zeros(structure, p)
     at = 2.0 * np.abs(bottom).max() + 1.0  # a real point away from all of them
@@ -166,11 +166,11 @@ def _control() -> Any:
 
 
 @dataclass(frozen=True, slots=True)
-class Exported:
+class NumberedStructure:
     """A structure with numbers under its name, such as 3:11+b1, and the units of its parameters,
     "" where the data do not tell.
 
-    >>> Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"}).units["m1"]
+    >>> NumberedStructure("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"}).units["m1"]
     'kg'
     """
 
@@ -180,7 +180,7 @@ class Exported:
     units: dict[str, str]
 
 
-def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
+def write_mat(path: Path, models: Sequence[NumberedStructure], sign: int = 1) -> None:
     """A MATLAB v5 file: A, B, C, D and delay of the first model, and the struct array `models` with
     name, A, B, C, D, delay, z, p, k, parameters and units of each. The same models give the same
     bytes. Raises InputError for no models or wrong values, OSError where the file cannot be
@@ -189,7 +189,8 @@ def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     path = Path(folder, "drive.mat")
-    ...     write_mat(path, [Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})])
+    ...     chain = Chain(1, damped=False)
+    ...     write_mat(path, [NumberedStructure("1:1", chain, {"m1": 2.0}, {"m1": "kg"})])
     ...     path.read_bytes()[:6]
     b'MATLAB'
     """
@@ -204,7 +205,7 @@ def write_mat(path: Path, models: Sequence[Exported], sign: int = 1) -> None:
     write_whole(path, MAT_HEAD + content.getvalue()[len(MAT_HEAD) :])
 
 
-def _plain(model: Exported, sign: int) -> dict[str, Any]:
+def _plain(model: NumberedStructure, sign: int) -> dict[str, Any]:
     """What the fields of a MATLAB struct are."""
     ss = state_space(model.chain, model.values, sign)
     zpk = zero_pole(model.chain, model.values, sign)
@@ -217,11 +218,11 @@ def _plain(model: Exported, sign: int) -> dict[str, Any]:
     }
 
 
-def control_script(models: Sequence[Exported], sign: int = 1) -> str:
+def control_script(models: Sequence[NumberedStructure], sign: int = 1) -> str:
     """A Python program that makes a python-control StateSpace of each model, by name. Raises
     InputError as `state_space` does.
 
-    >>> drive = Exported("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})
+    >>> drive = NumberedStructure("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"})
     >>> "m1 = 2 kg" in control_script([drive])
     True
     """
@@ -239,7 +240,7 @@ models = {
 _DELAYS = "dead_times = {  # [s], no part of a state space\n"
 
 
-def _entry(model: Exported, sign: int) -> str:
+def _entry(model: NumberedStructure, sign: int) -> str:
     """The matrices, with the parameters as a comment."""
     ss = state_space(model.chain, model.values, sign)
     parameters = ", ".join(
@@ -250,15 +251,15 @@ def _entry(model: Exported, sign: int) -> str:
     return f"    # {parameters}\n    {model.name!r}: control.StateSpace(\n{fields}    ),\n"
 
 
-def predicted(
+def predict(
     chain: Chain, values: dict[str, float], omega: Real, sign: int = 1
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
     """Response of a fitted chain, or of the same chain with other ports, at angular frequencies
     [rad/s]; values that it has no parameter for are left out. Raises InputError for missing or
     negative values, and for a sign that is not 1 or -1.
 
-    >>> abs(predicted(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
+    >>> abs(predict(Chain(1, damped=False), {"m1": 2.0}, np.array([1.0, 9.0]))).tolist()
     [0.5, 0.5]
     """
-    own = checked(chain, {name: values[name] for name in chain.parameters if name in values})
+    own = check_values(chain, {name: values[name] for name in chain.parameters if name in values})
     return Plant(chain.structure, omega, sign).response(np.array(list(own.values())))

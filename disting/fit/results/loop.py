@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.files import read_json
 from disting.fit.judge.modes import poles, zeros
 from disting.fit.search.plant import Plant
@@ -61,7 +61,7 @@ class Controller:
         if wrong:
             raise InputError(f"{wrong[0]} of a controller is a number, not below zero")
         if self.loop not in ZEROS:
-            raise InputError(f"a loop is one of {', '.join(ZEROS)}, not {shown(self.loop)}")
+            raise InputError(f"a loop is one of {', '.join(ZEROS)}, not {short(self.loop)}")
         if not (self.P or self.I or self.D):
             raise InputError(f"the controller does nothing; {FORM}")
         if bool(self.V) != (self.loop == "cascade"):
@@ -80,10 +80,10 @@ class Controller:
         return np.asarray(self.V + 0 * s if self.loop == "cascade" else self.of_position(s))
 
 
-def controller_named(text: str) -> Controller:
+def read_controller(text: str) -> Controller:
     """What P=2,I=30,loop=velocity says, or a JSON file with these names; raises InputError.
 
-    >>> controller_named("P=2,V=10,loop=cascade").V
+    >>> read_controller("P=2,V=10,loop=cascade").V
     10.0
     """
     try:
@@ -91,7 +91,7 @@ def controller_named(text: str) -> Controller:
         sizes = {n: v if n == "loop" else float(str(v)) for n, v in pairs.items()}
         return Controller(**sizes)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise InputError(f"{FORM}, not {shown(text)}") from None
+        raise InputError(f"{FORM}, not {short(text)}") from None
 
 
 def _pairs(text: str) -> dict[str, object]:

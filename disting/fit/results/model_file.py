@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.files import read_json
 from disting.model.chain import Chain
 
@@ -48,11 +48,11 @@ def number_of(value: Any, least: float = -HUGE, most: float = HUGE) -> float:
     """A number of a file, finite and between two others; raises ValueError."""
     if type(value) in (int, float) and least <= value <= most:
         return float(value)
-    raise ValueError(f"{shown(value)}, where a number from {least:g} to {most:g} belongs,")
+    raise ValueError(f"{short(value)}, where a number from {least:g} to {most:g} belongs,")
 
 
 def _no_model(reason: Exception) -> InputError:
-    return InputError(f"this is no fitted model: {shown(reason)} is missing or wrong")
+    return InputError(f"this is no fitted model: {short(reason)} is missing or wrong")
 
 
 def read_model(path: Path) -> tuple[Chain, dict[str, float]]:

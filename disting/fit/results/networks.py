@@ -4,14 +4,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from disting.errors import listed
+from disting.errors import enumeration
 from disting.files import Format
 from disting.fit.judge.explanation import FEW_CLEAR, Miss
-from disting.fit.judge.practical import Seen
+from disting.fit.judge.practical import NoiseModel
 from disting.fit.noise.scatter import Scatter
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.model.presentation import Shown, summary
+from disting.model.presentation import NotebookTable, summary
 from disting.network.network import Network
 from disting.network.notation.entries import entry_of
 from disting.verdict.decisions import Decisions
@@ -36,7 +36,7 @@ class FittedNetwork:
     chi2: float
     residual: Real = field(repr=False)
     basis: Real = field(repr=False)
-    noise: Seen = field(repr=False)
+    noise: NoiseModel = field(repr=False)
     same: tuple[str, ...] = ()
     explains: bool = False
     excluded_by: str = ""
@@ -65,7 +65,7 @@ class FittedNetwork:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class NetworkSelection(Shown):
+class NetworkSelection(NotebookTable):
     """What was found: `fits`, the selected one first, then by chi2; all candidates (`networks`);
     the responses (`measured`), and `scatter` of the lines.
     """
@@ -98,9 +98,11 @@ class NetworkSelection(Shown):
             return "The data are mostly noise: they support no network."
         if chosen is None:
             return "None of these networks explains the data."
-        twins = f", which cannot be told from {listed(chosen.same, BAR)}" if chosen.same else ""
+        twins = (
+            f", which cannot be told from {enumeration(chosen.same, BAR)}" if chosen.same else ""
+        )
         others = [f.network.name for f in self.left if f is not chosen]
-        more = f" The data do not exclude {listed(others, BAR)} either." if others else ""
+        more = f" The data do not exclude {enumeration(others, BAR)} either." if others else ""
         return f"{chosen.network.name} is the simplest that explains the data{twins}.{more}"
 
     def to_dict(self) -> dict[str, object]:

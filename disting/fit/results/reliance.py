@@ -20,12 +20,12 @@ from math import inf, isfinite, log10, pi
 import numpy as np
 
 from disting.fit.judge.members import Member
-from disting.fit.judge.modes import oscillating, poles, zeros
+from disting.fit.judge.modes import oscillations, poles, zeros
 from disting.fit.results.loop import Controller, Margins, margins
-from disting.fit.results.samples import Drawn, drawn, with_twins
+from disting.fit.results.samples import ParameterSamples, draw_samples, with_twins
 from disting.fit.search.estimate import Task
 from disting.fit.search.plant import Plant
-from disting.measurement.arrays import Complex, Real, evenly
+from disting.measurement.arrays import Complex, Real, spread
 from disting.model.chain import Chain
 from disting.model.structure import Structure
 
@@ -97,11 +97,11 @@ def statements(
 
     Raises InputError where no margins can be told.
     """
-    fitted = drawn(left, task)
+    fitted = draw_samples(left, task)
     if not fitted:
         return ()
     omega = np.unique(np.concatenate([part.measured.omega for part in task.cost.parts]))
-    some = omega[evenly(np.log(omega), min(len(omega), LINES))]
+    some = omega[spread(np.log(omega), min(len(omega), LINES))]
     every = list(with_twins(left, fitted, some))
     family = FAMILY * any(twin.free_choices for m in left for twin in m.twins)
     both = (_at_the_sensor(fitted, some), _at_the_load(every, some, family))
@@ -137,7 +137,7 @@ def _joined(
     return Statement(Kind.RANGE, name, low, high, unit, *numbers, said)
 
 
-def total_inertia(every: Sequence[Drawn], family: str) -> Statement:
+def total_inertia(every: Sequence[ParameterSamples], family: str) -> Statement:
     """Of all masses."""
     ranges = []
     for sample in every:
@@ -146,13 +146,13 @@ def total_inertia(every: Sequence[Drawn], family: str) -> Statement:
     return _joined("total inertia", "", ranges, (len(ranges), len(ranges)), family)
 
 
-def _roots(fitted: Sequence[Drawn], band: tuple[float, float]) -> Iterator[Statement]:
+def _roots(fitted: Sequence[ParameterSamples], band: tuple[float, float]) -> Iterator[Statement]:
     """Resonances and antiresonances within the band [Hz] of the first structure, and what the
     others have nearest.
     """
     total = sum(sample.alike for sample in fitted)
     for kind, roots_of in ROOTS.items():
-        nominal = [oscillating(_roots_at(sample, roots_of, 0)) for sample in fitted]
+        nominal = [oscillations(_roots_at(sample, roots_of, 0)) for sample in fitted]
         inside = [r for r in nominal[0] if band[0] <= abs(r) / (2 * pi) <= band[1]]
         for number, root in enumerate(inside, 1):
             near = [
@@ -169,15 +169,17 @@ def _roots(fitted: Sequence[Drawn], band: tuple[float, float]) -> Iterator[State
             yield _joined(f"damping ratio of {name}", "", damping, numbers)
 
 
-def _roots_at(sample: Drawn, roots_of: Callable[..., Complex], k: int) -> Complex:
+def _roots_at(sample: ParameterSamples, roots_of: Callable[..., Complex], k: int) -> Complex:
     structure = sample.chain.structure
     return roots_of(structure, sample.p[k, : len(structure.parameters)])
 
 
-def _followed(sample: Drawn, roots_of: Callable[..., Complex], root: complex) -> list[complex]:
+def _followed(
+    sample: ParameterSamples, roots_of: Callable[..., Complex], root: complex
+) -> list[complex]:
     """The root in all draws in which it is still there."""
     nearest_roots = (
-        nearest(oscillating(_roots_at(sample, roots_of, k)), root, inf)
+        nearest(oscillations(_roots_at(sample, roots_of, k)), root, inf)
         for k in range(len(sample.p))
     )
     return [r for r in nearest_roots if r is not None]
@@ -190,7 +192,7 @@ def nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> com
     return nearest if size <= ratio and isfinite(size) else None
 
 
-def _at_the_sensor(fitted: Sequence[Drawn], omega: Real) -> Statement:
+def _at_the_sensor(fitted: Sequence[ParameterSamples], omega: Real) -> Statement:
     """How far the responses lie apart."""
     responses = (Plant(sample.chain.structure, omega).response(sample.p) for sample in fitted)
     total = sum(sample.alike for sample in fitted)
@@ -220,7 +222,7 @@ def _hertz(omega: Real) -> str:
     return f"{omega[0] / (2 * pi):.3g} and {omega[-1] / (2 * pi):.3g}"
 
 
-def _at_the_load(every: Sequence[Drawn], omega: Real, family: str) -> Statement:
+def _at_the_load(every: Sequence[ParameterSamples], omega: Real, family: str) -> Statement:
     """How far the positions of the loads per force lie apart, of fitted structures and twins."""
     responses = (position_of_load(sample.chain, sample.p, omega) for sample in every)
     return _apart("position of the load per force", responses, omega, len(every), family)
@@ -244,7 +246,9 @@ def _load(chain: Chain) -> Structure:
     )
 
 
-def _margins(fitted: Sequence[Drawn], controller: Controller, omega: Real) -> Iterator[Statement]:
+def _margins(
+    fitted: Sequence[ParameterSamples], controller: Controller, omega: Real
+) -> Iterator[Statement]:
     """Stability, then what `Margins` holds, over all draws of all structures."""
     total = sum(sample.alike for sample in fitted)
     own_margins = [[margins(sample.chain, p, controller) for p in sample.p] for sample in fitted]

@@ -21,7 +21,7 @@ import numpy as np
 from disting.fit.judge.candidate import OUTSIDE, Candidate
 from disting.fit.judge.exclusion import limit
 from disting.fit.judge.members import Member, Twin
-from disting.fit.judge.practical import Seen
+from disting.fit.judge.practical import NoiseModel
 from disting.fit.search.cost import SquaredCost
 from disting.fit.search.descent import rough
 from disting.fit.search.estimate import Task
@@ -42,7 +42,7 @@ FELT = 1e-12  # of the square of a twin's largest sensitivity: what is less has 
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
+class ParameterSamples:
     """A structure with its parameters drawn, shape (n, n_p), its own first, and the number of
     structures that do the same at the sensor.
     """
@@ -52,19 +52,24 @@ class Drawn:
     alike: int = 1
 
 
-def drawn(left: Sequence[Member], task: Task) -> tuple[Drawn, ...]:
+def draw_samples(left: Sequence[Member], task: Task) -> tuple[ParameterSamples, ...]:
     """The structures that were fitted."""
-    return tuple(Drawn(m.candidate.chain, draws(m.candidate, task), 1 + len(m.twins)) for m in left)
+    return tuple(
+        ParameterSamples(m.candidate.chain, draws(m.candidate, task), 1 + len(m.twins))
+        for m in left
+    )
 
 
-def with_twins(left: Sequence[Member], fitted: Sequence[Drawn], omega: Real) -> Iterator[Drawn]:
+def with_twins(
+    left: Sequence[Member], fitted: Sequence[ParameterSamples], omega: Real
+) -> Iterator[ParameterSamples]:
     """Each fitted structure, then its twins; `omega`: lines of the data [rad/s]."""
     for member, sample in zip(left, fitted, strict=True):
         yield sample
         yield from (_carried(twin, sample, omega) for twin in member.twins)
 
 
-def _carried(twin: Twin, sample: Drawn, omega: Real) -> Drawn:
+def _carried(twin: Twin, sample: ParameterSamples, omega: Real) -> ParameterSamples:
     """The twin, drawn along with the structure whose twin it is: Newton's steps from its own
     values, the smallest where there are several.
     """
@@ -85,7 +90,7 @@ def _carried(twin: Twin, sample: Drawn, omega: Real) -> Drawn:
         squares, slope = rows @ rows.swapaxes(-1, -2), rows @ left[apart, :, None]
         step = (np.linalg.pinv(squares, rcond=FELT, hermitian=True) @ slope)[..., 0]
         x[active] += step / np.maximum(1.0, np.abs(step).max(axis=-1, keepdims=True))
-    return Drawn(twin.chain, np.exp(np.delete(x, active, axis=0)))
+    return ParameterSamples(twin.chain, np.exp(np.delete(x, active, axis=0)))
 
 
 def _halves(values: Complex) -> Real:
@@ -149,7 +154,7 @@ def _excess(candidate: Candidate, n_y: int, n_p: int) -> float:
     return candidate.estimate.j * limit(n_p, inf, level=OUTSIDE) / max(n_y - n_p, 1)
 
 
-def _axes(columns: Real, noise: Seen) -> tuple[Real, Real]:
+def _axes(columns: Real, noise: NoiseModel) -> tuple[Real, Real]:
     """Standard deviations of ln p along the axes of their covariance (`practical.covariance`),
     none above `WIDEST`, and these axes, shape (n_p, n_p), a row each: of a root of it, as squares
     lose the short ones.

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.alternatives import Alternative
 from disting.fit.judge.candidate import Candidate
@@ -36,7 +36,7 @@ from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
-from disting.model.presentation import Shown, plural, summary
+from disting.model.presentation import NotebookTable, plural, summary
 
 CRITERIA = ("condition_index", "importance_ratio", "collinearity")
 STEPS = 200  # thresholds from 1 to 10000
@@ -65,7 +65,7 @@ def sweep(candidates: Sequence[Candidate], criterion: str) -> Sweep:
     InputError for another criterion.
     """
     if criterion not in CRITERIA:
-        raise InputError(f"the criteria are {', '.join(CRITERIA)}, not {shown(criterion)}")
+        raise InputError(f"the criteria are {', '.join(CRITERIA)}, not {short(criterion)}")
     ordered = sorted(candidates, key=lambda c: c.j_test)
     values = np.array([getattr(c.practical, criterion) for c in ordered])
     sizes = np.array([c.n_parameters for c in ordered])
@@ -172,7 +172,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Selection(Shown):
+class Selection(NotebookTable):
     """What a selection found. `selected` is None where no candidate is admissible; candidates in
     the order of the cost on test.
 

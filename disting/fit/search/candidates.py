@@ -89,7 +89,7 @@ def chosen_ports(
     return tuple(variant for chain in chains for variant in variants(chain))
 
 
-def as_listed(chain: Chain) -> Form:
+def listed_form(chain: Chain) -> Form:
     """The form of a chain that is in the family of its size, with the names that its parameters
     have there.
 
@@ -97,7 +97,7 @@ def as_listed(chain: Chain) -> Form:
     under (38): the model that behaves as it does for renamed parameters is. The chain itself where
     no form is in the family.
 
-    >>> form = as_listed(Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,)))
+    >>> form = listed_form(Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,)))
     >>> reference(form.chain), form.renaming["m1"]
     ('2:1+b2', 'm2')
     """
@@ -108,7 +108,7 @@ def as_listed(chain: Chain) -> Form:
 
 def reference(chain: Chain) -> str:
     """Such as 2:1+b2+delay, as the commands read it; of the form that is listed."""
-    return name_of(as_listed(chain).chain)
+    return name_of(listed_form(chain).chain)
 
 
 def _is_in(family: Family, chain: Chain) -> bool:

@@ -26,7 +26,7 @@ from disting.fit.noise.scatter import Scatter
 from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
-from disting.measurement.arrays import Complex, Real, evenly
+from disting.measurement.arrays import Complex, Real, spread
 from disting.measurement.window import Window
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
@@ -207,7 +207,7 @@ class Cost(SquaredCost):
         """
         if count >= len(self.measured):
             return self
-        at = evenly(_way(self.measured), count)
+        at = spread(_way(self.measured), count)
         lines = None if self.lines is None else self.lines[at]
         return replace(self, measured=self.measured.subset(at), lines=lines)
 

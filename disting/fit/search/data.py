@@ -17,9 +17,9 @@ from itertools import compress
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.noise.scatter import LEAST, Scatter, changed, scatter, widened
+from disting.fit.noise.scatter import LEAST, Scatter, change, scatter, widen
 from disting.fit.search.cost import Cost, SquaredCost
-from disting.fit.search.joint import AnyCost, Further, JointCost
+from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.measurement.arrays import Complex, Real
@@ -30,7 +30,7 @@ Lines = Callable[[FrequencyResponse], Real]
 
 
 @dataclass(frozen=True, eq=False)
-class Whitened(SquaredCost):
+class WhitenedCost(SquaredCost):
     """Of the data of `cost`, whose lines scatter as `known` says."""
 
     cost: AnyCost
@@ -73,13 +73,13 @@ def _apart(values: Complex) -> Real:
     return np.concatenate([values.real, values.imag], axis=-1)
 
 
-def checked(
+def check(
     train: FrequencyResponse,
     test: FrequencyResponse | None,
-    further: Sequence[Further],
+    further: Sequence[FurtherResponse],
     candidates: Sequence[Chain],
     most: int,
-) -> tuple[FrequencyResponse, FrequencyResponse | None, Sequence[Further]]:
+) -> tuple[FrequencyResponse, FrequencyResponse | None, Sequence[FurtherResponse]]:
     """The responses with at most so many lines each; raises InputError for what no fit is made
     of.
     """
@@ -137,7 +137,7 @@ def _check_units(data: FrequencyResponse) -> None:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Weighing:
+class Weights:
     """What the lines of all responses count: of the `first` cost's, which was measured another time
     too where there is a `test`, and of `further` ones, each in units of its own scatter.
 
@@ -148,7 +148,7 @@ class Weighing:
 
     first: Cost
     test: FrequencyResponse | None = None
-    further: Sequence[Further] = ()
+    further: Sequence[FurtherResponse] = ()
     lines: Lines | None = None
     alike: bool = False
 
@@ -161,7 +161,7 @@ class Weighing:
         """The cost of all responses on the training data, weights scaled to a mean square of 1.
         What the lines scatter is seen beside the stacked responses `fitted` of candidates.
         """
-        whole = (Further(self.first.measured, Setup(), self.test), *self.further)
+        whole = (FurtherResponse(self.first.measured, Setup(), self.test), *self.further)
         ends = np.cumsum([len(extra.measured) for extra in whole])[:-1]
         rows = [np.split(response, ends) for response in fitted]
         own = [
@@ -223,8 +223,8 @@ class Weighing:
         if self.lines is not None:
             weights = self.lines(measured)
             return weights / max(float(np.sqrt(np.mean((weights * own.rho) ** 2))), LEAST)
-        tau = changed(measured, other, own, scatter(other)) if other is not None else 0.0
-        return np.asarray(1.0 / widened(own, tau).rho)
+        tau = change(measured, other, own, scatter(other)) if other is not None else 0.0
+        return np.asarray(1.0 / widen(own, tau).rho)
 
 
 def _size(weights: Real | None) -> float:

@@ -19,19 +19,19 @@ from threadpoolctl import ThreadpoolController
 from disting.errors import InputError
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.joint import AnyCost, AnyPlant
-from disting.fit.search.neighbours import carried, conspicuous, neighbours, paired
+from disting.fit.search.neighbours import carry_over, conspicuous, neighbours, split_starts
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import (
     UNFELT,
     Parameters,
-    extended,
+    extend,
     from_extrema,
-    merged,
+    merge,
     random,
     scale,
-    shortened,
+    shorten,
     split,
-    stacked,
+    stack,
 )
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
@@ -163,7 +163,7 @@ def estimate(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> E
     return _best(chain, task, estimates, starts)
 
 
-def evaluated(chain: Chain, task: Task) -> Estimate:
+def evaluate(chain: Chain, task: Task) -> Estimate:
     """The cost of a candidate whose parameters are all given: there is nothing to search."""
     task = task.on(chain)
     names = task.names(chain)
@@ -173,7 +173,7 @@ def evaluated(chain: Chain, task: Task) -> Estimate:
 
 
 @one_thread()
-def improved(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
+def improve(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
     """The candidate's estimate in `estimates`, or a better one that the fits of its neighbours
     there lead to.
     """
@@ -181,7 +181,7 @@ def improved(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> E
     own, names, size = estimates[chain], task.names(chain), scale(task.cost.measured)
     offered = [_common(estimates[c]) for c in neighbours(chain) if c in estimates]
     starts = _stacked(
-        [start for fit in offered for start in carried(chain, fit, size)], chain, task
+        [start for fit in offered for start in carry_over(chain, fit, size)], chain, task
     )
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
@@ -195,7 +195,7 @@ def improved(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> E
 
 
 @one_thread()
-def refined(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
+def refine(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Estimate:
     """The candidate's estimate in `estimates`, found on other lines, on those of the task; no worse
     than what it contains.
     """
@@ -230,12 +230,12 @@ def _nested(
 ) -> tuple[Real, float]:
     """Parameters and cost that are no worse than those of a candidate which this one contains."""
     contained = min(
-        (estimates[c] for c in shortened(chain) if c in estimates), key=lambda e: e.j, default=None
+        (estimates[c] for c in shorten(chain) if c in estimates), key=lambda e: e.j, default=None
     )
     if contained is None or contained.j * (1 + NESTED) >= j:
         return p, j
     plant, box = task.plant(chain), task.box(task.names(chain))
-    felt = extended(chain, _common(contained), scale(task.cost.measured), UNFELT)
+    felt = extend(chain, _common(contained), scale(task.cost.measured), UNFELT)
     slight = _stacked([_own(contained) | dict(start) for start in felt], chain, task)
     unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
     return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda parts: parts[1])
@@ -247,7 +247,7 @@ def _stacked(starts: Sequence[Parameters], chain: Chain, task: Task) -> Real:
     """
     own = task.names(chain)[len(chain.parameters) :]
     whole = [dict.fromkeys(own, start["Td"]) | dict(start) for start in starts] if own else starts
-    return stacked(whole, task.names(chain))
+    return stack(whole, task.names(chain))
 
 
 def _common(the_estimate: Estimate) -> Parameters:
@@ -275,17 +275,17 @@ def _starts(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> It
     size = scale(task.cost.measured)
     seen = list(from_extrema(chain, task.cost.measured))
     yield from seen
-    for joint, fewer in merged(chain):
+    for joint, fewer in merge(chain):
         if fewer in estimates:
             yield from split(chain, joint, _common(estimates[fewer]), size)
-    for fewer, joint in {fewer: joint for joint, fewer in merged(chain)}.items():
+    for fewer, joint in {fewer: joint for joint, fewer in merge(chain)}.items():
         if fewer in estimates:
             response = Plant(fewer.structure, task.cost.measured.omega, task.sign).response(
                 np.array(list(_common(estimates[fewer]).values()))
             )
             missed = conspicuous(task.cost.measured, response)
-            yield from paired(chain, joint, _common(estimates[fewer]), size, missed)
-    for fewer in shortened(chain):
+            yield from split_starts(chain, joint, _common(estimates[fewer]), size, missed)
+    for fewer in shorten(chain):
         if fewer in estimates:
-            yield from extended(chain, _common(estimates[fewer]), size)
+            yield from extend(chain, _common(estimates[fewer]), size)
     yield from random(chain, size, task.seed, FEW if seen else MANY)

@@ -22,16 +22,16 @@ from disting.fit.search.estimate import (
     Method,
     Task,
     estimate,
-    evaluated,
-    improved,
-    refined,
+    evaluate,
+    improve,
+    refine,
 )
 from disting.fit.search.neighbours import neighbours
-from disting.fit.search.starts import merged, shortened
+from disting.fit.search.starts import merge, shorten
 from disting.model.chain import Chain
 from disting.store import Store
 from disting.store.code import digest
-from disting.store.scheduling import mapped
+from disting.store.scheduling import map_tasks
 
 # every so many candidates that exchange divide their starts into one part more, up to so many parts
 FELLOWS, PARTS = 8, 6
@@ -61,7 +61,7 @@ def estimates(
         rough = estimates(
             candidates, few, method=method, store=store, executor=executor, progress=progress
         )
-        return {e.chain: e for e in polished(rough.values(), task, store, executor, progress)}
+        return {e.chain: e for e in polish(rough.values(), task, store, executor, progress)}
     wanted = sorted(with_smaller(candidates) if method is None else candidates, key=_stage)
     own_estimates: dict[Chain, Estimate] = {}
     for _, variants in groupby(wanted, key=body):
@@ -73,7 +73,7 @@ def estimates(
         )
         for _, stage in groupby(fellows, key=_stage):
             whole = list(stage)
-            own_estimates |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+            own_estimates |= {c: evaluate(c, task) for c in whole if _is_given(c, task)}
             helpful = {c: _helpful(c, own_estimates) for c in whole if c not in own_estimates}
             progress("fit", len(own_estimates), len(wanted))
             for the_estimate in _results(run, helpful, part, store, executor):
@@ -88,7 +88,7 @@ def estimates(
     return own_estimates
 
 
-def polished(
+def polish(
     rough: Iterable[Estimate],
     task: Task,
     store: Store,
@@ -102,23 +102,23 @@ def polished(
     the_estimates: dict[Chain, Estimate] = {}
     for _, stage in groupby(sorted(own, key=_stage), key=_stage):
         whole = list(stage)
-        the_estimates |= {c: evaluated(c, task) for c in whole if _is_given(c, task)}
+        the_estimates |= {c: evaluate(c, task) for c in whole if _is_given(c, task)}
         helpful = {
             c: _helpful(c, the_estimates) | {c: own[c]} for c in whole if c not in the_estimates
         }
-        for this_estimate in _results(refined, helpful, task, store, executor):
+        for this_estimate in _results(refine, helpful, task, store, executor):
             the_estimates[this_estimate.chain] = this_estimate
             progress("last digits", len(the_estimates), len(own))
     return [the_estimates[c] for c in own]
 
 
-def explored(own_estimates: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:
+def explore(own_estimates: Iterable[Estimate], task: Task) -> tuple[Task, list[Estimate]]:
     """The task on few lines, on which much can be tried, and estimates of the whole one there."""
     few = task.thinned(SEARCHED)
     if few is task:
         return task, list(own_estimates)
     return few, [
-        refined(this_estimate.chain, few, {this_estimate.chain: this_estimate})
+        refine(this_estimate.chain, few, {this_estimate.chain: this_estimate})
         for this_estimate in own_estimates
     ]
 
@@ -144,7 +144,7 @@ def _exchanged(
         }
         left -= 1
         after = dict(own_estimates)
-        for the_estimate in _results(improved, helpful, task, store, executor):
+        for the_estimate in _results(improve, helpful, task, store, executor):
             after[the_estimate.chain] = the_estimate
             yield the_estimate
         changed = {c for c in own_estimates if after[c].j < own_estimates[c].j}
@@ -164,7 +164,7 @@ def _results(
     keys = {c: _key(c, task, near, run.__name__) for c, near in helpful.items()}
     stored = store.get_many(keys.values())
     yield from (estimate_from_json(c, stored[key]) for c, key in keys.items() if key in stored)
-    for _, the_estimate in mapped(
+    for _, the_estimate in map_tasks(
         run, [(c, task, near) for c, near in helpful.items() if keys[c] not in stored], executor
     ):
         text = estimate_to_json(the_estimate)
@@ -228,7 +228,7 @@ def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:
     chains, new = set[Chain](), set(candidates)
     while new:
         chains |= new
-        new = {fewer for chain in new for _, fewer in merged(chain)} - chains
+        new = {fewer for chain in new for _, fewer in merge(chain)} - chains
     return chains
 
 
@@ -239,7 +239,7 @@ def _is_given(chain: Chain, task: Task) -> bool:
 
 def _helpful(chain: Chain, own_estimates: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:
     """What one candidate's starts come from; a worker needs no more."""
-    near = {*(c for _, c in merged(chain)), *shortened(chain)}
+    near = {*(c for _, c in merge(chain)), *shorten(chain)}
     return {c: own_estimates[c] for c in own_estimates if c in near}
 
 

@@ -28,12 +28,12 @@ from disting.model.structure import Structure
 
 
 @dataclass(frozen=True, slots=True)
-class Further:
+class FurtherResponse:
     """A further response of the machine, how it was measured, and independent data of it.
 
     >>> from disting.measurement import from_arrays
     >>> load = from_arrays(range(1, 17), [1j, 2j] * 8)
-    >>> Further(load, Setup(sensor="2")).thinned(8).setup.text
+    >>> FurtherResponse(load, Setup(sensor="2")).thinned(8).setup.text
     'sensor 2'
     """
 
@@ -41,7 +41,7 @@ class Further:
     setup: Setup
     test: FrequencyResponse | None = None
 
-    def thinned(self, count: int) -> "Further":
+    def thinned(self, count: int) -> "FurtherResponse":
         """With at most so many lines each."""
         test = None if self.test is None else self.test.thinned(count)
         return replace(self, measured=self.measured.thinned(count), test=test)

@@ -26,9 +26,9 @@ from disting.fit.search.starts import (
     Parameters,
     Scale,
     cauer,
-    extended,
+    extend,
     is_seen_at_one_end,
-    shortened,
+    shorten,
     split,
 )
 from disting.measurement import FrequencyResponse
@@ -50,7 +50,7 @@ def neighbours(chain: Chain) -> Iterator[Chain]:
     """Yield the candidates with one element fewer or more, a ground damper at another mass, the
     lag for the dead time.
     """
-    yield from shortened(chain)
+    yield from shorten(chain)
     dampers = set(chain.ground_dampers)
     free = [i for i in range(1, chain.n_masses + 1) if i not in dampers]
     for at in free:
@@ -65,7 +65,7 @@ def neighbours(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, lag=chain.dead_time, dead_time=chain.lag)
 
 
-def carried(chain: Chain, fit: Parameters, size: Scale) -> Iterator[Parameters]:
+def carry_over(chain: Chain, fit: Parameters, size: Scale) -> Iterator[Parameters]:
     """Starts from the fit of another candidate: what it has too much hands its value over to an
     element of its kind that is missing, or is left out; what is missing then is added.
     """
@@ -78,10 +78,10 @@ def carried(chain: Chain, fit: Parameters, size: Scale) -> Iterator[Parameters]:
     if len(values) == len(chain.parameters):
         yield {name: values[name] for name in chain.parameters}
     else:
-        yield from extended(chain, values, size, ADDED)
+        yield from extend(chain, values, size, ADDED)
 
 
-def paired(
+def split_starts(
     chain: Chain, joint: int, fewer: Parameters, size: Scale, missed: Sequence[float]
 ) -> Iterator[Parameters]:
     """Starts of a chain from the fit `fewer`, which has masses `joint` and `joint` + 1 as one;

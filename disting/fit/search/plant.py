@@ -27,7 +27,7 @@ from scipy.sparse import csr_array
 
 from disting.errors import InputError
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.window import Window, seen
+from disting.measurement.window import Window, line_weights
 from disting.model.structure import Ports, Structure
 
 Rows = slice | NDArray[np.intp]
@@ -182,7 +182,7 @@ class Plant:
     @cached_property
     def _seen(self) -> tuple[Complex, csr_array]:
         assert self.window is not None
-        return seen(self.window, self.omega, self.structure.sensor_order)
+        return line_weights(self.window, self.omega, self.structure.sensor_order)
 
     @cached_property
     def _s2(self) -> Complex:

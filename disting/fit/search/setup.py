@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.experiments.changes import Change, changes_of, in_order
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain, Place
 from disting.model.chain import Chain, Sensor
@@ -49,7 +49,7 @@ class Setup:
         listed = [*changes, *changes_of(by_kind)]
         for change in listed:
             if not re.fullmatch(r"[1-9]\d*|last", str(change.place)):
-                raise InputError(f"a mass is a number or the word last, not {shown(change.place)}")
+                raise InputError(f"a mass is a number or the word last, not {short(change.place)}")
         if sign not in (1, -1):
             raise InputError(f"the sign of a sensor is 1 or -1, not {sign!r}")
         for name, value in (
@@ -134,7 +134,7 @@ def port(text: str, n: int) -> tuple[int, int]:
     """
     match = re.fullmatch(r"(?:(\d+):)?(\d+|last)", text)
     if not match:
-        raise InputError(f"a port is written like 2, last or 1:3, not {shown(text)}")
+        raise InputError(f"a port is written like 2, last or 1:3, not {short(text)}")
     return int(match[1] or 0), n if match[2] == "last" else int(match[2])
 
 

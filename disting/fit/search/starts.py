@@ -140,7 +140,7 @@ def cauer(total: float, pairs: Sequence[tuple[float, float]]) -> tuple[list[floa
     return masses, springs
 
 
-def merged(chain: Chain) -> Iterator[tuple[int, Chain]]:
+def merge(chain: Chain) -> Iterator[tuple[int, Chain]]:
     """Yield every chain with one mass fewer, and the joint j whose masses j, j+1 it has as one."""
     for joint in range(1, chain.n_masses):
         if joint != chain.gap:
@@ -203,7 +203,7 @@ def _left(name: str) -> int:
     return int(digits) if name[0] in "mb" or "_" in name else int(digits[0])
 
 
-def extended(
+def extend(
     chain: Chain, fewer: Parameters, size: Scale, factors: Iterable[float] = EXTRA
 ) -> Iterator[Parameters]:
     """Starts (c): the fit of a candidate with elements fewer, the missing ones at several
@@ -215,7 +215,7 @@ def extended(
         yield natural | {name: factor * natural[name] for name in missing}
 
 
-def shortened(chain: Chain) -> Iterator[Chain]:
+def shorten(chain: Chain) -> Iterator[Chain]:
     """Yield every candidate with one ground damper, the lag or the dead time fewer."""
     for at in chain.ground_dampers:
         yield replace(chain, ground_dampers=tuple(i for i in chain.ground_dampers if i != at))
@@ -262,7 +262,7 @@ def _completed(names: Sequence[str], entries: Parameters, size: Scale) -> dict[s
     return {name: values[name] for name in names}
 
 
-def stacked(starts: Sequence[Parameters], names: Sequence[str]) -> Real:
+def stack(starts: Sequence[Parameters], names: Sequence[str]) -> Real:
     """Array of shape (n_s, n_p)."""
     return np.array([[start[name] for name in names] for start in starts]).reshape(
         len(starts), len(names)

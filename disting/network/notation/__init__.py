@@ -2,7 +2,7 @@
 
 import re
 
-from disting.errors import InputError, listed, of_type, shown
+from disting.errors import InputError, enumeration, of_type, short
 from disting.model.chain import Sensor, as_sensor
 from disting.network.network import Network
 from disting.network.notation.circuit import (
@@ -59,13 +59,13 @@ def network_of(
     """
     of_type(text, str, "a network is described by a text such as R0-p(R1,C1)")
     if notation and notation not in NOTATIONS:
-        raise InputError(f"notations are {listed(NOTATIONS)}, not {shown(notation)}")
+        raise InputError(f"notations are {enumeration(NOTATIONS)}, not {short(notation)}")
     if len(text) > LONGEST:
         raise InputError(f"a network is written in {LONGEST} characters at most; use a file")
     texts = [notation] if notation else notations_of(text)
     if not texts:
         raise InputError(
-            f"{shown(text)} is no network: write a circuit as R0-p(R1,C1), a machine as 1=2=3; F1;"
+            f"{short(text)} is no network: write a circuit as R0-p(R1,C1), a machine as 1=2=3; F1;"
             " S3, or compartments as 1>2, 2>0; in 1; out 2"
         )
     lines = filter(None, map(str.strip, text.split("\n")))
@@ -74,7 +74,7 @@ def network_of(
     good = {what: made for what, made in read.items() if isinstance(made, Network)}
     if len(set(good.values())) > 1:
         raise InputError(
-            f"{shown(text)} means one circuit in {' and another one in '.join(good)} notation; say"
+            f"{short(text)} means one circuit in {' and another one in '.join(good)} notation; say"
             f" which: --notation {next(iter(good))}, or notation= in Python"
         )
     if not good:
@@ -92,4 +92,4 @@ def _read(text: str, notation: str, name: str, quantity: Sensor) -> Network | In
             return machine(text, name, quantity)
         return compartments(text, name)
     except InputError as problem:
-        return InputError(f"{shown(text)}: {problem}")
+        return InputError(f"{short(text)}: {problem}")

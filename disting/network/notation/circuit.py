@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import count, islice, pairwise
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.network.element import Element, Port
 from disting.network.network import Network
 
@@ -47,7 +47,7 @@ def netlist(text: str, name: str) -> Network:
         match = port or element
         if match is None:
             raise InputError(
-                f"{shown(line)} is no line of a netlist: write R, L, C, W or P, a number and two"
+                f"{short(line)} is no line of a netlist: write R, L, C, W or P, a number and two"
                 " nodes, as in R1 1 2, or port 1 0"
             )
         *_, a, b = (

@@ -10,7 +10,7 @@ import re
 from ast import literal_eval
 from collections import Counter
 
-from disting.errors import InputError, shown
+from disting.errors import InputError, short
 from disting.network.element import Element, Port
 from disting.network.network import Network
 
@@ -44,7 +44,7 @@ def compartments(text: str, name: str) -> Network:
             match = ARROW.fullmatch(arrow)
             if not match:
                 raise InputError(
-                    f"{shown(arrow.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
+                    f"{short(arrow.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
                     " 1; out 1 (out 1, 2 of two)"
                 )
             a, b = int(match[1]), int(match[3])

@@ -14,7 +14,7 @@ node 0 is the ground, a port is [plus, minus] or a list of such.
 from collections.abc import Mapping
 from typing import Any
 
-from disting.errors import InputError, listed, of_type, shown
+from disting.errors import InputError, enumeration, of_type, short
 from disting.model.chain import Sensor, as_sensor
 from disting.network.element import KINDS, Element, Port, Sort, kind_of
 from disting.network.network import Network
@@ -42,7 +42,7 @@ def network_of_entry(entry: Entry, name: str) -> Network:
             text = of_type(entry[key], str, f'"{key}" is a text')
             network = network_of(text, _notation(key, notation), name=name, quantity=quantity)
             if key == "circuit" and network.sort is not Sort.CIRCUIT:
-                raise InputError(f'{shown(text)} is no circuit: write it as "network"')
+                raise InputError(f'{short(text)} is no circuit: write it as "network"')
             return network
     if "components" in entry:
         return drive_train(entry, name).network
@@ -84,7 +84,7 @@ def _notation(key: str, notation: str) -> str:
         return "machine"
     names = (*DIALECTS, "spice") if key == "circuit" else NOTATIONS
     if notation and notation not in names:
-        raise InputError(f'"notation" is one of {listed(names)}, not {shown(notation)}')
+        raise InputError(f'"notation" is one of {enumeration(names)}, not {short(notation)}')
     return notation
 
 
@@ -94,7 +94,7 @@ def _of_flows(entry: Entry, name: str) -> Network:
     for flow in flows:
         if not isinstance(flow, list) or len(flow) != 2:
             raise InputError(
-                f"a flow is a pair such as [1, 2], or [2, 0] to the outside, not {shown(flow)}"
+                f"a flow is a pair such as [1, 2], or [2, 0] to the outside, not {short(flow)}"
             )
         pairs.append((_node(flow[0]), _node(flow[1])))
     ports = []
@@ -108,7 +108,7 @@ def _of_elements(entry: Entry, name: str, quantity: Sensor) -> Network:
     lists = of_type(entry["elements"], list, '"elements" is a list such as [["m1", 1]]')
     elements = tuple(map(_element, lists))
     if "port" in entry:
-        foreign = listed(f'"{key}"' for key in ("force", "sensor", "quantity") if key in entry)
+        foreign = enumeration(f'"{key}"' for key in ("force", "sensor", "quantity") if key in entry)
         if foreign:
             raise InputError(f'"port" is both input and output: leave {foreign} away')
         ports = _ports(entry["port"])
@@ -126,7 +126,7 @@ def _element(source_value: object) -> Element:
     ):
         raise InputError(
             'an element is a list of a name and its nodes, such as ["k12", 1, 2], not'
-            f" {shown(source_value)}"
+            f" {short(source_value)}"
         )
     name, *rest = source_value
     kind = KINDS["v"] if name == "v" else kind_of(name)
@@ -136,7 +136,7 @@ def _element(source_value: object) -> Element:
         what = 'its exponent, such as "n"' if phase else 'the ratio of a gear, such as "i"'
         nodes = f"two nodes behind it, then perhaps as a text {what}"
         nodes = "one node behind it" if kind.ends == 1 else nodes
-        raise InputError(f"{shown(name)} is a {kind.word}: write {nodes}")
+        raise InputError(f"{short(name)} is a {kind.word}: write {nodes}")
     value = "" if kind.letter == "v" else name
     places = tuple(map(_node, rest))
     if phase:
@@ -152,7 +152,7 @@ def _ports(value: object) -> tuple[Port, ...]:
     for port in each:
         ends = port if isinstance(port, list) else [port]
         if len(ends) not in (1, 2):
-            raise InputError(f"a port is [plus, minus], such as [1, 0], not {shown(port)}")
+            raise InputError(f"a port is [plus, minus], such as [1, 0], not {short(port)}")
         ports.append(Port(*map(_node, ends)))
     return tuple(ports)
 
@@ -161,5 +161,5 @@ def _node(value: object) -> int:
     """A number as JSON has it, or as the text of one."""
     text = str(value)
     if isinstance(value, bool) or not text.isascii() or not text.isdecimal() or len(text) > 4:
-        raise InputError(f"nodes are whole numbers, 0 for the ground, not {shown(value)}")
+        raise InputError(f"nodes are whole numbers, 0 for the ground, not {short(value)}")
     return int(text)

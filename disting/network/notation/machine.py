@@ -14,7 +14,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from disting.errors import InputError, listed, shown
+from disting.errors import InputError, enumeration, short
 from disting.model.chain import Sensor
 from disting.network.element import KINDS, Element, Port
 from disting.network.network import Network
@@ -43,7 +43,7 @@ def machine(text: str, name: str, quantity: Sensor = Sensor.ACCELERATION) -> Net
         else:
             joints += [joint for run in part.split(",") for joint in _joints(run)]
     if len(quantities) > 1:
-        raise InputError(f"sensors show {listed(quantities)}: say one quantity")
+        raise InputError(f"sensors show {enumeration(quantities)}: say one quantity")
     order = (*quantities, quantity)[0].order
     nodes = {i for a, b, *_ in joints for i in (a, b)} | {
         i for _, p in ports for i in (p.plus, p.minus)
@@ -91,21 +91,21 @@ def _joints(run: str) -> Iterator[Joint]:
     """Yield the joints of a run such as 1=2=3; a mass alone has none but itself."""
     start = NODE.match(run)
     if not start:
-        raise InputError(f"{shown(run.strip())} does not begin with a mass: {HELP}")
+        raise InputError(f"{short(run.strip())} does not begin with a mass: {HELP}")
     at, node = start.end(), start[1]
     if not run[at:].strip():
-        raise InputError(f"{shown(run.strip())} is joined with nothing: {HELP}")
+        raise InputError(f"{short(run.strip())} is joined with nothing: {HELP}")
     while run[at:].strip():
         match = JOINT.match(run, at)
         if not match:
-            raise InputError(f"{shown(run[at:].strip())} after mass {node} is no joint: {HELP}")
+            raise InputError(f"{short(run[at:].strip())} after mass {node} is no joint: {HELP}")
         yield _number(node), _number(match[2]), match[1], match[3] or ""
         at, node = match.end(), match[2]
 
 
 def _number(node: str) -> int:
     if node != "#" and (not int(node[:9]) or len(node) > 4):
-        raise InputError(f"masses are numbered from 1, and # is the ground, not {shown(node)}")
+        raise InputError(f"masses are numbered from 1, and # is the ground, not {short(node)}")
     return 0 if node == "#" else int(node)
 
 
@@ -113,7 +113,7 @@ def _port(word: str) -> tuple[str, Port]:
     match = PORT.fullmatch(word)
     if not match:
         raise InputError(
-            f"{shown(word)} is no force or sensor: write F1 or S4, or F1:3 between two"
+            f"{short(word)} is no force or sensor: write F1 or S4, or F1:3 between two"
         )
     return match[1], Port(_number(match[2]), _number(match[3] or "#"))
 
@@ -128,7 +128,7 @@ def _joints_of_drawing(text: str) -> tuple[list[Joint], list[tuple[str, Port]]]:
         if sign == "#=" or sign == "#~":
             before, sign = 0, sign[1]
         elif sign and (sign not in ("=", "~") or not end):
-            raise InputError(f"{shown(sign)} is no joint of a drawing: = ~ or blanks")
+            raise InputError(f"{short(sign)} is no joint of a drawing: = ~ or blanks")
         if sign:
             joints.append((number, before, sign, ""))
         if mark[3]:

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from disting.errors import InputError, listed, of_type, shown
+from disting.errors import InputError, enumeration, of_type, short
 from disting.model.chain import Sensor, as_sensor
 from disting.network.element import Element, Port
 from disting.network.graph import parts
@@ -140,14 +140,14 @@ def _foreign(called: str, entry: object) -> str:
     kind = entry.get("type") if isinstance(entry, dict) else entry
     if kind == "ShaftContinuous":
         return f"{called} has its inertia along the shaft: describe it by disks and ShaftDiscrete"
-    return f"{called} is of type {shown(kind)}: types are {listed(TYPES)}"
+    return f"{called} is of type {short(kind)}: types are {enumeration(TYPES)}"
 
 
 def _connect(pair: object, built: _Places) -> None:
     """Join the end of one element with the start of another one; two gears mesh."""
     if not isinstance(pair, list) or len(pair) != 2 or not all(isinstance(x, str) for x in pair):
         raise InputError(
-            f'a connection is a pair such as ["Motor.Rotor", "Load.Disk"], not {shown(pair)}'
+            f'a connection is a pair such as ["Motor.Rotor", "Load.Disk"], not {short(pair)}'
         )
     first, second = (_known(name, built) for name in pair)
     if first.is_gear and second.is_gear:
@@ -158,7 +158,7 @@ def _connect(pair: object, built: _Places) -> None:
 
 def _known(name: str, built: _Places) -> _Part:
     if name not in built.named:
-        raise InputError(f"{shown(name)} is no element; there are {listed(built.named)}")
+        raise InputError(f"{short(name)} is no element; there are {enumeration(built.named)}")
     return built.named[name]
 
 
@@ -166,8 +166,10 @@ def _at(name: object, side: str, built: _Places) -> _Part:
     """The disk or gear where force or sensor is."""
     turning = [n for n, part in built.named.items() if part.given["type"] != "ShaftDiscrete"]
     if not isinstance(name, str) or name not in turning:
-        instead = "" if name is None else f", not {shown(name)}"
-        raise InputError(f'say where the {side} is, as "{side}": one of {listed(turning)}{instead}')
+        instead = "" if name is None else f", not {short(name)}"
+        raise InputError(
+            f'say where the {side} is, as "{side}": one of {enumeration(turning)}{instead}'
+        )
     return built.named[name]
 
 
@@ -238,7 +240,7 @@ def _number(part: _Part, key: str, *, positive: bool = False) -> Fraction:
     is_number = size == 0 or (1 / LARGEST < size < LARGEST and len(str(value)) <= LONGEST)
     if not is_number or (positive and not size):
         wanted = "a positive number" if positive else "a number, zero or positive"
-        raise InputError(f"{key} of {part.given['called']} is {wanted}, not {shown(value)}")
+        raise InputError(f"{key} of {part.given['called']} is {wanted}, not {short(value)}")
     return Fraction(str(value)) if size else Fraction(0)
 
 

@@ -16,9 +16,9 @@ determined at all.
 True
 
 The parts of a finding: a Combination that is determined, an Alternative with its Origin. It is on
-the canonical form of a chain, and `as_given` in its names. Of any model `local` gives a Local,
+the canonical form of a chain, and `in_names_of` in its names. Of any model `local` gives a Local,
 `by_parameter` the level of each parameter, `joint` the grade of several statements together;
-`encoded` and `decoded` are for a store.
+`encode` and `decode` are for a store.
 
 >>> from disting.questions.identifiability import joint
 >>> joint([100, 120])
@@ -31,9 +31,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from disting.questions.identifiability.analysis import (
         IDENTIFIABILITY as IDENTIFIABILITY,
-        as_given as as_given,
         identifiabilities as identifiabilities,
         identifiability as identifiability,
+        in_names_of as in_names_of,
     )
     from disting.questions.identifiability.answer import Identifiability as Identifiability
     from disting.questions.identifiability.check import confirms as confirms
@@ -41,8 +41,8 @@ if TYPE_CHECKING:
         Local as Local,
         ParameterIdentifiability as ParameterIdentifiability,
         by_parameter as by_parameter,
-        decoded as decoded,
-        encoded as encoded,
+        decode as decode,
+        encode as encode,
         joint as joint,
         local as local,
     )

@@ -19,7 +19,7 @@ from disting.behaviour.chain_model import ChainModel
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.task import Status
 from disting.model.chain import Chain, Sensor
-from disting.model.names import chains_named
+from disting.model.names import read_together
 from disting.model.question import Answer, Question, Settings
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
@@ -63,9 +63,9 @@ def identifiability(
     >>> identifiability(Chain(2, meas_plus=2, damped=False)).sentence
     '3 parameters, only 2 determinable: m1 + m2, k12/(m1*m2).'
     """
-    (chain,) = chains_named([chain], damped=damped, sensor=sensor)
+    (chain,) = read_together([chain], damped=damped, sensor=sensor)
     form = canonical(chain)
-    return as_given(_canonically(form.chain, settings or Settings()), form, chain)
+    return in_names_of(_canonically(form.chain, settings or Settings()), form, chain)
 
 
 def identifiabilities(
@@ -77,10 +77,10 @@ def identifiabilities(
         form: _canonically(form, settings or Settings())
         for form in dict.fromkeys(form.chain for _, form in formed)
     }
-    return [as_given(answers[form.chain], form, chain) for chain, form in formed]
+    return [in_names_of(answers[form.chain], form, chain) for chain, form in formed]
 
 
-def as_given(answer: Identifiability, form: Form, chain: Chain) -> Identifiability:
+def in_names_of(answer: Identifiability, form: Form, chain: Chain) -> Identifiability:
     """The finding on a canonical form in the names of a chain that has this form."""
     return rename(answer, {new: old for old, new in form.renaming.items()}, chain)
 

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
-from disting.model.presentation import Shown, summary
+from disting.model.presentation import NotebookTable, summary
 from disting.model.question import Answer
 from disting.questions.identifiability.parts import (
     Alternative,
@@ -38,7 +38,7 @@ NUMBERS = (
 
 
 @dataclass(frozen=True, slots=True)
-class Identifiability(Shown):
+class Identifiability(NotebookTable):
     """Identifiability of one chain.
 
     `rank`: number of determinable parameters, with its grade. `least` and `most`: bounds of the
@@ -124,7 +124,7 @@ class Identifiability(Shown):
     @staticmethod
     def from_dict(data: dict[str, Any]) -> "Identifiability":
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
-        return Identifiability(**decoded(data))
+        return Identifiability(**decode(data))
 
     def __bool__(self) -> bool:
         raise TypeError("identifiability is not true or false; look at its level")
@@ -197,7 +197,7 @@ def _point(answer: Identifiability) -> str:
     )
 
 
-def decoded(data: dict[str, Any]) -> dict[str, Any]:
+def decode(data: dict[str, Any]) -> dict[str, Any]:
     """Fields of an Identifiability; lists become tuples. Raises KeyError, TypeError or
     ValueError for what is none.
     """

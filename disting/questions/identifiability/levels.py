@@ -115,13 +115,13 @@ class ParameterIdentifiability:
         raise TypeError("identifiability is not true or false; look at its levels")
 
 
-def encoded(answer: ParameterIdentifiability) -> str:
+def encode(answer: ParameterIdentifiability) -> str:
     """As text, for a cache."""
     return json.dumps(answer.to_dict(), separators=(",", ":"))
 
 
-def decoded(text: str) -> ParameterIdentifiability:
-    """Inverse of `encoded`; raises KeyError, TypeError or ValueError for what is none."""
+def decode(text: str) -> ParameterIdentifiability:
+    """Inverse of `encode`; raises KeyError, TypeError or ValueError for what is none."""
     return ParameterIdentifiability.from_dict(json.loads(text))
 
 

@@ -26,7 +26,14 @@ from disting.algebra.certainty import Certainty, Grade, about
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.decide import DRAWS, point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Confirmation, Fibre, Solution, Status, Values, target
+from disting.fibres.synthesis.task import (
+    Confirmation,
+    Fibre,
+    Solution,
+    SolutionValues,
+    Status,
+    target,
+)
 from disting.fibres.synthesis.theorems import are_dual, dual, is_untested
 from disting.model.chain import Chain
 from disting.model.question import Answer
@@ -41,7 +48,7 @@ MOST_LISTED = 100  # solutions of an undamped chain whose number a theorem tells
 class Member:
     """A parameter vector with the behaviour of the point, and what is said of it."""
 
-    values: Values
+    values: SolutionValues
     said: Alternative
 
 

@@ -46,7 +46,7 @@ from disting.model.family import Family
 from disting.model.question import Answerer, Settings
 from disting.model.row import Row, canonical_rows
 from disting.model.symmetry import Form, canonical
-from disting.questions.inclusion.limit_fibre import find_contained
+from disting.questions.inclusion.limit_fibre import find_containment
 from disting.questions.inclusion.limits import follows, reach, room
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
 from disting.questions.inclusion.profiles import by_elements, exceed, order
@@ -83,13 +83,13 @@ class ChainSide(Protocol):
 
 
 def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
-    """Inclusion of chains of different sizes, of one sensor quantity; None where `by_computing`
+    """Inclusion of chains of different sizes, of one sensor quantity; None where `compute`
     is to be asked.
     """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
     first, second = small.canonical.chain, large.canonical.chain
-    finding = included(first, second, left_is_larger)
+    finding = show_inclusion(first, second, left_is_larger)
     if finding is not None:
         inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
         return InclusionFinding(inside, Certainty.PROVEN, evidence=finding)
@@ -102,10 +102,10 @@ def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
         return InclusionFinding(
             Inclusion.UNKNOWN, reason="no limit is known, and the smaller chain has as many poles"
         )
-    return refuted(small, large, left_is_larger)
+    return refute(small, large, left_is_larger)
 
 
-def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+def compute(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
     """What takes longer, for a chain with fewer masses on the left: its poles against
     inclusion, a fibre of limits for it.
     """
@@ -115,7 +115,7 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
         safety = exclusion_safety(large) if len(points) > 1 else 0
         grade = Certainty.BOUNDED if safety else Certainty.PROVEN
         return InclusionFinding(Inclusion.NEITHER, grade, safety, PoleSharing(False, label, points))
-    inside = find_contained(small, large, settings.seed)
+    inside = find_containment(small, large, settings.seed)
     if inside is None:
         return InclusionFinding(
             Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
@@ -131,7 +131,7 @@ def by_computing(small: Chain, large: Chain, settings: Settings) -> InclusionFin
     return InclusionFinding(Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, inside.safety, evidence)
 
 
-def included(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meeting | None:
+def show_inclusion(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meeting | None:
     """What shows that the smaller chain is a limit of the larger one; None if nothing."""
     if exceeds(small, large) or small.dead_time > large.dead_time:
         return None
@@ -181,7 +181,7 @@ def row_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple[
             yield tuple(limit for limit in limits if limit is not None)
 
 
-def refuted(small: ChainSide, large: ChainSide, left_is_larger: bool) -> InclusionFinding | None:
+def refute(small: ChainSide, large: ChainSide, left_is_larger: bool) -> InclusionFinding | None:
     """What degrees and ranks say against the inclusion of a chain with fewer poles; None if
     nothing.
     """

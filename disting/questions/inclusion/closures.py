@@ -52,7 +52,7 @@ from disting.questions.inclusion.row_closures import (
     show,
 )
 
-Told = tuple[Task, Proof | None]
+ClosureProof = tuple[Task, Proof | None]
 """A row, and what settles it at little cost."""
 
 
@@ -87,7 +87,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
     return Outside(True, tuple(proof.step for proof in against)), bits
 
 
-def _against(splits: Sequence[Sequence[Told]], seed: str) -> list[Proof] | None:
+def _against(splits: Sequence[Sequence[ClosureProof]], seed: str) -> list[Proof] | None:
     """What refutes one row of every split, by ideals only where nothing else does; None if a split
     has no such row.
     """

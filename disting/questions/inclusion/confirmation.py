@@ -16,7 +16,7 @@ from disting.evidence.across_sizes import (
 )
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
-from disting.evidence.ideals import ByRows, Refuted, Solved
+from disting.evidence.ideals import ByRows, Refutation, Solutions
 from disting.evidence.kind import Labels
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
@@ -85,12 +85,12 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
             degrees = order(evidence.left, evidence.right, not evidence.left_is_larger)
             is_turned = evidence.left_is_larger != left_is_smaller
             return is_turned and _fall_apart(smaller, larger, *degrees)
-        case Outside() | RowsInside() | ByRows() | FibreAt() | Solved() | Refuted():
+        case Outside() | RowsInside() | ByRows() | FibreAt() | Solutions() | Refutation():
             return evidence.left_given == left_is_smaller and _found_again(evidence, a, b)
 
 
 def _found_again(
-    evidence: Outside | RowsInside | ByRows | FibreAt | Solved | Refuted, a: Chain, b: Chain
+    evidence: Outside | RowsInside | ByRows | FibreAt | Solutions | Refutation, a: Chain, b: Chain
 ) -> bool:
     """What the fibre of the given model, or its rows, say: computed again."""
     fresh = Witness("inclusion")
@@ -99,9 +99,9 @@ def _found_again(
             return confirms_rows(evidence, *((a, b) if evidence.left_given else (b, a)))
         case ByRows():
             return confirms_by_rows(evidence, rational_part(a), rational_part(b))
-        case FibreAt() | Solved():
+        case FibreAt() | Solutions():
             return fresh.confirms(evidence, "tf", a, b)
-        case Refuted():
+        case Refutation():
             return not evidence.tangent and (
                 _refuted_again(a, b, evidence)
                 if _is_large(evidence, a, b)
@@ -137,7 +137,7 @@ def _across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainS
             fewer = evidence.left_is_larger == left_is_larger and fewer_poles(smaller, larger)
             return fewer and excludes(smaller, larger, evidence.label, evidence.points)
         case LimitFibre():
-            solved = Solved(evidence.small_given, evidence.labels, evidence.solutions)
+            solved = Solutions(evidence.small_given, evidence.labels, evidence.solutions)
             return evidence.left_is_larger == left_is_larger and contains(
                 smaller, larger, evidence.steps, solved
             )
@@ -174,13 +174,13 @@ def _leads(limit: RowLimit, row: Row, target: Row) -> bool:
     return any(c.suffices and tuple(map(int, astuple(c))) == limit.room for c in counts)
 
 
-def _is_large(evidence: Refuted, a: Chain, b: Chain) -> bool:
+def _is_large(evidence: Refutation, a: Chain, b: Chain) -> bool:
     """Whether plain elimination has too many monomials to bear."""
     unknowns = max(len(coefficient_map(rational_part(c)).parameters) for c in (a, b))
     return comb(unknowns + 1 + evidence.degree, evidence.degree) > PLAIN_MONOMIALS
 
 
-def _refuted_again(a: Chain, b: Chain, evidence: Refuted) -> bool:
+def _refuted_again(a: Chain, b: Chain, evidence: Refutation) -> bool:
     """Whether the decision is the same at fresh points and primes."""
     coordinates = normalise if evidence.is_normalised else coefficient_map
     chain, other = (

@@ -44,7 +44,7 @@ from disting.fibres.ideals import (
 )
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question, Settings
-from disting.questions.inclusion.across_sizes import ChainSide, by_computing, by_sizes
+from disting.questions.inclusion.across_sizes import ChainSide, by_sizes, compute
 from disting.questions.inclusion.closures import of_closure
 from disting.questions.inclusion.image import of_image
 from disting.questions.inclusion.profiles import by_elements, by_profiles
@@ -70,7 +70,7 @@ def inclusions(left: ChainSide, right: ChainSide) -> Inclusions:
     image = implied_image(left, right, closure)
     if image is None:
         image = asked_image(left, right)
-    return joined(left, right, image, closure)
+    return join(left, right, image, closure)
 
 
 def by_rank(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
@@ -121,20 +121,20 @@ def needs_ideals(image: InclusionFinding, closure: InclusionFinding) -> bool:
     )
 
 
-def joined(
+def join(
     left: ChainSide, right: ChainSide, image: InclusionFinding, closure: InclusionFinding
 ) -> Inclusions:
     """Both statements: by ideals where nothing is known; equivalents are limits."""
     if needs_ideals(image, closure):
         decided = left.answerer(IDEALS, by_rank(left, right), left.settings)
         image, closure = (
-            f if left.rank < right.rank else turned(f) for f in (decided.image, decided.closure)
+            f if left.rank < right.rank else turn(f) for f in (decided.image, decided.closure)
         )
     follows = not closure.is_known and image.is_known and image.inclusion is not Inclusion.NEITHER
     return Inclusions(image, image if follows else closure)
 
 
-def turned(finding: InclusionFinding) -> InclusionFinding:
+def turn(finding: InclusionFinding) -> InclusionFinding:
     """The finding on the pair in the other order; for findings whose left model is the smaller
     one.
     """
@@ -147,7 +147,7 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
     different sizes.
     """
     if small.n_masses != large.n_masses:
-        return by_computing(small, large, settings)
+        return compute(small, large, settings)
     proof = of_closure(small, large, settings.seed)
     if proof is not None:
         evidence, safety = proof
@@ -204,7 +204,7 @@ def _asked(
     question: Question[InclusionFinding], left: ChainSide, right: ChainSide
 ) -> InclusionFinding:
     answer = left.answerer(question, by_rank(left, right), left.settings)
-    return answer if left.rank < right.rank else turned(answer)
+    return answer if left.rank < right.rank else turn(answer)
 
 
 def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> Inclusions:

@@ -22,7 +22,7 @@ from math import ceil, log2
 from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.behaviour.chain_model import powers
 from disting.conditions.inclusion import Inclusion, InclusionFinding
-from disting.evidence.ideals import Refuted
+from disting.evidence.ideals import Refutation
 from disting.fibres.ideals import Limits, decide, normalise, refuted_by_rows
 from disting.fibres.synthesis.decide import (
     DRAWS,
@@ -73,7 +73,7 @@ def _by_ideal(
     """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
     maps = (normalise(rational_part(c)) for c in (small, large))
     decided = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
-    if not isinstance(decided.evidence, Refuted) or decided.safety < LEAST_SAFETY:
+    if not isinstance(decided.evidence, Refutation) or decided.safety < LEAST_SAFETY:
         return otherwise
     evidence = replace(decided.evidence, is_normalised=True)
     return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, decided.safety, evidence)

@@ -18,7 +18,7 @@ from math import ceil, log2
 
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.behaviour.chain_model import powers
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals import Decision, Limits, coefficient_map, confirms, decide
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
@@ -32,17 +32,17 @@ RowSteps = tuple[tuple[str, tuple[Step, ...]], ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Contained:
+class Containment:
     """The steps of each row of the larger chain by name, a solution of the fibre of what
     results, and its error bound.
     """
 
     steps: RowSteps
-    solved: Solved
+    solved: Solutions
     safety: int
 
 
-def find_contained(small: Chain, large: Chain, seed: str) -> Contained | None:
+def find_containment(small: Chain, large: Chain, seed: str) -> Containment | None:
     """A way from the larger chain to models among which those of the smaller one are; None if
     none is found.
     """
@@ -50,23 +50,23 @@ def find_contained(small: Chain, large: Chain, seed: str) -> Contained | None:
         return None
     target = position(small)
     for steps, rows in islice(_results(target, large), MODELS):
-        decided = _decided(target, joined(rows), seed)
+        decided = _decided(target, join(rows), seed)
         safety = decided.safety - ceil(log2(MODELS))  # any of the models tried may mislead
         solved = decided.evidence
         if (
             decided.membership is not Membership.MEMBER
-            or not isinstance(solved, Solved)
+            or not isinstance(solved, Solutions)
             or safety < LEAST_SAFETY
         ):
             continue
-        if tells(solved, target, joined(rows), seed) and _follow(
+        if tells(solved, target, join(rows), seed) and _follow(
             steps, rows, canonical_rows(large.structure)
         ):
-            return Contained(steps, solved, safety)
+            return Containment(steps, solved, safety)
     return None
 
 
-def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solved) -> bool:
+def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solutions) -> bool:
     """Whether the limits hold and the solutions are solutions, for models of the smaller chain
     or for ranks proven equal.
     """
@@ -75,7 +75,7 @@ def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solved) -> boo
     if not names or len(names) < len(steps) or not names <= rows_of_large.keys():
         return False
     ends = product(*(follows(rows_of_large[name], path) for name, path in steps))
-    return any(_holds(target, joined(rows), solved) for rows in ends if _fit(rows))
+    return any(_holds(target, join(rows), solved) for rows in ends if _fit(rows))
 
 
 def position(chain: Chain) -> Structure:
@@ -83,7 +83,7 @@ def position(chain: Chain) -> Structure:
     return replace(chain, sensor=Sensor.POSITION, dead_time=False).structure
 
 
-def joined(rows: Sequence[Row]) -> Structure:
+def join(rows: Sequence[Row]) -> Structure:
     """The model of one or two rows, only the first of which may have a wall; its receptance is
     the sum of theirs.
     """
@@ -113,8 +113,8 @@ def _results(target: Structure, large: Chain) -> Iterator[tuple[RowSteps, tuple[
         rows = tuple(below for _, below, _ in chosen)
         if (
             _fit(rows)
-            and powers(joined(rows)) == powers(target)
-            and least_rank(joined(rows)) >= least_rank(target)
+            and powers(join(rows)) == powers(target)
+            and least_rank(join(rows)) >= least_rank(target)
         ):
             yield tuple((name, path) for name, _, path in chosen), rows
 
@@ -126,19 +126,19 @@ def _fit(rows: Sequence[Row]) -> bool:
     return not any(row.grounded for row in rows[1:]) and not any(row.ground_dampers for row in rows)
 
 
-def _decided(target: Structure, result: Structure, seed: str) -> Decision[Solved | Refuted]:
+def _decided(target: Structure, result: Structure, seed: str) -> Decision[Solutions | Refutation]:
     equal = least_rank(target) == least_rank(result)
     return decide(
         *map(coefficient_map, (target, result)), equal_rank=equal, seed=seed, limits=LIMITS
     )
 
 
-def _holds(target: Structure, result: Structure, solved: Solved) -> bool:
+def _holds(target: Structure, result: Structure, solved: Solutions) -> bool:
     is_solved = tells(solved, target, result, "verify") and not solved.is_normalised
     return is_solved and confirms(solved, coefficient_map(target), coefficient_map(result))
 
 
-def tells(solved: Solved, target: Structure, result: Structure, seed: str) -> bool:
+def tells(solved: Solutions, target: Structure, result: Structure, seed: str) -> bool:
     """Whether the solution shows that generic models of the target are among those that result,
     or limits of them.
     """

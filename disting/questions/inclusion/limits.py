@@ -126,7 +126,7 @@ def _keeps_momentum(structure: Structure) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Specialised:
+class Specialisation:
     """One limit of a row: the element, what it tends to, the `row` that results, and what becomes
     of the nodes 0, 1, ...
 
@@ -144,7 +144,7 @@ class Specialised:
         return self.element.parameter, self.limit
 
 
-def specialise(row: Row) -> Iterator[Specialised]:
+def specialise(row: Row) -> Iterator[Specialisation]:
     """Yield every row that one limit of one element leads to.
 
     >>> sorted(s.step for s in specialise(Row(2, False, 1, 1)))
@@ -192,7 +192,7 @@ def follows(row: Row, steps: tuple[Step, ...]) -> set[Row]:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def is_limit(row: Row, s: Specialised) -> bool:
+def is_limit(row: Row, s: Specialisation) -> bool:
     """N_1/D_1 or N_0/D_0 against the new row's transfer function: an identity of polynomials in s
     and all parameters.
 
@@ -217,7 +217,9 @@ def is_limit(row: Row, s: Specialised) -> bool:
     return not den.is_zero() and rest.is_zero() and (num - factor * small_num).is_zero()
 
 
-def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> Iterator[Specialised]:
+def _made(
+    row: Row, element: Element, limit: str, nodes: list[int | None]
+) -> Iterator[Specialisation]:
     """The row of the nodes that are left; none if a port is lost, or if nothing is left."""
     a, b = nodes[row.a] or 0, nodes[row.b] or 0
     if not (a and b):
@@ -226,7 +228,7 @@ def _made(row: Row, element: Element, limit: str, nodes: list[int | None]) -> It
     left = {nodes[i] for i in row.ground_dampers if limit != ZERO or element != GroundDamper(i)}
     dampers = tuple(sorted(i for i in left if i))
     n_masses = max(i for i in nodes if i is not None)
-    yield Specialised(
+    yield Specialisation(
         element,
         limit,
         Row(n_masses, grounded, min(a, b), max(a, b), row.damped, dampers),
@@ -247,7 +249,7 @@ def _part(polynomial: Polynomial, name: str, limit: str) -> Polynomial:
     return parts[1] if len(parts) > 1 else parts[0] - parts[0]
 
 
-def _moved(row: Row, s: Specialised) -> dict[str, list[str]] | None:
+def _moved(row: Row, s: Specialisation) -> dict[str, list[str]] | None:
     """Parameters of the new row, and those given that add up to each: what comes together is
     added, what drops out left out.
 

@@ -70,10 +70,10 @@ def by_elements(small: Chain, large: Chain, left_is_smaller: bool) -> InclusionF
         for places in minors(small.structure, large.structure, dict(ports))
     )
     places = next(elements, None)
-    return None if places is None else missing(places, left_is_smaller)
+    return None if places is None else by_missing_elements(places, left_is_smaller)
 
 
-def missing(places: dict[int, int], left_is_part: bool) -> InclusionFinding:
+def by_missing_elements(places: dict[int, int], left_is_part: bool) -> InclusionFinding:
     """The part is a limit of the whole, its masses at these places."""
     numbering = tuple(sorted((at, i) for i, at in places.items()))
     evidence = MissingElements(left_is_part, numbering)

@@ -45,11 +45,11 @@ from disting.model.row import Row
 from disting.questions.inclusion.row_resultants import end_equation
 
 SIZES = range(4, 8)  # masses of rows: of three the equation of the end says nothing
-Drawn = tuple[list[int], list[int], int]
+RowDraw = tuple[list[int], list[int], int]
 """Coefficients of numerator and denominator at a point, the constant first, modulo a prime."""
 
 
-def are_no_limits(row: Row, points: Iterable[Drawn]) -> bool:
+def are_no_limits(row: Row, points: Iterable[RowDraw]) -> bool:
     """Whether it is proven that generic receptances are no limits of those of the row, by
     receptances at random points.
     """

@@ -1,7 +1,7 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
 from disting.algebra.certainty import Certainty
-from disting.evidence.decision import Excluded, Theorem
+from disting.evidence.decision import Exclusion, Theorem
 from disting.evidence.kind import PointText
 from disting.evidence.positive import (
     BoxMap,
@@ -37,7 +37,7 @@ def confirms(evidence: PositiveEvidence, chain: Chain, other: Chain) -> bool:
     match evidence:
         case Theorem():
             return evidence.name != "" and theorem(chain, other) == evidence.name
-        case Excluded():
+        case Exclusion():
             return _excluded(evidence, chain, other)
         case EmptyFibre():
             return _is_of(evidence.point, chain) and _is_empty(evidence.point, chain, other)
@@ -67,7 +67,7 @@ def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
     match evidence:
         case Theorem() | BoxMap():
             return Share.ALWAYS, Certainty.THEOREM
-        case Excluded():
+        case Exclusion():
             return Share.NEVER, Certainty.PROVEN if evidence.point else Certainty.THEOREM
         case EmptyFibre():
             return Share.NEVER, Certainty.BOUNDED
@@ -81,7 +81,7 @@ def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
             return Share.ALWAYS, Certainty.BOUNDED
 
 
-def _excluded(evidence: Excluded, chain: Chain, other: Chain) -> bool:
+def _excluded(evidence: Exclusion, chain: Chain, other: Chain) -> bool:
     if evidence.name != Obstacle.SWAPPED:
         return obstacle(chain, other) == evidence.name
     fails = _is_of(evidence.point, chain) and swap_fails(chain, other)

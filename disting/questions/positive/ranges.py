@@ -22,8 +22,8 @@ from flint import arb, fmpq
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, grade_of
 from disting.algebra.content import full_text
-from disting.errors import InputError, shown
-from disting.evidence.decision import Excluded
+from disting.errors import InputError, short
+from disting.evidence.decision import Exclusion
 from disting.evidence.positive import BoxMap, Empirical, Points, PositiveFinding, Share
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Point, Solution, Status, target
@@ -98,7 +98,7 @@ def within_ranges(
     anywhere = positive_finding(chain, other, settings)
     fixed = any(low == high for low, high in limits.chain.values())
     if anywhere.share is Share.NEVER and (
-        not fixed or anywhere.evidence == Excluded(Obstacle.DECAY)
+        not fixed or anywhere.evidence == Exclusion(Obstacle.DECAY)
     ):
         return anywhere
     return _sampled(chain, other, limits, (settings or Settings()).seed, tries)
@@ -276,14 +276,14 @@ def _range(name: str, low: Bound, high: Bound) -> Range:
     if any(isinstance(edge, str) and is_too_long(edge) for edge in (low, high)):
         limits = f"at most {MOST_DIGITS} characters, and at most {MOST_DIGITS} as a power of ten"
         raise InputError(
-            f"the range of {name}, {shown(low)} to {shown(high)}: a bound has {limits}; choose"
+            f"the range of {name}, {short(low)} to {short(high)}: a bound has {limits}; choose"
             " other units"
         )
     try:
         exact = Fraction(low), Fraction(high)
     except (ValueError, TypeError, OverflowError, ZeroDivisionError):
         raise InputError(
-            f"the range of {name} has two numbers, not {shown(low)} and {shown(high)}"
+            f"the range of {name} has two numbers, not {short(low)} and {short(high)}"
         ) from None
     if not 0 <= exact[0] <= exact[1] or not exact[1]:
         raise InputError(f"the range of {name} is positive and not empty, not {low} to {high}")

@@ -27,7 +27,7 @@ from dataclasses import replace
 
 from disting.algebra.certainty import Certainty, about
 from disting.errors import InputError
-from disting.evidence.decision import Excluded, Theorem
+from disting.evidence.decision import Exclusion, Theorem
 from disting.evidence.positive import (
     Empirical,
     EmptyFibre,
@@ -83,7 +83,7 @@ def positive_finding(
         return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
     against = obstacle(chain, other)
     if against:
-        return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Excluded(against))
+        return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Exclusion(against))
     compared = () if chain.damped else row_words(chain, other)
     return _by_words(chain, other, compared, seed) if compared else _by_points(chain, other, seed)
 
@@ -194,7 +194,7 @@ def _never(chain: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
     point = rational_point(chain, about(f"positivity:{seed}", chain, other), point_bits(other))
     if swap_fails(chain, other) and only_rows_sum_to_zero(chain, point, 2 * other.gap):
         yield PositiveFinding(
-            Share.NEVER, Certainty.PROVEN, evidence=Excluded(Obstacle.SWAPPED, spell(point))
+            Share.NEVER, Certainty.PROVEN, evidence=Exclusion(Obstacle.SWAPPED, spell(point))
         )
     finding = member(chain, other, seed)
     if finding.membership is Membership.EXCLUDED:

@@ -9,9 +9,9 @@ from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expansion import is_renaming
 from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
-from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
+from disting.evidence.ideals import FullRows, NoShares, Refutation, Solutions
 from disting.evidence.kind import Kind
-from disting.evidence.model_samples import Seen, SeenPair, seen
+from disting.evidence.model_samples import ModelSamples, SeenPair, samples_of
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
@@ -34,7 +34,7 @@ from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import confirms_real, proves
-from disting.questions.same.exact import exact_again, rational_part, theorem
+from disting.questions.same.exact import rational_part, recheck, theorem
 from disting.questions.same.real_and_positive import real_factors
 
 
@@ -43,7 +43,7 @@ class Witness:
     """Fresh samples of structures, drawn with a seed of its own and kept for the next question."""
 
     seed: str = "verify"
-    memo: dict[Structure, Seen] = field(default_factory=dict)
+    memo: dict[Structure, ModelSamples] = field(default_factory=dict)
 
     def confirms(self, evidence: Kind, representation: str, left: Chain, right: Chain) -> bool:
         """Whether the evidence is true of the two chains and decides them."""
@@ -58,14 +58,14 @@ class Witness:
         )
         return evidence.holds(pair, representation)
 
-    def _united(self, a: Structure, b: Structure) -> Seen | None:
+    def _united(self, a: Structure, b: Structure) -> ModelSamples | None:
         """The model with the elements of both, if force and sensor of both are at one place."""
         same_ports = (a.ports, a.sensor_order) == (b.ports, b.sensor_order)
         return self._seen(a.united(b)) if same_ports else None
 
-    def _seen(self, structure: Structure) -> Seen:
+    def _seen(self, structure: Structure) -> ModelSamples:
         if structure not in self.memo:
-            self.memo[structure] = seen(ChainModel(structure), self.seed)
+            self.memo[structure] = samples_of(ChainModel(structure), self.seed)
         return self.memo[structure]
 
 
@@ -82,9 +82,9 @@ def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
             return dead_times == (evidence.left_given, not evidence.left_given)
         case FullRows():
             return same_by_full_rows(a.structure, b.structure, "verify") == evidence
-        case Shared():
+        case NoShares():
             return _shares(evidence, a, b)
-        case Solved() | Refuted():
+        case Solutions() | Refutation():
             coordinates = normalise if evidence.is_normalised else coefficient_map
             return find_again(
                 evidence, coordinates(rational_part(a)), coordinates(rational_part(b))
@@ -135,7 +135,7 @@ def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
     )
 
 
-def _shares(evidence: Shared, a: Chain, b: Chain) -> bool:
+def _shares(evidence: NoShares, a: Chain, b: Chain) -> bool:
     """Every share refuted once more, at a fresh point, in the same direction."""
     tries = [(evidence.left_given, MOST)]
     again = tell_chains_apart(rational_part(a), rational_part(b), "verify", tries)
@@ -162,11 +162,11 @@ def finding_holds(finding: Finding, first: Chain, second: Chain, settings: Setti
     Raises NotSeenError where that takes too long.
     """
     evidence = finding.evidence
-    if evidence is None or finding != exact_again(evidence, first, second, settings):
+    if evidence is None or finding != recheck(evidence, first, second, settings):
         return False
-    if isinstance(evidence, Solved):  # of ideals, only the labels were drawn again
+    if isinstance(evidence, Solutions):  # of ideals, only the labels were drawn again
         return Witness().confirms(evidence, "fibre", first, second)
-    if isinstance(evidence, Refuted):
+    if isinstance(evidence, Refutation):
         coordinates = normalise if evidence.is_normalised else coefficient_map
         maps = match_maps(*(coordinates(rational_part(chain)) for chain in (first, second)))
         return refuted_at(evidence.labels, evidence, *maps)

@@ -46,7 +46,7 @@ from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
-from disting.evidence.ideals import FullRows, Refuted, Shared, Solved
+from disting.evidence.ideals import FullRows, NoShares, Refutation, Solutions
 from disting.evidence.kinds import Decision, Evidence
 from disting.fibres import ideals
 from disting.fibres.ideals import (
@@ -90,28 +90,28 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     return by_ideals(a, b, settings, LIMITS)
 
 
-def exact_again(evidence: Evidence, a: Chain, b: Chain, settings: Settings) -> Finding | None:
+def recheck(evidence: Evidence, a: Chain, b: Chain, settings: Settings) -> Finding | None:
     """What the settings find with evidence of this kind on two canonical chains of equal rank, None
     if nothing: a point, a prime or a bound that somebody chose bounds nothing.
 
     All is computed again, of shares in the direction of the evidence alone; but for ideals: of
     these the labels are drawn again.
     """
-    if isinstance(evidence, Solved | Refuted):
+    if isinstance(evidence, Solutions | Refutation):
         coordinates = normalise if evidence.is_normalised else coefficient_map
         maps = (coordinates(rational_part(chain)) for chain in (a, b))
         return by_labels(evidence, *match_maps(*maps), settings.seed)
-    if isinstance(evidence, Shared):
+    if isinstance(evidence, NoShares):
         return by_shares(a, b, settings, [(evidence.left_given, MOST)])
     method = METHODS.get(type(evidence))
     return None if method is None else method(a, b, settings)
 
 
 def by_labels(
-    evidence: Solved | Refuted, left: PolynomialMap, right: PolynomialMap, seed: str
+    evidence: Solutions | Refutation, left: PolynomialMap, right: PolynomialMap, seed: str
 ) -> Finding:
     """What the ideals at these labels say of two models of equal rank, if the seed draws them."""
-    is_solved = isinstance(evidence, Solved)
+    is_solved = isinstance(evidence, Solutions)
     membership = Membership.MEMBER if is_solved else Membership.EXCLUDED
     return as_finding(Decision(membership, safety_of(evidence, left, right, seed), evidence))
 
@@ -179,7 +179,7 @@ OF_ANY_CHAINS: dict[type[object], Method] = {Theorem: by_theorem, DeadTime: by_d
 METHODS: dict[type[object], Method] = OF_ANY_CHAINS | {
     FibreAt: by_synthesis,
     FullRows: by_full_rows,
-    Shared: by_shares,
+    NoShares: by_shares,
 }
 """What decides, by the evidence that it finds, in the order in which it is asked; others of chains
 of one size and sensor only.
@@ -209,7 +209,7 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding
     )
 
 
-def as_finding(decision: Decision[FibreAt | Solved | Refuted]) -> Finding:
+def as_finding(decision: Decision[FibreAt | Solutions | Refutation]) -> Finding:
     """What a fibre tells of two models of equal rank; ABANDONED with the reason if nothing."""
     if decision.membership is Membership.UNKNOWN:
         return Finding(EXACT, Outcome.ABANDONED, note=decision.reason)

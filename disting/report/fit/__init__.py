@@ -16,7 +16,7 @@ from disting.report.fit.sensitivity import (
     importance_bars as importance_bars,
 )
 from disting.report.fit.write import (
-    exported as exported,
+    export as export,
     fit_figures as fit_figures,
     write_fit_report as write_fit_report,
 )

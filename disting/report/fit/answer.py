@@ -17,7 +17,7 @@ from disting.evidence.conditions import capital
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.judge.explanation import allowed
+from disting.fit.judge.explanation import largest_cost
 from disting.fit.judge.members import Member, Twin
 from disting.fit.judge.modes import Result
 from disting.fit.results.selection import Selection
@@ -25,7 +25,7 @@ from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
 from disting.report.fit.links import Link, Site, Step, step_to, steps_of
-from disting.report.fit.responses import drawing, fits_of, seen_together
+from disting.report.fit.responses import drawing, fits_of, with_all_sensors
 from disting.report.fit.words import (
     between,
     error_in_percent,
@@ -122,7 +122,7 @@ class Same:
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class ListedStructure:
     """A structure of the set: its drawing, its page in the catalogue, parameters, what behaves
     the same, what comes next; where there are several responses, how much it reproduces of each.
     """
@@ -136,12 +136,14 @@ class Shown:
     fits: Sequence[tuple[str, str]]
 
 
-def shown_set(selection: Selection, measured: FrequencyResponse, site: Site | None) -> list[Shown]:
+def list_structures(
+    selection: Selection, measured: FrequencyResponse, site: Site | None
+) -> list[ListedStructure]:
     """The structures that the data do not exclude, each with those that behave as it does."""
     return [
-        Shown(
+        ListedStructure(
             m,
-            drawing(seen_together(m.candidate.chain, selection)),
+            drawing(with_all_sensors(m.candidate.chain, selection)),
             site.page(m.candidate.chain) if site else None,
             intervals(m, measured),
             [
@@ -237,8 +239,8 @@ def _beside(selection: Selection) -> Iterator[str]:
 def _misfit(selection: Selection) -> Number:
     said = selection.explanation
     meaning = (
-        f"chi2 per line: 1 is noise alone, above {readable(allowed(said.scatter), 2)} a structure"
-        " does not explain the data"
+        f"chi2 per line: 1 is noise alone, above {readable(largest_cost(said.scatter), 2)} a"
+        " structure does not explain the data"
     )
     return Number("misfit", readable(said.chi2), meaning)
 

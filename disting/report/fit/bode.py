@@ -22,10 +22,10 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.report.fit.series import Series, band, bars, beneath, points, series_of
 from disting.report.fit.style import (
-    Drawn,
+    FigureFiles,
     Tone,
     degrees,
-    drawn,
+    draw_figure,
     heading,
     is_narrow,
     logarithmic,
@@ -90,7 +90,7 @@ def bode(
     train: FrequencyResponse,
     test: FrequencyResponse | None = None,
     at: int = 0,
-) -> Drawn:
+) -> FigureFiles:
     """Training and test data, coherence where there is one, the model, its inertia asymptotes
     and its resonances; `at` = which one of several responses, further ones without what belongs
     to the first.
@@ -126,7 +126,7 @@ def bode(
 
     title = f"Bode diagram of {what} and the data. {_in_words(the_marks)}"
     size = 6.4 + 0.8 * strips + tall, 6.2 + 0.8 * strips + tall
-    return drawn(f"bode-{at + 1}" if at else "bode", title, size, draw)
+    return draw_figure(f"bode-{at + 1}" if at else "bode", title, size, draw)
 
 
 def _in_words(the_marks: Sequence[Mark]) -> str:

@@ -10,7 +10,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.results.selection import Profile
 from disting.fit.search.estimate import REACHED, Task
 from disting.measurement.arrays import Real
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
+from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic
 from disting.report.fit.words import percent, readable, unit_of
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def hits_in_words(candidate: Candidate) -> str:
     return f"{said} within {percent(REACHED)} of the best cost"
 
 
-def waterfall(candidate: Candidate) -> Drawn:
+def waterfall(candidate: Candidate) -> FigureFiles:
     """Cost of each start after the rough search, in rising order; a long flat stretch at the
     bottom tells of a safe optimum.
     """
@@ -76,10 +76,10 @@ def waterfall(candidate: Candidate) -> Drawn:
         heading(figure, title)
         figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 3)
 
-    return drawn("starts", title, (3.5, 3.6), draw)
+    return draw_figure("starts", title, (3.5, 3.6), draw)
 
 
-def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]) -> Drawn:
+def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]) -> FigureFiles:
     """Smallest cost at each value of a parameter, beside the parabola that its standard error
     stands for.
     """
@@ -113,7 +113,7 @@ def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]
             handles, labels, loc="outside lower center", ncols=1 if is_narrow(figure) else 3
         )
 
-    return drawn(
+    return draw_figure(
         "profiles", title, (1.0 + 2.1 * rows(COLUMNS), 1.7 + 1.9 * rows(NARROW_COLUMNS)), draw
     )
 

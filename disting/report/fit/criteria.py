@@ -15,7 +15,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.practical import Thresholds
 from disting.fit.results.selection import CRITERIA, Selection, Sweep, sweep
 from disting.measurement.arrays import Real
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
+from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic
 from disting.report.fit.words import readable
 
 MEANINGS = {
@@ -44,7 +44,7 @@ TITLES = {
 CROWDED = 0.3  # share of the height below which the line would meet a note at the foot of the panel
 
 
-def parameters_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> Drawn:
+def parameters_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> FigureFiles:
     """N_p of the best candidate that fulfils one criterion alone, against its threshold."""
     title = "Parameters of the best model that fulfils one criterion alone"
     return _panels(
@@ -57,7 +57,7 @@ def parameters_by_threshold(candidates: Sequence[Candidate], thresholds: Thresho
     )
 
 
-def models_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> Drawn:
+def models_by_threshold(candidates: Sequence[Candidate], thresholds: Thresholds) -> FigureFiles:
     """Number of candidates that fulfil one criterion alone, against its threshold."""
     title = f"Models that fulfil one criterion alone, of {len(candidates)} fitted"
     return _panels(
@@ -72,7 +72,7 @@ def _panels(
     candidates: Sequence[Candidate],
     thresholds: Thresholds,
     values: Callable[[Sweep], Real],
-) -> Drawn:
+) -> FigureFiles:
     """One panel a criterion, the threshold in use dashed, its value written beside it."""
 
     def draw(figure: "Figure") -> None:
@@ -91,7 +91,7 @@ def _panels(
             panel.set_ylabel(counted)
         heading(figure, title)
 
-    return drawn(name, title, (3.1, 5.6), draw)
+    return draw_figure(name, title, (3.1, 5.6), draw)
 
 
 def _steps(panel: "Axes", thresholds: Real, counts: Real, used: float) -> None:

@@ -11,7 +11,7 @@ from disting.fit.judge.explanation import correlations, partners
 from disting.fit.judge.members import Disagreement
 from disting.fit.judge.modes import between_lines
 from disting.fit.judge.reading import bad_lines
-from disting.fit.noise.scatter import CLEAR, changed, scatter
+from disting.fit.noise.scatter import CLEAR, change, scatter
 from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
@@ -47,7 +47,7 @@ def suspicious_data(cost: AnyCost) -> Iterator[str]:
         yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
 
 
-def doubled(selection: Selection) -> Iterator[str]:
+def same_data_twice(selection: Selection) -> Iterator[str]:
     """Test data that are the training data once more."""
     train = selection.task.cost.measured
     if selection.test is not train and selection.test == train:
@@ -98,7 +98,7 @@ def better(selection: Selection) -> Iterator[str]:
     )
 
 
-def disagreeing(both: tuple[Disagreement, ...]) -> str:
+def differing_parameters(both: tuple[Disagreement, ...]) -> str:
     """Parameters that training and test give differently."""
     values = ", ".join(
         f"{d.name} ({d.train:.3g} and {d.test:.3g}, {d.distance:.2g} standard errors apart)"
@@ -110,7 +110,7 @@ def disagreeing(both: tuple[Disagreement, ...]) -> str:
     )
 
 
-def changing(selection: Selection) -> Iterator[str]:
+def machine_change(selection: Selection) -> Iterator[str]:
     """A machine that is not the same in both measurements."""
     setups = selection.task.cost.setups
     tests = zip(
@@ -123,7 +123,7 @@ def changing(selection: Selection) -> Iterator[str]:
             response_of(selection.described, selection.task, d.omega, at) for d in (train, test)
         ]
         scatters = [scatter(d, [own]) for d, own in zip((train, test), fitted, strict=True)]
-        tau = changed(train, test, *scatters)
+        tau = change(train, test, *scatters)
         if tau:
             own = max(this_scatter.typical for this_scatter in scatters)
             yield (
@@ -133,7 +133,7 @@ def changing(selection: Selection) -> Iterator[str]:
             )
 
 
-def hanging(selection: Selection) -> Iterator[str]:
+def correlated_residuals(selection: Selection) -> Iterator[str]:
     """Residuals that hang together: what is left is not noise."""
     candidate, cost = selection.described, selection.task.cost
     plant = selection.task.plant(candidate.chain)

@@ -10,14 +10,14 @@ import numpy as np
 from scipy.stats import chi2
 
 from disting.fit.judge.members import Member
-from disting.fit.judge.modes import oscillating, poles, zeros
+from disting.fit.judge.modes import oscillations, poles, zeros
 from disting.fit.results.loop import loop_gain
 from disting.fit.results.reliance import nearest, position_of_load
 from disting.fit.results.samples import draws
 from disting.fit.results.selection import Selection, response_of
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
+from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic
 from disting.report.fit.words import response_unit
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ NYQUIST = 3.0  # half width of the Nyquist diagram
 TWINS = 6  # equivalents that are drawn
 
 
-def left_figure(selection: Selection, measured: FrequencyResponse) -> Drawn | None:
+def left_figure(selection: Selection, measured: FrequencyResponse) -> FigureFiles | None:
     """None where nothing is left to compare: one structure without equivalents, no controller."""
     left = selection.members
     if not left or (len(left) == 1 and not left[0].twins and selection.controller is None):
@@ -64,7 +64,7 @@ def left_figure(selection: Selection, measured: FrequencyResponse) -> Drawn | No
     names = ", ".join(m.name for m in left)
     title = f"Responses at the sensor and at the load, poles and zeros of {names}"
     rows = 3 + (selection.controller is not None)
-    return drawn("structures", title, (7.4, 3.0 * rows), draw)
+    return draw_figure("structures", title, (7.4, 3.0 * rows), draw)
 
 
 def _style(k: int) -> dict[str, Any]:
@@ -109,7 +109,7 @@ def _roots(panel: "Axes", selection: Selection, band: tuple[float, float]) -> No
         structure = m.candidate.chain.structure
         sets = draws(m.candidate, selection.task)[:, : len(structure.parameters)]
         for roots_of, marker in ((poles, "x"), (zeros, "o")):
-            own, *others = ([*oscillating(roots_of(structure, p))] for p in sets)
+            own, *others = ([*oscillations(roots_of(structure, p))] for p in sets)
             own = [r for r in own if band[0] <= abs(r) <= band[1]]
             tone = TONES[k % len(TONES)]
             shown += [_place(r)[0] for r in own]

@@ -4,15 +4,15 @@ import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from disting.errors import listed
+from disting.errors import enumeration
 from disting.experiments.menu import Item
 from disting.fit.judge.admissible import KNOWN, UNDETERMINED
-from disting.fit.judge.exclusion import joined
-from disting.fit.plan.fit_file import Named
-from disting.fit.plan.next_experiment import Foretold
+from disting.fit.judge.exclusion import union
+from disting.fit.plan.fit_file import FitRecord
+from disting.fit.plan.next_experiment import Predictions
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import reference
-from disting.report.fit.left_words import Onward, cheapest_first
+from disting.report.fit.left_words import ChainAdvice, cheapest_first
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
 
@@ -28,7 +28,7 @@ class Reach:
     left: tuple[tuple[int, float], ...]
 
 
-def again(lead: Onward) -> str:
+def repeat_command(lead: ChainAdvice) -> str:
     """The command that fits what the first sentence advises together with the data of the fit, NEW
     its file; "" where the file of the fit does not tell its command, or leaves one structure.
     """
@@ -43,7 +43,7 @@ def again(lead: Onward) -> str:
     return f"{lead.named.command} {text}"
 
 
-def first_sentence(lead: Onward) -> str:
+def first_sentence(lead: ChainAdvice) -> str:
     """The experiment that parts the selected structure from most of the others, of equals the
     cheapest, and what it leaves; "" where the lines of the data are not known.
 
@@ -70,12 +70,12 @@ def first_sentence(lead: Onward) -> str:
             f" machine is {selected.name}, it shows a difference from {_of(lead, best, others)}"
         )
         left = [f"{lead.left[k].name} (power {chance(power)})" for k, power in best.left]
-        said += f"; not {listed(left)}" * bool(left)
-    contain = listed([lead.left[k].name for k in larger])
+        said += f"; not {enumeration(left)}" * bool(left)
+    contain = enumeration([lead.left[k].name for k in larger])
     return said + f"; no data exclude {contain}, which {_contain(larger)} it" * bool(larger)
 
 
-def _alone(named: Named, source: str) -> Iterator[str]:
+def _alone(named: FitRecord, source: str) -> Iterator[str]:
     """That nothing is to be told apart, what is not known beside it, and the worst parameter."""
     yield (
         f"{source} leaves {reference(named.model)} alone: no further measurement is needed to tell"
@@ -83,11 +83,11 @@ def _alone(named: Named, source: str) -> Iterator[str]:
     )
     if named.larger:
         yield (
-            f"{listed(named.larger)} {_contain(named.larger)} it with elements that the data do not"
-            " determine"
+            f"{enumeration(named.larger)} {_contain(named.larger)} it with elements that the data"
+            " do not determine"
         )
     if named.rivals:
-        names = listed(map(reference, named.rivals))
+        names = enumeration(map(reference, named.rivals))
         yield f"it is not known whether these structures behave the same: {names}"
     if named.errors:
         yield _worst(named.errors)
@@ -115,25 +115,25 @@ def _contain(names: Sequence[object]) -> str:
     return "contains" if len(names) == 1 else "contain"
 
 
-def _others(lead: Onward) -> list[int]:
+def _others(lead: ChainAdvice) -> list[int]:
     """The structures that do not contain the selected one."""
     chain = lead.left[0].chain
-    return [k for k, o in enumerate(lead.left) if k and joined(chain, o.chain) != o.chain]
+    return [k for k, o in enumerate(lead.left) if k and union(chain, o.chain) != o.chain]
 
 
-def _best(lead: Onward, seen: Foretold, others: list[int]) -> Reach | None:
+def _best(lead: ChainAdvice, seen: Predictions, others: list[int]) -> Reach | None:
     reaches = [_reach(lead, seen, item, others) for item in cheapest_first(lead, seen, 0)]
     best = max(reaches, key=lambda reach: len(reach.parted), default=None)
     return best if best and best.parted else None
 
 
-def _reach(lead: Onward, seen: Foretold, item: Item, others: list[int]) -> Reach:
+def _reach(lead: ChainAdvice, seen: Predictions, item: Item, others: list[int]) -> Reach:
     powers = {k: _power(lead, seen, item, k) for k in others}
     parted = tuple(k for k, power in powers.items() if power >= POWER)
     return Reach(item, parted, tuple((k, p) for k, p in powers.items() if k not in parted))
 
 
-def _power(lead: Onward, seen: Foretold, item: Item, other: int) -> float:
+def _power(lead: ChainAdvice, seen: Predictions, item: Item, other: int) -> float:
     """Of parting another structure; 0 where it may be that nothing differs."""
     nearest = seen.least(0, item, other)
     if nearest is None or not lead.sure(0, item, other):
@@ -141,9 +141,9 @@ def _power(lead: Onward, seen: Foretold, item: Item, other: int) -> float:
     return seen.power(0, other, nearest[0])
 
 
-def _of(lead: Onward, best: Reach, others: list[int]) -> str:
+def _of(lead: ChainAdvice, best: Reach, others: list[int]) -> str:
     if len(best.parted) <= 2:
-        which = listed([lead.left[k].name for k in best.parted])
+        which = enumeration([lead.left[k].name for k in best.parted])
     else:
         which = f"{len(best.parted)} of the {len(others)} others"
     return (

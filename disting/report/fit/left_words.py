@@ -7,15 +7,15 @@ from typing import Any
 
 from disting.experiments.menu import Costs, Item
 from disting.files import Format
-from disting.fit.judge.exclusion import LEVEL, joined
-from disting.fit.plan.fit_file import Left, Named
-from disting.fit.plan.next_experiment import Foretold, Standing, Step, Stood
+from disting.fit.judge.exclusion import LEVEL, union
+from disting.fit.plan.fit_file import FitRecord, Survivor
+from disting.fit.plan.next_experiment import Predictions, Reason, Step, Stood
 from disting.fit.plan.sample import POWER
-from disting.fit.search.candidates import as_listed, reference
+from disting.fit.search.candidates import listed_form, reference
 from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import percent, readable
-from disting.verdict.next_experiments import Further
+from disting.verdict.next_experiments import Menu
 from disting.verdict.next_words import CSV_COLUMNS, rows, to_dict
 from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
@@ -23,28 +23,28 @@ from disting.verdict.result import Relation
 MEASURED_COLUMNS = ("largest", "frequency", "noncentrality", "power")
 BEFORE = "at the fitted values, before a rival is fitted again"
 SAYS = {
-    Standing.EQUAL: "with this force and sensor no data can tell it from {}, whatever the values",
-    Standing.TWIN: "with this force and sensor no data can tell it from {} at the fitted values",
-    Standing.NOISE: "the data are too noisy to tell it from {}",
-    Standing.OPEN: "it is not known whether data with this force and sensor can tell it from {}",
+    Reason.EQUAL: "with this force and sensor no data can tell it from {}, whatever the values",
+    Reason.TWIN: "with this force and sensor no data can tell it from {} at the fitted values",
+    Reason.NOISE: "the data are too noisy to tell it from {}",
+    Reason.OPEN: "it is not known whether data with this force and sensor can tell it from {}",
 }
 
 
 @dataclass(frozen=True)
-class Onward:
+class ChainAdvice:
     """All that is known: how the structures stand, the menu of each group, and what each would
     show; `seen` is None where the file does not tell the lines.
     """
 
     source: str
-    named: Named
+    named: FitRecord
     stood: Stood
-    groups: tuple[Further[Chain], ...]
-    seen: Foretold | None
+    groups: tuple[Menu[Chain], ...]
+    seen: Predictions | None
     costs: Costs
 
     @property
-    def left(self) -> tuple[Left, ...]:
+    def left(self) -> tuple[Survivor, ...]:
         """The structures."""
         return self.stood.left
 
@@ -66,10 +66,10 @@ class Onward:
             if set(names) <= set(group.names):
                 own_place, other_place = map(group.names.index, names)
                 return group.answer(own_place, item, other_place) is Answer.SURELY
-        return self.stood.standing(a, b) is not Standing.EQUAL
+        return self.stood.standing(a, b) is not Reason.EQUAL
 
 
-def set_in_words(lead: Onward) -> Iterator[str]:
+def set_in_words(lead: ChainAdvice) -> Iterator[str]:
     """The structures with their drawings, which of them are groups, and what is not asked."""
     yield f"{len(lead.left)} structures that the fit left:"
     width = max(len(survivor.name) for survivor in lead.left)
@@ -77,7 +77,7 @@ def set_in_words(lead: Onward) -> Iterator[str]:
         yield f"  {survivor.name:{width}}  {text_drawing(survivor.chain)}  {_origin(survivor)}"
     yield ""
     yield LEGEND
-    moved = ", ".join(x.name for x in lead.left if as_listed(x.chain).chain != x.chain)
+    moved = ", ".join(x.name for x in lead.left if listed_form(x.chain).chain != x.chain)
     if moved:
         yield f"masses of {moved} have the numbers of these drawings"
     left = {survivor.chain for survivor in lead.left}
@@ -86,7 +86,7 @@ def set_in_words(lead: Onward) -> Iterator[str]:
         yield f"left out, because it is not known whether they behave the same: {out}"
 
 
-def measured_in_words(lead: Onward) -> Iterator[str]:
+def measured_in_words(lead: ChainAdvice) -> Iterator[str]:
     """What numbers rest on, a sentence for each pair, then the menu of the selected structure in
     numbers.
     """
@@ -114,20 +114,20 @@ def measured_in_words(lead: Onward) -> Iterator[str]:
     )
 
 
-def sentence(lead: Onward, a: int, b: int) -> str:
+def sentence(lead: ChainAdvice, a: int, b: int) -> str:
     """How structure b stands to a, and the cheapest experiment that shows it."""
     survivor, other = lead.left[a], lead.left[b]
     standing = lead.stood.standing(a, b)
     said = f"{other.name}: {SAYS[standing].format(survivor.name)}"
-    if standing is Standing.NOISE:
-        if joined(survivor.chain, other.chain) == other.chain:
+    if standing is Reason.NOISE:
+        if union(survivor.chain, other.chain) == other.chain:
             said += f", which it contains: only {survivor.name} can be excluded"
         said += f" (disting plan {lead.source})"
     shown = _shown(lead, lead.seen, a, b) if lead.seen else ""
     return f"{said}; {shown}" if shown else said
 
 
-def bench_in_words(seen: Foretold) -> str:
+def bench_in_words(seen: Predictions) -> str:
     """Lines, scatter, inertia, and what else is added."""
     bench, hertz = seen.bench, seen.bench.hertz
     more = [f"a {name} is {readable(size)}" for name, size in seen.sizes.items()][1:]
@@ -139,7 +139,7 @@ def bench_in_words(seen: Foretold) -> str:
     )
 
 
-def left_rows(lead: Onward) -> Iterator[tuple[str, ...]]:
+def left_rows(lead: ChainAdvice) -> Iterator[tuple[str, ...]]:
     """Yield a row for each kind of experiment and each pair of places of each pair of structures,
     of CSV_COLUMNS and MEASURED_COLUMNS.
     """
@@ -153,7 +153,7 @@ def left_rows(lead: Onward) -> Iterator[tuple[str, ...]]:
         yield (*row, *_numbers(lead, own_spot[0], other_spot[0], step))
 
 
-def left_to_dict(lead: Onward) -> dict[str, Any]:
+def left_to_dict(lead: ChainAdvice) -> dict[str, Any]:
     """Plain data, ready for JSON; null where a number is not known or not finite."""
     return {
         "format": Format.NEXT_OF_FIT.value,
@@ -174,12 +174,12 @@ def left_to_dict(lead: Onward) -> dict[str, Any]:
     }
 
 
-def _pair(lead: Onward, a: int, b: int) -> dict[str, str]:
+def _pair(lead: ChainAdvice, a: int, b: int) -> dict[str, str]:
     names = {"left": lead.left[a].name, "right": lead.left[b].name}
     return names | {"standing": lead.stood.standing(a, b).value}
 
 
-def _measured(lead: Onward, seen: Foretold) -> dict[str, Any]:
+def _measured(lead: ChainAdvice, seen: Predictions) -> dict[str, Any]:
     hertz = seen.bench.hertz.tolist()
     return {
         "what": BEFORE,
@@ -193,7 +193,7 @@ def _measured(lead: Onward, seen: Foretold) -> dict[str, Any]:
     }
 
 
-def _least(lead: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
+def _least(lead: ChainAdvice, seen: Predictions) -> Iterator[dict[str, Any]]:
     """What tells a structure least from another one, for each item of its menu."""
     for a, b in permutations(range(len(lead.left)), 2):
         for item in cheapest_first(lead, seen, a):
@@ -211,7 +211,7 @@ def _least(lead: Onward, seen: Foretold) -> Iterator[dict[str, Any]]:
                 }
 
 
-def _origin(survivor: Left) -> str:
+def _origin(survivor: Survivor) -> str:
     if survivor.fitted:
         return "fitted"
     family = f", one of many sets of values, {survivor.free} free" * bool(survivor.free)
@@ -219,10 +219,10 @@ def _origin(survivor: Left) -> str:
     return f"with the fitted response of {like}{family}"
 
 
-def _apart(lead: Onward) -> Iterator[tuple[str, ...]]:
+def _apart(lead: ChainAdvice) -> Iterator[tuple[str, ...]]:
     """Rows of pairs of different classes: what is told apart now stays so."""
     for a, b in combinations(range(len(lead.left)), 2):
-        if lead.stood.standing(a, b) is Standing.EQUAL:
+        if lead.stood.standing(a, b) is Reason.EQUAL:
             continue
         rule = lead.stood.rule(a, b)
         relation = Relation.DISTINGUISHABLE if rule else Relation.UNDECIDED
@@ -232,20 +232,20 @@ def _apart(lead: Onward) -> Iterator[tuple[str, ...]]:
             yield kind.name, *names, relation.value, rule, "", ""
 
 
-def cheapest_first(lead: Onward, seen: Foretold, structure: int) -> list[Item]:
+def cheapest_first(lead: ChainAdvice, seen: Predictions, structure: int) -> list[Item]:
     """The menu of a structure in the order of cost, then of masses."""
     order = lead.costs.cheapest_first
     return sorted(seen.items(structure), key=lambda i: (order.index(i.kind), i.at))
 
 
-def _nearest(lead: Onward, seen: Foretold, item: Item) -> tuple[int, Step] | None:
+def _nearest(lead: ChainAdvice, seen: Predictions, item: Item) -> tuple[int, Step] | None:
     """Of all structures the one that an item tells least from the selected one."""
     steps = [(k, seen.least(0, item, k)) for k in range(1, len(lead.left))]
     nearest = [(k, least[0]) for k, least in steps if least is not None]
     return min(nearest, key=lambda both: both[1], default=None)
 
 
-def _row(lead: Onward, seen: Foretold, width: int, other: int, step: Step) -> str:
+def _row(lead: ChainAdvice, seen: Predictions, width: int, other: int, step: Step) -> str:
     name = lead.left[other].name
     if step.is_motion:
         return f"{name:{width}}  the sensor moves in one of the two only"
@@ -254,7 +254,7 @@ def _row(lead: Onward, seen: Foretold, width: int, other: int, step: Step) -> st
     return f"{name:{width}}{''.join(f'{readable(size):>10}' for size in sizes)}{reached:>10}"
 
 
-def _shown(lead: Onward, seen: Foretold, a: int, b: int) -> str:
+def _shown(lead: ChainAdvice, seen: Predictions, a: int, b: int) -> str:
     """The cheapest item that is enough at the fitted values, else the one that shows most."""
     best: tuple[float, str] | None = None
     unsure = False
@@ -286,14 +286,14 @@ def _size(step: Step, reached: float) -> str:
     )
 
 
-def _numbers(lead: Onward, a: int, b: int, step: Step | None) -> tuple[str, ...]:
+def _numbers(lead: ChainAdvice, a: int, b: int, step: Step | None) -> tuple[str, ...]:
     if step is None or lead.seen is None:
         return ("", "", "", "")
     measures = _measures(lead.seen, a, b, step).values()
     return tuple("" if x is None else repr(x) for x in measures)
 
 
-def _measures(seen: Foretold, a: int, b: int, step: Step) -> dict[str, float | None]:
+def _measures(seen: Predictions, a: int, b: int, step: Step) -> dict[str, float | None]:
     """Numbers by MEASURED_COLUMNS; None but for the power where only one of the two moves."""
     sizes = step.largest, step.frequency, step.noncentrality
     columns = [None] * 3 if step.is_motion else sizes

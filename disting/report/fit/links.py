@@ -16,7 +16,7 @@ from disting.fit.judge.members import NOTHING, Member, Twin
 from disting.fit.plan.power import Plan, typical
 from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.results.selection import Selection
-from disting.fit.search.candidates import as_listed, reference
+from disting.fit.search.candidates import listed_form, reference
 from disting.model.chain import Chain
 from disting.model.names import damping_option
 
@@ -76,7 +76,7 @@ class Step:
     command: str
 
 
-def beside(folder: Path) -> Path:
+def folders_near(folder: Path) -> Path:
     """Where the pages of the catalogues may lie that nobody named: in the folder itself, or in
     the one that holds it.
     """
@@ -89,7 +89,7 @@ def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
     """Name, file and fragment of the pages that tell of a structure, the one that tells most
     first.
     """
-    chain = as_listed(chain).chain
+    chain = listed_form(chain).chain
     name = reference(replace(chain, ground_dampers=(), lag=False, dead_time=False))
     size, colon, number = name.partition(":")
     if not colon or not number.isdecimal():
@@ -101,11 +101,11 @@ def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
     yield name, f"models/{catalog_name(*kind).removeprefix('chains-')}/{number}.html", ""
 
 
-def renamed(selection: Selection) -> str:
+def new_names(selection: Selection) -> str:
     """What the parameters of the described candidate are called in the structure that it is
     named after; "" for the same.
     """
-    form = as_listed(selection.described.chain)
+    form = listed_form(selection.described.chain)
     other = ", ".join(f"{old} is {new} there" for old, new in form.renaming.items() if old != new)
     exchanged = "" if other else "force and sensor are exchanged there"
     said = (
@@ -126,7 +126,7 @@ def commands(selection: Selection) -> tuple[str, ...]:
     damped = damping_option(first.chain.damped)
     steps = [f"disting compare {reference(first.chain)} {rest[0]} {damped}"] if rest else []
     chain, fitted = _without_zeros(first.chain, first.estimate.parameters)
-    form, damped = as_listed(chain), damping_option(chain.damped)
+    form, damped = listed_form(chain), damping_option(chain.damped)
     values = ",".join(f"{form.renaming[n]}={v:.6g}" for n, v in fitted.items())
     options = f'--to "{chain.n_masses}+b*" --set {values}'
     return (*steps, f"disting equivalents {reference(chain)} {damped} {options}")
@@ -170,10 +170,10 @@ def step_to(member: Member, twin: Twin) -> Step:
 
 def next_command(plan: Plan) -> str:
     """The command that tells which other experiment tells two structures apart."""
-    return f"disting next {named(plan.model, plan.other)}"
+    return f"disting next {command_names(plan.model, plan.other)}"
 
 
-def named(model: AnyStructure, *others: AnyStructure) -> str:
+def command_names(model: AnyStructure, *others: AnyStructure) -> str:
     """Structures as a command names them."""
     names = " ".join(shlex.quote(name_of(chain)) for chain in (model, *others))
     return f"{names} {damping_option(model.damped)}" if isinstance(model, Chain) else names
@@ -185,9 +185,9 @@ def named_with_values(
     """Structures with the values of the first one, under the names of the structure that is
     listed.
     """
-    names = as_listed(model).renaming if isinstance(model, Chain) else {}
+    names = listed_form(model).renaming if isinstance(model, Chain) else {}
     text = ",".join(f"{names.get(n, n)}={v:.6g}" for n, v in values.items())
-    return f"{named(model, *others)} --set {text}"
+    return f"{command_names(model, *others)} --set {text}"
 
 
 def plan_command(plan: Plan) -> str:

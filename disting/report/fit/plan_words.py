@@ -7,8 +7,8 @@ from math import ceil, floor, sqrt
 import numpy as np
 
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.plan.design import Designed
-from disting.fit.plan.fit_file import Named, NamedNetworks
+from disting.fit.plan.design import Design
+from disting.fit.plan.fit_file import FitRecord, NamedNetworks
 from disting.fit.plan.power import Answer, Plan, is_trusted, typical
 from disting.fit.plan.rival import Limit, Rival
 from disting.fit.plan.sample import POWER
@@ -41,7 +41,7 @@ def chance(probability: float) -> str:
     return f"{floor(1000 * probability) / 10:.1f} %" if probability > 0.99 else percent(probability)
 
 
-def plan_in_words(plan: Plan, best: Designed | None, source: str) -> Iterator[str]:
+def plan_in_words(plan: Plan, best: Design | None, source: str) -> Iterator[str]:
     """The lines of the answer for one pair."""
     yield _answer(plan)
     if plan.verdict is not None:
@@ -63,7 +63,7 @@ def plan_in_words(plan: Plan, best: Designed | None, source: str) -> Iterator[st
 
 
 def rivals_in_words(
-    named: Named | NamedNetworks,
+    named: FitRecord | NamedNetworks,
     plans: Sequence[tuple[Plan, Plan | None]],
     source: str,
     file: str,
@@ -252,7 +252,7 @@ def _estimated(plan: Plan) -> str:
     return f", with the scatter that a fit finds in {own}"
 
 
-def _spectra(plan: Plan, best: Designed) -> Iterator[str]:
+def _spectra(plan: Plan, best: Design) -> Iterator[str]:
     """Band and spectra of the same power, and the lines of the optimal one."""
     before, after = best.crests
     rows = [

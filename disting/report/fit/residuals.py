@@ -19,7 +19,14 @@ from disting.fit.results.selection import Confidence, Selection, confidence, res
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.report.fit.series import Series, band, beneath_in_words, points, series_of
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, over_frequency
+from disting.report.fit.style import (
+    FigureFiles,
+    Tone,
+    draw_figure,
+    heading,
+    is_narrow,
+    over_frequency,
+)
 from disting.report.fit.words import name, percent, readable
 
 if TYPE_CHECKING:
@@ -36,7 +43,7 @@ DECIBEL = 20 / np.log(10)
 
 
 @dataclass(frozen=True, eq=False)
-class Missed:
+class Misfit:
     """ln |G / G_m| and arg (G / G_m) [rad] of one measurement, shape (n_f,) each, and by how
     much its lines scatter.
     """
@@ -54,9 +61,9 @@ class Missed:
         return float(np.mean(np.abs(both) > QUANTILE * np.tile(self.series.scatter.rho, 2)))
 
 
-def missed(
+def misfits(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None, at: int = 0
-) -> list[Missed]:
+) -> list[Misfit]:
     """Residuals of the shown candidate; those that it is judged by against the scatter that it
     is judged by; `at` = which one of several responses.
     """
@@ -66,7 +73,7 @@ def missed(
         ratio = s.measured.G / response_of(candidate, task, s.measured.omega, at)
         is_judged = s.measured is test and judged and len(judged.rho) == len(s.measured)
         scatter = judged if judged and is_judged else s.scatter
-        misses.append(Missed(replace(s, scatter=scatter), np.log(np.abs(ratio)), np.angle(ratio)))
+        misses.append(Misfit(replace(s, scatter=scatter), np.log(np.abs(ratio)), np.angle(ratio)))
     return misses
 
 
@@ -96,11 +103,11 @@ def residuals(
     train: FrequencyResponse,
     test: FrequencyResponse | None = None,
     at: int = 0,
-) -> Drawn:
+) -> FigureFiles:
     """Amplitude above, phase below; each measurement's scatter and the model's confidence as
     bands about zero; `at` = which one of several responses.
     """
-    misses = missed(selection, train, test, at)
+    misses = misfits(selection, train, test, at)
     model = name(selection.described.chain)
     model += f", {selection.task.cost.setups[at].text}" if at else ""
     low, high = (
@@ -125,7 +132,7 @@ def residuals(
             loc="outside lower center", ncols=1 if is_narrow(figure) else 3, columnspacing=2
         )
 
-    return drawn(
+    return draw_figure(
         f"residuals-{at + 1}" if at else "residuals",
         f"Residuals of {model} over frequency. {_outside(misses)}",
         (4.6, 5.4),
@@ -145,7 +152,7 @@ def bands_in_words(
     candidate, task, misses, omega = (
         selection.described,
         selection.task,
-        missed(selection, train, test, at),
+        misfits(selection, train, test, at),
         train.omega,
     )
     sure = confidence(candidate, task, omega, at)
@@ -196,12 +203,12 @@ def _interval(error: float) -> str:
     return f"± {percent(wide)}".replace(" ", "\N{NO-BREAK SPACE}")
 
 
-def _outside(misses: Sequence[Missed]) -> str:
+def _outside(misses: Sequence[Misfit]) -> str:
     each = " and ".join(f"{percent(m.outside)} of those of the {m.series.label}" for m in misses)
     return f"Residuals outside the scatter: {each}; noise alone leaves 5 % there."
 
 
-def _amplitude_unit(misses: Sequence[Missed]) -> tuple[str, Callable[[Real], Real]]:
+def _amplitude_unit(misses: Sequence[Misfit]) -> tuple[str, Callable[[Real], Real]]:
     """Percent, or decibels where amplitudes differ by factors."""
     if max(float(np.quantile(np.abs(m.amplitude), MOST)) for m in misses) < LARGE:
         return "%", lambda ratio: np.asarray(100 * np.expm1(ratio))
@@ -210,7 +217,7 @@ def _amplitude_unit(misses: Sequence[Missed]) -> tuple[str, Callable[[Real], Rea
 
 def _panel(
     panel: "Axes",
-    misses: Sequence[Missed],
+    misses: Sequence[Misfit],
     what: str,
     scaled: Callable[[Real], Real],
     omega: Real,
@@ -270,7 +277,7 @@ def _missed_ranges(panels: Sequence["Axes"], misses: Sequence[Miss]) -> None:
             )
 
 
-def _scatter(panel: "Axes", m: Missed, scaled: Callable[[Real], Real], label: str) -> None:
+def _scatter(panel: "Axes", m: Misfit, scaled: Callable[[Real], Real], label: str) -> None:
     """A band for the first measurement, dashed edges for the second: they lie upon each other."""
     hertz, rho = m.series.measured.frequency, QUANTILE * m.series.scatter.rho
     if m.series.marker == "o":

@@ -14,7 +14,7 @@ from disting.model.chain import Chain
 from disting.report.drawing import draw
 from disting.report.experiment_drawing import Port, state
 from disting.report.fit.residuals import bands_in_words
-from disting.report.fit.style import Drawn
+from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import fit_in_words
 from disting.report.scene import PAGE_PALETTE, Scene
 from disting.report.svg import body, number
@@ -42,7 +42,7 @@ class ShownResponse:
     drawing: Markup
     description: str
     fitted: str
-    panels: Sequence[tuple[Drawn, Sequence[str]]]
+    panels: Sequence[tuple[FigureFiles, Sequence[str]]]
 
 
 def responses(
@@ -65,14 +65,14 @@ def shown_responses(
     selection: Selection,
     train: FrequencyResponse,
     test: FrequencyResponse | None,
-    figures: Sequence[Drawn],
+    figures: Sequence[FigureFiles],
 ) -> list[ShownResponse]:
     """Each response with its figures; `figures`: Bode diagram and residuals of each come first."""
     the_shown_responses = []
     for response in responses(selection, train, test):
         own = figures[PANELS * response.at : PANELS * (response.at + 1)]
         words = bands_in_words(selection, response.train, response.test, response.at)
-        scene = seen_alone(selection.described.chain, selection, response)
+        scene = in_response(selection.described.chain, selection, response)
         the_shown_responses.append(
             ShownResponse(
                 response.setup.text,
@@ -99,7 +99,7 @@ def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]
     return pairs
 
 
-def seen_together(chain: Chain, selection: Selection) -> Scene:
+def with_all_sensors(chain: Chain, selection: Selection) -> Scene:
     """A chain with all sensors that are read on the machine as it is."""
     setups = [setup for setup in _setups(chain, selection) if not _is_changed(setup)]
     signs = _signs(chain, selection)
@@ -109,7 +109,7 @@ def seen_together(chain: Chain, selection: Selection) -> Scene:
     return replace(state(chain, read), title=f"{draw(chain).title.removesuffix('.')}{also}.")
 
 
-def seen_alone(chain: Chain, selection: Selection, response: Response) -> Scene:
+def in_response(chain: Chain, selection: Selection, response: Response) -> Scene:
     """A chain as it is in one response."""
     setup = _setups(chain, selection)[response.at]
     n, place = chain.n_masses, _port(chain, setup)

@@ -10,10 +10,10 @@ from disting.files import Format
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation, explanations
 from disting.fit.judge.members import Member
-from disting.fit.judge.reading import assumed
+from disting.fit.judge.reading import assumed_quantity
 from disting.fit.results.reliance import Statement
 from disting.fit.results.selection import Selection, fit_percent
-from disting.fit.search.candidates import as_listed, reference
+from disting.fit.search.candidates import listed_form, reference
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.sentences import places, suspicions
@@ -121,7 +121,7 @@ def _data(measured: FrequencyResponse) -> dict[str, Any]:
         "origin": measured.origin,
         "reading": measured.reading,
         "quantity": measured.sensor.value,
-        "quantity_assumed": assumed(measured) is not None,
+        "quantity_assumed": assumed_quantity(measured) is not None,
         "notes": list(measured.notes),
     }
 
@@ -214,7 +214,7 @@ def _named(chain: Chain) -> dict[str, Any]:
     `renamed`: where the chain is named after another form of it, what its parameters are called
     there.
     """
-    form = as_listed(chain)
+    form = listed_form(chain)
     _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
     return {
         "n_masses": chain.n_masses,

@@ -8,26 +8,26 @@ from disting.files import __version__
 from disting.fit.judge.alternatives import Alternative
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.judge.explanation import allowed
+from disting.fit.judge.explanation import largest_cost
 from disting.fit.judge.modes import Result
 from disting.fit.judge.reading import read_in_words
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
-from disting.report.fit.answer import answer, parameter_rows, result_row, shown_set
+from disting.report.fit.answer import answer, list_structures, parameter_rows, result_row
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
 from disting.report.fit.links import Site, next_steps
-from disting.report.fit.responses import drawing, seen_together, shown_responses
+from disting.report.fit.responses import drawing, shown_responses, with_all_sensors
 from disting.report.fit.sentences import first_lines, suspicions
-from disting.report.fit.style import Drawn
+from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import (
     cost_in_words,
     name,
     percent,
     readable,
 )
-from disting.report.words import listed, plural
+from disting.report.words import enumeration, plural
 from disting.verdict.result import Relation
 
 FIRST = 30  # rows of candidates that are shown at once
@@ -66,7 +66,7 @@ CERTAIN = 2  # starts that reach the best cost, at least
 def fit_page(
     selection: Selection,
     results: Sequence[Result],
-    figures: Sequence[Drawn],
+    figures: Sequence[FigureFiles],
     train: FrequencyResponse,
     test: FrequencyResponse | None = None,
     site: Site | None = None,
@@ -96,7 +96,7 @@ def fit_page(
         nearest=nearest(selection)[:NEAREST],
         alternatives=alternatives(selection),
         others=rivals(selection),
-        reasoning=reasoning(selection),
+        reasoning=reasons(selection),
         measured="J cross-validated" if test is None else "J test",
         cost=cost_in_words(selection.task.cost),
         data=_data(selection, train, test),
@@ -104,7 +104,7 @@ def fit_page(
         first_lines=first_lines(selection),
         suspicions=suspicions(selection),
         steps=next_steps(selection),
-        members=shown_set(selection, train, site),
+        members=list_structures(selection, train, site),
         home=site.home if site else None,
         **ALWAYS,
     )
@@ -112,7 +112,7 @@ def fit_page(
 
 def _machine(candidate: Candidate, selection: Selection) -> dict[str, str]:
     """What the page says and shows of the structure."""
-    machine = seen_together(candidate.chain, selection)
+    machine = with_all_sensors(candidate.chain, selection)
     return {
         "title": name(candidate.chain),
         "drawing": drawing(machine),
@@ -124,16 +124,16 @@ def _data(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse | None
 ) -> list[tuple[str, FrequencyResponse]]:
     measured = [("Training", train), *([] if test is None else [("Test", test)])]
-    return measured + further(selection)
+    return measured + further_data(selection)
 
 
-def further(selection: Selection) -> list[tuple[str, FrequencyResponse]]:
+def further_data(selection: Selection) -> list[tuple[str, FrequencyResponse]]:
     """The data of further responses."""
     each = zip(selection.task.cost.setups, selection.task.cost.parts, strict=True)
     return [(f"Training ({setup.text})", part.measured) for setup, part in list(each)[1:]]
 
 
-def reasoning(selection: Selection) -> list[tuple[str, str]]:
+def reasons(selection: Selection) -> list[tuple[str, str]]:
     """Keyword and one sentence each: how the cost was validated, what noise may do, why this
     one, how safe the optimum is.
     """
@@ -220,7 +220,7 @@ def _scatter(selection: Selection) -> str:
     return (
         f"A line scatters by {percent(said.scatter.typical)}, known from {said.scatter.source}."
         f" Measured by it, chi2 per line is {readable(said.chi2)}: 1 is noise alone, above"
-        f" {readable(allowed(said.scatter), 2)} the data are not explained."
+        f" {readable(largest_cost(said.scatter), 2)} the data are not explained."
     )
 
 
@@ -257,8 +257,8 @@ def choices(selection: Selection) -> list[tuple[str, str]]:
         ("Cost", f"J adds {cost_in_words(task.cost)}"),
         ("Weights of lines", "equal" if task.cost.parts[0].lines is None else "one for each line"),
         ("Sign of the sensor", f"{task.sign:+d}".replace("-", "−")),
-        ("Bounds", listed(bounds) or "none"),
-        ("Fixed", listed(fixed) or "none"),
+        ("Bounds", enumeration(bounds) or "none"),
+        ("Fixed", enumeration(fixed) or "none"),
         ("Seed", task.seed),
         ("disting", __version__),
     ]

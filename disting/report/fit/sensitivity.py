@@ -12,7 +12,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.practical import Thresholds, collinearity_by_subset
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Real
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
+from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ ONE_DOT = 0.01  # decades of the index within which dots of one size are one
 INFINITE = 1e12  # indices are drawn up to here
 
 
-def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | None:
+def importance_bars(candidate: Candidate, thresholds: Thresholds) -> FigureFiles | None:
     """Importance delta^msqr (16) of each parameter, the smallest admissible one dashed; None
     where all are given.
     """
@@ -64,7 +64,7 @@ def importance_bars(candidate: Candidate, thresholds: Thresholds) -> Drawn | Non
         )
         heading(figure, title)
 
-    return drawn("importance", title, (1.5 + 0.29 * len(rows), 2.0 + 0.29 * len(rows)), draw)
+    return draw_figure("importance", title, (1.5 + 0.29 * len(rows), 2.0 + 0.29 * len(rows)), draw)
 
 
 def _bars(panel: "Axes", rows: Sequence[tuple[str, float]], floor: float, least: float) -> None:
@@ -85,7 +85,9 @@ def _bars(panel: "Axes", rows: Sequence[tuple[str, float]], floor: float, least:
         )
 
 
-def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) -> Drawn | None:
+def collinearity_dots(
+    candidate: Candidate, task: Task, thresholds: Thresholds
+) -> FigureFiles | None:
     """Collinearity index (17) of every set of parameters against its size; None for one
     parameter or for very many.
     """
@@ -125,7 +127,7 @@ def collinearity_dots(candidate: Candidate, task: Task, thresholds: Thresholds) 
         heading(figure, title)
         figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 3)
 
-    return drawn("collinearity", title, (3.7, 4.0), draw)
+    return draw_figure("collinearity", title, (3.7, 4.0), draw)
 
 
 def _dots(panel: "Axes", sizes: NDArray[np.intp], indices: Real) -> None:

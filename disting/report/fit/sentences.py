@@ -6,7 +6,7 @@ Structures are named as the commands read them, such as 2:1+b2+delay.
 
 from collections.abc import Iterator
 
-from disting.fit.judge.explanation import allowed
+from disting.fit.judge.explanation import largest_cost
 from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
@@ -14,12 +14,12 @@ from disting.measurement.time_series import FOLLOWS
 from disting.report.fit.doubts import (
     bad,
     better,
-    changing,
     clear_band,
-    disagreeing,
-    doubled,
+    correlated_residuals,
+    differing_parameters,
     doubtful_deviations,
-    hanging,
+    machine_change,
+    same_data_twice,
     suspicious_data,
     unseen,
     weak,
@@ -34,7 +34,7 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
     """
     return (
         _verdict(selection),
-        *doubled(selection),
+        *same_data_twice(selection),
         *selection.quantities,
         *(_explained(selection) if selection.explanation.explains else _unexplained(selection)),
     )[:5]
@@ -52,22 +52,22 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
             else [_verdict(selection), *_unexplained(selection)]
         ),
         *better(selection),
-        *(disagreeing(m.disagreements) for m in selection.members[:1] if m.disagreements),
-        *changing(selection),
-        *hanging(selection),
+        *(differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements),
+        *machine_change(selection),
+        *correlated_residuals(selection),
         *weak(selection),
         *outside(selection.described, selection.task.cost.measured),
         *unseen(selection),
-        *doubled(selection),
+        *same_data_twice(selection),
         *bad(selection),
         *doubtful_deviations(selection),
         *suspicious_data(selection.task.cost),
-        *learned(selection),
+        *uninformative(selection),
     ]
     return tuple(dict.fromkeys(said))
 
 
-def learned(selection: Selection) -> tuple[str, ...]:
+def uninformative(selection: Selection) -> tuple[str, ...]:
     """Responses from which nothing is learned, in sentences."""
     return tuple(
         f"{what}: that response is zero whatever the parameters, so nothing is learned from it"
@@ -120,7 +120,7 @@ def _verdict(selection: Selection) -> str:
             f" ({said.scatter.source}); the best one is {best}"
         )
     which = "none of the candidates"
-    if any(c.chi2 <= allowed(said.scatter) for c in selection.candidates):
+    if any(c.chi2 <= largest_cost(said.scatter) for c in selection.candidates):
         which = "none of the candidates that may be selected"
     return f"{which} explains this data; the best one is {best} ({size})"
 
@@ -148,10 +148,12 @@ def _explained(selection: Selection) -> Iterator[str]:
             f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force"
             f" and {'these sensors and states' if _is_joint(selection) else 'sensor'} can tell"
         )
-    yield from (disagreeing(m.disagreements) for m in selection.members[:1] if m.disagreements)
     yield from (
-        *changing(selection),
-        *hanging(selection),
+        differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements
+    )
+    yield from (
+        *machine_change(selection),
+        *correlated_residuals(selection),
         *weak(selection),
         *doubtful_deviations(selection),
     )

@@ -87,7 +87,7 @@ def bars(panel: "Axes", s: Series, values: Real, low: Real, high: Real) -> None:
     """
     if not s.has_bars:
         return
-    at = barred(s.measured.omega)
+    at = bar_lines(s.measured.omega)
     panel.errorbar(
         s.measured.frequency[at],
         values[at],
@@ -99,7 +99,7 @@ def bars(panel: "Axes", s: Series, values: Real, low: Real, high: Real) -> None:
     )
 
 
-def barred(omega: Real) -> NDArray[np.intp]:
+def bar_lines(omega: Real) -> NDArray[np.intp]:
     """Indices of at most `BARRED` lines, as evenly spread over a logarithmic axis as the lines
     allow.
     """
@@ -169,7 +169,7 @@ def beneath(panel: "Axes", s: Series, smallest: float) -> None:
         kept = chosen & (hertz >= low) & (hertz <= high) & (levels > DEEPEST * smallest)
         if not kept.any():
             continue
-        at, size = gathered(hertz[kept], levels[kept])
+        at, size = gather(hertz[kept], levels[kept])
         tone, marker, width = LOOKS[kind]
         panel.plot(
             at, size, marker, ms=width, mfc="none", mec=tone, mew=0.8, zorder=1.7, label=kind
@@ -189,7 +189,7 @@ def beneath_in_words(s: Series) -> str:
     )
 
 
-def gathered(hertz: Real, levels: Real) -> tuple[Real, Real]:
+def gather(hertz: Real, levels: Real) -> tuple[Real, Real]:
     """Where there are many lines, the root mean square of those near each other on a
     logarithmic axis, and their middle.
     """

@@ -160,7 +160,7 @@ METADATA: dict[str, dict[str, Any]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class FigureFiles:
     """A figure: its file name without ending, what it shows in words, its files, and an SVG for
     phones.
     """
@@ -179,13 +179,13 @@ class Drawn:
 
     def inline_as(self, name: str) -> Markup:
         """The same with ids that begin with another name than the figure's own."""
-        wide = inlined(self.svg.decode(), name, self.title, "wide")
-        return wide + inlined(self.narrow.decode(), f"{name}-n", self.title, "narrow")
+        wide = inline(self.svg.decode(), name, self.title, "wide")
+        return wide + inline(self.narrow.decode(), f"{name}-n", self.title, "narrow")
 
 
-def drawn(
+def draw_figure(
     name: str, title: str, heights: tuple[float, float], draw: Callable[["Figure"], None]
-) -> Drawn:
+) -> FigureFiles:
     """SVG, PNG and PDF of what `draw` draws into a figure; `heights` [inch] of the wide and of
     the narrow one.
     """
@@ -197,7 +197,7 @@ def drawn(
         matplotlib.rcParams.update(SETTINGS)
         wide, narrow = _laid_out(WIDE, heights[0], draw), _laid_out(NARROW, heights[1], draw)
         files = {kind: _file(wide, kind) for kind in METADATA}
-        return Drawn(name, title, **files, narrow=_file(narrow, "svg"))
+        return FigureFiles(name, title, **files, narrow=_file(narrow, "svg"))
 
 
 def _laid_out(width: float, height: float, draw: Callable[["Figure"], None]) -> "Figure":
@@ -242,7 +242,7 @@ def _file(figure: "Figure", kind: str) -> bytes:
     return buffer.getvalue()
 
 
-def inlined(svg: str, name: str, title: str, width: str) -> Markup:
+def inline(svg: str, name: str, title: str, width: str) -> Markup:
     """A stand-alone SVG of matplotlib as part of an HTML page; `width`: its class there, wide or
     narrow.
 

@@ -8,7 +8,7 @@ from disting.fit.results.selection import Selection, fit_percent
 from disting.fit.search.cost import Case
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
-from disting.measurement.units import differentiated
+from disting.measurement.units import unit_as
 from disting.model.chain import Chain, Sensor
 from disting.report.words import plural
 
@@ -151,7 +151,7 @@ def unit_of(kind: str, measured: FrequencyResponse) -> str:
     """
     if kind not in MOTIONS:
         return "s"
-    motion = differentiated(measured.output.unit, measured.sensor, MOTIONS[kind])
+    motion = unit_as(measured.output.unit, measured.sensor, MOTIONS[kind])
     if not measured.input.unit or not motion:
         return f"input per {MOTIONS[kind]}"
     quotient = (

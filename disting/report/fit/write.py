@@ -12,9 +12,9 @@ import numpy as np
 
 from disting.files import write_whole
 from disting.fit.judge.modes import Result, physical
-from disting.fit.plan.design import Designed, designed_to_dict
+from disting.fit.plan.design import Design, designed_to_dict
 from disting.fit.plan.power import Plan, typical
-from disting.fit.results.export import Exported
+from disting.fit.results.export import NumberedStructure
 from disting.fit.results.selection import Profile, Selection, profile
 from disting.fit.search.candidates import reference as name_of
 from disting.measurement import FrequencyResponse
@@ -23,13 +23,13 @@ from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
 from disting.report.fit.criteria import models_by_threshold, parameters_by_threshold
 from disting.report.fit.left_figure import left_figure
-from disting.report.fit.links import Site, beside, named_with_values
+from disting.report.fit.links import Site, folders_near, named_with_values
 from disting.report.fit.residuals import residuals
 from disting.report.fit.responses import responses
 from disting.report.fit.selection_json import candidate_to_dict, selection_to_dict
 from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sensitivity import collinearity_dots, importance_bars
-from disting.report.fit.style import Drawn, Tone, drawn, heading, is_narrow, logarithmic
+from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic
 from disting.report.fit.words import name, unit_of
 
 COLUMNS = (
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def write_plan(plan: Plan, best: Designed, folder: Path) -> str:
+def write_plan(plan: Plan, best: Design, folder: Path) -> str:
     """Write plan.svg, .png, .pdf, plan.json, lines.csv and spectrum.csv; the command that simulates
     the spectrum. The same plan gives the same bytes.
     """
@@ -63,7 +63,7 @@ def write_plan(plan: Plan, best: Designed, folder: Path) -> str:
     return simulation(plan, best, folder / "spectrum.csv")
 
 
-def simulation(plan: Plan, best: Designed, path: Path) -> str:
+def simulation(plan: Plan, best: Design, path: Path) -> str:
     """The command that runs a spectrum on the model."""
     return (
         f"disting simulate {named_with_values(plan.model, plan.values)}"
@@ -71,7 +71,7 @@ def simulation(plan: Plan, best: Designed, path: Path) -> str:
     )
 
 
-def _lines(plan: Plan, best: Designed) -> str:
+def _lines(plan: Plan, best: Design) -> str:
     """A row a line: frequency, difference, noise, shares of the power."""
     rows = ["frequency_hz,difference,noise,share_optimal,share_run\n"]
     rival = plan.rival
@@ -81,7 +81,7 @@ def _lines(plan: Plan, best: Designed) -> str:
     return "".join(rows)
 
 
-def plan_figure(plan: Plan, best: Designed) -> Drawn:
+def plan_figure(plan: Plan, best: Design) -> FigureFiles:
     """Difference of the two structures over frequency beside the noise, and the shares of the power
     of the optimal spectrum below.
     """
@@ -102,10 +102,10 @@ def plan_figure(plan: Plan, best: Designed) -> Drawn:
         figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 5)
 
     said = f"{title}; noise {100 * typical(noise):.2g} % a line"
-    return drawn("plan", said, (5.2, 5.6), draw)
+    return draw_figure("plan", said, (5.2, 5.6), draw)
 
 
-def _difference(panel: "Axes", best: Designed, size: Real, noise: Real) -> None:
+def _difference(panel: "Axes", best: Design, size: Real, noise: Real) -> None:
     """Difference of the structures, noise of a line, best band."""
     panel.plot(best.hertz, 100 * size, color=Tone.FIRST, label="difference |G_B/G_A - 1|")
     panel.plot(
@@ -120,7 +120,7 @@ def _difference(panel: "Axes", best: Designed, size: Real, noise: Real) -> None:
     panel.set_ylabel("Difference [%]")
 
 
-def _shares(panel: "Axes", best: Designed) -> None:
+def _shares(panel: "Axes", best: Design) -> None:
     """Shares of the power of the optimal spectrum and of the one to be run."""
     chosen = best.optimum.shares > 0
     panel.vlines(
@@ -168,7 +168,9 @@ def write_fit_report(
     results = physical(candidate, selection.task)
     figures = fit_figures(selection, results, train, test, the_profiles)
     folder.mkdir(parents=True, exist_ok=True)
-    page = fit_page(selection, results, figures, train, test, Site(site or beside(folder), folder))
+    page = fit_page(
+        selection, results, figures, train, test, Site(site or folders_near(folder), folder)
+    )
     return [
         write_whole(folder / file, content) for file, content in _files(selection, page, figures)
     ]
@@ -180,7 +182,7 @@ def fit_figures(
     train: FrequencyResponse,
     test: FrequencyResponse | None = None,
     profiles: Sequence[Profile] = (),
-) -> list[Drawn]:
+) -> list[FigureFiles]:
     """Bode diagram and residuals of each response, criteria against thresholds, importance,
     collinearity, starts, profiles.
     """
@@ -207,7 +209,7 @@ def fit_figures(
 
 
 def _files(
-    selection: Selection, page: str, figures: Sequence[Drawn]
+    selection: Selection, page: str, figures: Sequence[FigureFiles]
 ) -> Iterator[tuple[str, bytes | list[str]]]:
     yield "fit.html", [page]
     for figure in figures:
@@ -224,7 +226,7 @@ def _files(
     yield "candidates.csv", [candidates_csv(selection)]
 
 
-def exported(selection: Selection, measured: FrequencyResponse) -> list[Exported]:
+def export(selection: Selection, measured: FrequencyResponse) -> list[NumberedStructure]:
     """The structures that the data leave, the selected one first, then what may as well be one of
     them; further parameter sets of one structure are numbered.
     """
@@ -242,7 +244,7 @@ def exported(selection: Selection, measured: FrequencyResponse) -> list[Exported
         counted[called] += 1
         number = f" ({counted[called]})" if counted[called] > 1 else ""
         units = {n: unit_of(n[0], measured) for n in values}
-        exporteds.append(Exported(called + number, chain, values, units))
+        exporteds.append(NumberedStructure(called + number, chain, values, units))
     return exporteds
 
 

@@ -18,7 +18,7 @@ from disting.report.drawing import chain_svg
 from disting.report.network_drawing import network_svg
 from disting.report.notebook.network_tables import table_of  # with those of `tables`
 from disting.report.notebook.plots import drawn_on
-from disting.simulation.mechanics import checked, frequency_response
+from disting.simulation.mechanics import check_values, frequency_response
 
 
 class Notebook:
@@ -44,11 +44,11 @@ class Notebook:
 
     def state_space(self, shown: Chain, values: Mapping[str, float], /) -> StateSpace:
         """The matrices with numbers."""
-        return state_space(shown, checked(shown, values))
+        return state_space(shown, check_values(shown, values))
 
     def to_control(self, shown: Chain, values: Mapping[str, float], /) -> Any:
         """The same for python-control."""
-        return to_control(shown, checked(shown, values))
+        return to_control(shown, check_values(shown, values))
 
     def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
         """The object on axes of matplotlib; raises TypeError for what has no plot."""

@@ -27,11 +27,11 @@ from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance
 from disting.report.fit.words import name, readable, response_unit, typeset
 from disting.report.notebook.markup import LONGEST, block, curve, facts, line, matrix, more, table
-from disting.report.words import headline, plural, raised, title
+from disting.report.words import headline, plural, raise_exponents, title
 from disting.verdict.decisions import Decisions
 from disting.verdict.meaning import meaning_sentence as measured
-from disting.verdict.next_experiments import Further
-from disting.verdict.next_words import AnyFurther, anywhere, conclusion
+from disting.verdict.next_experiments import Menu
+from disting.verdict.next_words import AnyMenu, anywhere, conclusion
 from disting.verdict.result import Relation, Verdict
 
 COLUMNS = (
@@ -51,7 +51,7 @@ def _verdict(shown: Verdict) -> str:
     every = shown.relation is Relation.INDISTINGUISHABLE and not shown.has_exceptions
     rows = [
         ("holds for", f"{'all' if every else 'generic'} {shown.domain} parameters"),
-        ("certainty", raised(shown.sure)),
+        ("certainty", raise_exponents(shown.sure)),
         ("rests on", shown.rule),
         ("equivalents exist", _inclusion(shown, shown.image)),
         ("limits exist", _inclusion(shown, shown.closure)),
@@ -276,8 +276,8 @@ def _formula(shown: Model | MatrixModel) -> str:
     return f"{plural(shown.n_states, 'state')}, {shown.n_terms} terms"
 
 
-@table_of.register(Further)
-def _further(shown: AnyFurther) -> str:
+@table_of.register(Menu)
+def _further(shown: AnyMenu) -> str:
     rows = ((own, conclusion(shown, k)) for k, own in enumerate(shown.names))
     enough = anywhere(shown)
     return block(

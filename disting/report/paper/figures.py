@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from disting.catalogs import Catalog
-from disting.catalogs.dampers import DamperTable, spelled
+from disting.catalogs.dampers import DamperTable, spell
 from disting.fit.judge.modes import physical
 from disting.model.family import Family
 from disting.paper import Findings
@@ -65,7 +65,7 @@ def of_catalog(title: str, catalog: Catalog, view: View) -> Panel:
 
 def of_dampers(title: str, table: DamperTable) -> Panel:
     """Every pair of sets of ground dampers."""
-    return of_decisions(title, table.decided, tuple(map(spelled, table.sets)))
+    return of_decisions(title, table.decided, tuple(map(spell, table.sets)))
 
 
 def triangles(title: str, panels: Sequence[Panel], columns: int, cell: float) -> Scene:

@@ -15,7 +15,7 @@ from disting.catalogs.damper_family import damper_name
 from disting.catalogs.files import name_of
 from disting.files import __version__, write_whole
 from disting.model.family import Family
-from disting.paper import SECTIONS, Claim, Findings, Found, Outcome
+from disting.paper import SECTIONS, Claim, Findings, Observed, Outcome
 from disting.paper.claim import Observation
 from disting.report.drawing import draw
 from disting.report.environment import render
@@ -56,7 +56,7 @@ class Line:
     """A claim, what its check found, and (words, address) of the pages that show its verdicts."""
 
     claim: Claim
-    found: Found | None
+    found: Observed | None
     links: tuple[tuple[str, str], ...] = ()
     commands: tuple[str, ...] = ()
 
@@ -180,7 +180,7 @@ def paper_page(findings: Findings, pictures: Sequence[Picture], beside: Containe
         models=model_rows(findings),
         pages="../models/3-undamped" if name_of(3, False) in beside else "",
         drawing=lambda chain: drawing(draw(chain)),
-        raised=raised,
+        raised=with_scripts,
         plural=plural,
         version=__version__,
     )
@@ -202,10 +202,10 @@ def model_rows(findings: Findings) -> list[tuple[ModelRow, int]]:
     return [(row, damped.rank) for row, damped in rows]
 
 
-def raised(text: str) -> Markup:
+def with_scripts(text: str) -> Markup:
     """Text with its _ and ^ as subscripts and superscripts.
 
-    >>> print(raised("n_act+ < 2^N"))
+    >>> print(with_scripts("n_act+ < 2^N"))
     n<sub>act+</sub> &lt; 2<sup>N</sup>
     """
     subscripts = re.sub(r"(?<=\S)_(\w+[+−]?)", r"<sub>\1</sub>", str(escape(text)))

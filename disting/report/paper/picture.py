@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
-from disting.report.fit.style import METADATA, SETTINGS, Drawn
+from disting.report.fit.style import METADATA, SETTINGS, FigureFiles
 from disting.report.png import png
 from disting.report.scene import (
     FILE_PALETTE,
@@ -123,7 +123,7 @@ def _inline(scene: Scene, width: str) -> Markup:
     )
 
 
-def of_plot(name: str, printed: str, caption: str, plot: Drawn) -> Picture:
+def of_plot(name: str, printed: str, caption: str, plot: FigureFiles) -> Picture:
     """A picture of a plot, whatever name the plot has by itself."""
     return Picture(
         name=name,

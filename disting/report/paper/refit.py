@@ -7,10 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disting.fit.results.export import predicted
+from disting.fit.results.export import predict
 from disting.measurement.arrays import Complex
 from disting.paper import Refit
-from disting.report.fit.style import Drawn, Tone, degrees, drawn, heading, is_narrow, logarithmic
+from disting.report.fit.style import (
+    FigureFiles,
+    Tone,
+    degrees,
+    draw_figure,
+    heading,
+    is_narrow,
+    logarithmic,
+)
 from disting.report.fit.words import readable
 
 if TYPE_CHECKING:
@@ -21,9 +29,9 @@ SIGNS = {"antiresonance": "▽", "resonance": "△"}
 GAP = 0.18  # between the two damping ratios of a mode, in rows
 
 
-def refit_figure(refit: Refit) -> Drawn:
+def refit_figure(refit: Refit) -> FigureFiles:
     """Both Bode curves; on the right frequency and damping of the four modes."""
-    fitted = predicted(refit.fitted, dict(refit.fitted_parameters), refit.measured.omega)
+    fitted = predict(refit.fitted, dict(refit.fitted_parameters), refit.measured.omega)
 
     def draw(figure: "Figure") -> None:
         """The Bode diagram, and the damping ratios beside it or, on a phone, below."""
@@ -44,7 +52,7 @@ def refit_figure(refit: Refit) -> Drawn:
         f"{m.name}: damping {readable(m.damping[0])} and {readable(m.damping[1])}"
         for m in refit.modes
     )
-    return drawn(
+    return draw_figure(
         "figure-12", f"Bode diagrams of A1 and of A4 fitted to it. {said}", (4.9, 7.6), draw
     )
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from itertools import chain
 
-from disting.report.reference.modules import Definition, Place, defined, parsed, public
+from disting.report.reference.modules import Definition, Place, definition, parse, public
 
 ENUMS = {"Enum", "StrEnum", "IntEnum"}
 RAISED = re.compile(r"\bRaises ((?:(?!\. [A-Z]).)*)", re.DOTALL)
@@ -65,9 +65,9 @@ def entries(name: str) -> Iterator[Entry]:
     'Verdict'
     """
     for key in public(name):
-        place = defined(Place(name, key))
+        place = definition(Place(name, key))
         if place is not None:
-            source = parsed(place.module)
+            source = parse(place.module)
             yield _entry(key, place, source.definitions[place.name], source.texts.get(key, ""))
 
 
@@ -112,8 +112,8 @@ def _is_record(node: ast.ClassDef) -> bool:
 def _fields(place: Place, node: ast.ClassDef) -> Iterator[Entry]:
     """The fields of a record, those of records that it extends first."""
     for base in node.bases:
-        the_place = defined(Place(place.module, base.id)) if isinstance(base, ast.Name) else None
-        extended = parsed(the_place.module).definitions[the_place.name] if the_place else None
+        the_place = definition(Place(place.module, base.id)) if isinstance(base, ast.Name) else None
+        extended = parse(the_place.module).definitions[the_place.name] if the_place else None
         if the_place and isinstance(extended, ast.ClassDef):
             yield from _fields(the_place, extended)
     if _is_record(node):
@@ -226,8 +226,8 @@ def _written(value: ast.expr, module: str) -> str:
             return ast.unparse(made.body)
         expr = exprs.get("default")
         return f"{ast.unparse(made)}()" if made else ast.unparse(expr) if expr else ""
-    at = defined(Place(module, value.id)) if isinstance(value, ast.Name) else None
-    node = parsed(at.module).definitions[at.name] if at else None
+    at = definition(Place(module, value.id)) if isinstance(value, ast.Name) else None
+    node = parse(at.module).definitions[at.name] if at else None
     constant = isinstance(node, ast.Assign | ast.AnnAssign) and isinstance(node.value, ast.Constant)
     return ast.unparse(node.value if constant else value)  # type: ignore[union-attr,arg-type]
 

@@ -42,7 +42,7 @@ class Module:
 
 
 @lru_cache(AT_ONCE)
-def parsed(name: str) -> Module:
+def parse(name: str) -> Module:
     """A module or package of disting, parsed; raises ModuleNotFoundError if there is none."""
     tree = ast.parse(_source(name))
     aliases = [
@@ -81,7 +81,7 @@ def public(name: str) -> tuple[str, ...]:
     >>> "Chain" in public("disting"), "build" in public("disting.catalogs.build")
     (True, True)
     """
-    module = parsed(name)
+    module = parse(name)
     return module.handed_on or tuple(
         key
         for key, node in module.definitions.items()
@@ -90,18 +90,18 @@ def public(name: str) -> tuple[str, ...]:
 
 
 @cache
-def defined(at: Place) -> Place | None:
+def definition(at: Place) -> Place | None:
     """Where a name is defined that a module defines or imports; None outside of the package.
 
-    >>> defined(Place("disting", "Chain"))
+    >>> definition(Place("disting", "Chain"))
     Place(module='disting.model.chain', name='Chain')
     """
     if at.module.split(".")[0] != PACKAGE or not _exists(at.module):
         return None
-    module = parsed(at.module)
+    module = parse(at.module)
     if at.name in module.definitions:
         return at
-    return defined(module.imports[at.name]) if at.name in module.imports else None
+    return definition(module.imports[at.name]) if at.name in module.imports else None
 
 
 def _source(name: str) -> str:
@@ -118,7 +118,7 @@ def _source(name: str) -> str:
 @cache
 def _exists(name: str) -> bool:
     try:
-        parsed(name)
+        parse(name)
     except ModuleNotFoundError:
         return False
     return True

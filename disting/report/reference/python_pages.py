@@ -17,7 +17,7 @@ from markupsafe import Markup, escape
 from disting.report.environment import render
 from disting.report.markdown import GuidePage, Section
 from disting.report.reference.entries import Argument, Entry, entries
-from disting.report.reference.modules import Place, defined, parsed
+from disting.report.reference.modules import Place, definition, parse
 
 PLAIN = (
     ["emphasis", "link", "image", "autolink", "escape", "entity", "html_inline"],
@@ -29,10 +29,10 @@ Leads = Callable[[str], str]
 """Where a name leads; an empty text if nowhere."""
 
 
-def rendered(text: str, leads: Leads) -> Markup:
+def as_html(text: str, leads: Leads) -> Markup:
     r"""HTML of a docstring whose indentation is removed.
 
-    >>> print(rendered("A `Chain` of *two*.\n\n>>> 1 + 1\n2", {"Chain": "#Chain"}.get))
+    >>> print(as_html("A `Chain` of *two*.\n\n>>> 1 + 1\n2", {"Chain": "#Chain"}.get))
     <p>A <a href="#Chain"><code>Chain</code></a> of *two*.</p>
     <pre tabindex="0"><code>&gt;&gt;&gt; 1 + 1
     2</code></pre>
@@ -64,10 +64,10 @@ def code(name: str, leads: Leads) -> Markup:
     return link.format(address, name)
 
 
-def linked(source: str, leads: Leads) -> Markup:
+def link(source: str, leads: Leads) -> Markup:
     """An annotation or a default with its names linked.
 
-    >>> linked("tuple[Chain, ...]", {"Chain": "#Chain"}.get)
+    >>> link("tuple[Chain, ...]", {"Chain": "#Chain"}.get)
     Markup('tuple[<a href="#Chain">Chain</a>, ...]')
     """
     markup, done = Markup(), 0
@@ -98,7 +98,7 @@ WIDEST = 88  # characters of a signature on one line
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class PageEntry:
     """An entry as the page shows it; `elsewhere`: the address where it is explained, if that is
     another page.
     """
@@ -108,7 +108,7 @@ class Shown:
     signature: Markup
     raises: tuple[Markup, ...]
     text: Markup
-    members: tuple["Shown", ...] = ()
+    members: tuple["PageEntry", ...] = ()
     elsewhere: str = ""
 
     @property
@@ -126,7 +126,7 @@ def python_pages() -> tuple[GuidePage, ...]:
         for entry in the_entries:
             addresses.setdefault(entry.place, f"{page_name(name)}.html#{entry.name}")
     pages = tuple(_page(name, the_entries, addresses) for name, the_entries in offered.items())
-    parsed.cache_clear()  # nobody asks for a tree again
+    parse.cache_clear()  # nobody asks for a tree again
     return pages
 
 
@@ -141,15 +141,15 @@ def page_name(module: str) -> str:
 
 def _page(name: str, the_entries: list[Entry], addresses: Mapping[Place, str]) -> GuidePage:
     shown = [_shown(name, entry, addresses) for entry in the_entries]
-    text = rendered(parsed(name).text, partial(_address, name, addresses))
+    text = as_html(parse(name).text, partial(_address, name, addresses))
     body = Markup(render("reference.html", module=name, text=text, entries=shown))
-    sections = [Section("", f"Python: {name}", 1, parsed(name).text)]
+    sections = [Section("", f"Python: {name}", 1, parse(name).text)]
     for item in shown:
         sections += _sections(item) if not item.elsewhere else []
     return GuidePage(page_name(name), f"Python: {name}", tuple(sections), body, True)
 
 
-def _sections(item: Shown, level: int = 2) -> Iterator[Section]:
+def _sections(item: PageEntry, level: int = 2) -> Iterator[Section]:
     """What the search finds: an entry and its members, by what their docstrings say first."""
     text = item.entry.text.split("\n\n")[0]
     yield Section(item.anchor, item.anchor, level, text)
@@ -157,19 +157,21 @@ def _sections(item: Shown, level: int = 2) -> Iterator[Section]:
         yield from _sections(member, level + 1)
 
 
-def _shown(module: str, entry: Entry, addresses: Mapping[Place, str], within: str = "") -> Shown:
+def _shown(
+    module: str, entry: Entry, addresses: Mapping[Place, str], within: str = ""
+) -> PageEntry:
     leads = partial(_address, entry.place.module, addresses)
     errors = partial(_address, "disting.errors", addresses)  # whoever raises them
     anchor = f"{within}.{entry.name}" if within else entry.name
     address = addresses.get(entry.place, "")
     elsewhere = "" if within or address.startswith(f"{page_name(module)}.html") else address
     members = [_shown(module, m, addresses, anchor) for m in entry.members] if not elsewhere else []
-    return Shown(
+    return PageEntry(
         entry=entry,
         anchor=anchor,
         signature=_signature(entry, leads),
-        raises=tuple(linked(name, lambda e: leads(e) or errors(e)) for name in entry.raises),
-        text=rendered(entry.text, leads),
+        raises=tuple(link(name, lambda e: leads(e) or errors(e)) for name in entry.raises),
+        text=as_html(entry.text, leads),
         members=tuple(members),
         elsewhere=elsewhere,
     )
@@ -180,7 +182,7 @@ def _address(module: str, addresses: Mapping[Place, str], name: str) -> str:
     `View.EXACT` or `fit.select`.
     """
     head, _, rest = name.partition(".")
-    at = defined(Place(module, head))
+    at = definition(Place(module, head))
     if at and at in addresses:
         return addresses[at]
     return _address(f"disting.{head}", addresses, rest) if rest and "." not in rest else ""
@@ -193,7 +195,7 @@ def _signature(entry: Entry, leads: Leads) -> Markup:
     if entry.arguments is None:
         return _valued(entry, leads)
     written = [_written(argument, leads) for argument in entry.arguments]
-    end = Markup(" -&gt; ") + linked(entry.returns, leads) if entry.returns else Markup()
+    end = Markup(" -&gt; ") + link(entry.returns, leads) if entry.returns else Markup()
     width = len(entry.name) + sum(len(w.striptags()) + 2 for w in written) + len(end.striptags())
     if width <= WIDEST:
         return Markup("{}({})").format(entry.name, Markup(", ").join(written)) + end
@@ -205,15 +207,15 @@ def _valued(entry: Entry, leads: Leads) -> Markup:
     """A property, a constant or a member of an enumeration; of a class its name."""
     parts = Markup(entry.name)
     if entry.returns:
-        parts += Markup(": ") + linked(entry.returns, leads)
-    return parts + (Markup(" = ") + linked(entry.value, leads) if entry.value else "")
+        parts += Markup(": ") + link(entry.returns, leads)
+    return parts + (Markup(" = ") + link(entry.value, leads) if entry.value else "")
 
 
 def _written(argument: Argument, leads: Leads) -> Markup:
     markup = Markup("{}{}").format(argument.star, argument.name)
     if argument.annotation:
-        markup += Markup(": ") + linked(argument.annotation, leads)
+        markup += Markup(": ") + link(argument.annotation, leads)
     if argument.default:
         space = " " if argument.annotation else ""
-        markup += Markup("{0}={0}").format(space) + linked(argument.default, leads)
+        markup += Markup("{0}={0}").format(space) + link(argument.default, leads)
     return markup

@@ -19,7 +19,7 @@ from disting.fibres.ideals import (
     normalise,
     refuted_by_rows,
 )
-from disting.fibres.ideals.by_two_rows import not_covered, vanishing
+from disting.fibres.ideals.by_two_rows import obstacle, refuting_index
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.splits import (
     _is_inseparable,
@@ -142,8 +142,8 @@ def test_markov_parameters_agree_with_sympy():
         Chain(3, 2, 2, 3, 2, 3, damped=True).structure,
     )
     (split,) = splits(given, 2)
-    assert vanishing(split.receptances.grounded, receptances(searched).grounded) == 3
-    assert vanishing(split.receptances.free, receptances(searched).free) is None
+    assert refuting_index(split.receptances.grounded, receptances(searched).grounded) == 3
+    assert refuting_index(split.receptances.free, receptances(searched).free) is None
 
 
 def agrees_with_the_synthesis(n, damped):
@@ -209,10 +209,10 @@ def test_what_is_not_covered_is_unknown():
         Chain(3, damped=False),
     )
     for other in others:
-        assert not_covered(plain.structure, other.structure, "test")
+        assert obstacle(plain.structure, other.structure, "test")
         assert refuted_by_rows(plain.structure, other.structure, "test") is None
     both = Chain(3, 1, 1, 2, 1, 2, damped=False)
-    assert "one place" in not_covered(both.structure, both.structure, "test")
+    assert "one place" in obstacle(both.structure, both.structure, "test")
     with pytest.raises(TypeError):
         bool(included_by_rows(both.structure, both.structure, "test", LIMITS))
 

@@ -8,7 +8,7 @@ import pytest
 
 from disting.algebra.symbols import symbols
 from disting.errors import InputError
-from disting.evidence.ideals import Refuted, Solved
+from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals import (
     CoefficientMap,
     Limits,
@@ -69,7 +69,7 @@ def test_dual_chains_of_four_masses():
     found = decide(model(4, 1), model(4, 29), equal_rank=True)
     assert (
         found.membership is Membership.MEMBER
-        and isinstance(found.evidence, Solved)
+        and isinstance(found.evidence, Solutions)
         and found.safety >= 100
     )
     assert confirms(found.evidence, model(4, 1), model(4, 29))
@@ -79,7 +79,7 @@ def test_a_pair_of_four_masses_is_refuted():
     found = decide(model(4, 1), model(4, 8), equal_rank=True)
     assert (
         found.membership is Membership.EXCLUDED
-        and isinstance(found.evidence, Refuted)
+        and isinstance(found.evidence, Refutation)
         and found.safety >= 100
     )
 
@@ -187,12 +187,12 @@ def test_results_depend_on_the_seed_only():
 def test_forged_evidence_is_refused():
     a, b = model(3, 1), model(3, 11)
     found = decide(a, b, equal_rank=True)
-    assert isinstance(found.evidence, Solved)
+    assert isinstance(found.evidence, Solutions)
     wrong = tuple(tuple(x + 1 for x in q) for q in found.evidence.solutions)
     assert not confirms(replace(found.evidence, solutions=wrong), a, b)
     assert not confirms(replace(found.evidence, labels=("other",) * len(wrong)), a, b)
-    assert not confirms(Refuted(True, ("ideals:disting:0",), 4, True), a, b)
-    assert not confirms(Refuted(True, (), 4, True), model(3, 1), model(3, 6))
+    assert not confirms(Refutation(True, ("ideals:disting:0",), 4, True), a, b)
+    assert not confirms(Refutation(True, (), 4, True), model(3, 1), model(3, 6))
 
 
 def test_limits_make_it_unknown_with_the_reason():

@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings, strategies as st
 
-from disting.fibres.ideals.bounds import Bounded, relation
+from disting.fibres.ideals.bounds import PolynomialBound, relation
 
 X, Y, A, B, C = sp.symbols("x y a b c")
 
@@ -16,7 +16,7 @@ X, Y, A, B, C = sp.symbols("x y a b c")
 def bounded(q, variables):
     terms = sp.Poly(q, *variables).terms()
     norm = sum(abs(int(c)) for _, c in terms)
-    return Bounded(max(1, *(sum(e) for e, _ in terms)) if terms else 1, log2(max(norm, 1)))
+    return PolynomialBound(max(1, *(sum(e) for e, _ in terms)) if terms else 1, log2(max(norm, 1)))
 
 
 def check(found, polynomials, variables, names):
@@ -77,13 +77,15 @@ def test_constants_are_allowed():
 
 
 @given(
-    st.lists(st.builds(Bounded, st.integers(1, 6), st.floats(0, 40)), min_size=2, max_size=12),
+    st.lists(
+        st.builds(PolynomialBound, st.integers(1, 6), st.floats(0, 40)), min_size=2, max_size=12
+    ),
     st.integers(0, 11),
 )
 def test_larger_degrees_and_norms_give_larger_bounds(polynomials, at):
     """So that bounds of degrees and norms serve for polynomials that are smaller."""
     at %= len(polynomials)
     q, found = polynomials[at], relation(polynomials)
-    for larger in (Bounded(q.degree + 1, q.norm), Bounded(q.degree, q.norm + 1)):
+    for larger in (PolynomialBound(q.degree + 1, q.norm), PolynomialBound(q.degree, q.norm + 1)):
         other = relation([*polynomials[:at], larger, *polynomials[at + 1 :]])
         assert other.weight >= found.weight and other.bits >= found.bits

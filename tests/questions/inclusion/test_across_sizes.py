@@ -19,9 +19,9 @@ from disting.evidence.across_sizes import (
     TooLarge,
 )
 from disting.evidence.conditions import Counts
-from disting.evidence.ideals import Solved
+from disting.evidence.ideals import Solutions
 from disting.model.symmetry import canonical
-from disting.questions.inclusion.across_sizes import by_sizes, exceeds, included, twins
+from disting.questions.inclusion.across_sizes import by_sizes, exceeds, show_inclusion, twins
 from disting.questions.inclusion.confirmation import confirms
 from disting.questions.inclusion.decide import CLOSURE, inclusions
 from disting.questions.inclusion.limit_fibre import tells
@@ -99,14 +99,15 @@ def test_one_mass_is_a_limit_of_every_model():
     for damped in (False, True):
         larger = (canonical(c).chain for n in (2, 3, 4) for c in Family(n, damped))
         assert all(
-            isinstance(included(Chain(1, damped=damped), chain, False), Limit) for chain in larger
+            isinstance(show_inclusion(Chain(1, damped=damped), chain, False), Limit)
+            for chain in larger
         )
 
 
 def test_a_chain_grows_by_its_last_mass():
     """The ports stay where they are, the new mass is let go."""
     small, large = (canonical(Chain(n, 1, 1, 2, 1, 3, damped=False)).chain for n in (3, 4))
-    parts = {p.given: p for p in included(small, large, False).parts}
+    parts = {p.given: p for p in show_inclusion(small, large, False).parts}
     assert parts["grounded"] == RowLimit("grounded", "grounded", ())
     assert parts["free"].steps in ((("k23", "0"),), (("k12", "0"),), (("k23", "∞"),))
 
@@ -322,7 +323,7 @@ def test_compare_says_the_same_as_a_matrix():
 def test_each_limit_is_shown_as_an_identity_when_it_is_found():
     small, large = (s.canonical.chain for s in (subject(2, 2), subject(3, 9)))
     is_limit.cache_clear()
-    evidence = included(small, large, False)
+    evidence = show_inclusion(small, large, False)
     assert isinstance(evidence, Limit) and any(part.steps for part in evidence.parts)
     assert is_limit.cache_info().currsize >= sum(len(part.steps) for part in evidence.parts)
 
@@ -338,5 +339,5 @@ def test_a_solution_in_the_larger_chain_alone_needs_a_rank_without_chance(chain,
     structure = chain.structure
     assert (most_rank(structure) == least_rank(structure)) is is_proven
     for left_given in (True, False):
-        solved = Solved(left_given, ("x",), ((1,),))
+        solved = Solutions(left_given, ("x",), ((1,),))
         assert tells(solved, structure, structure, "seed") is (left_given or is_proven)

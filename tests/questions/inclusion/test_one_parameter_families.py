@@ -19,7 +19,7 @@ from disting.experiments.inclusion import inclusions_under
 from disting.experiments.machine_model import MachineModel
 from disting.experiments.measured_evidence import confirms_inclusion
 from disting.model.question import Settings
-from disting.questions.inclusion.across_sizes import refuted
+from disting.questions.inclusion.across_sizes import refute
 from disting.questions.inclusion.closures import of_closure
 from disting.questions.inclusion.confirmation import confirms
 from disting.questions.inclusion.decide import quick_closure
@@ -90,7 +90,7 @@ def refutes(one, other):
     """Whether anything that can deny a limit does, asked by itself."""
     small, large = one.canonical.chain, other.canonical.chain
     if small.n_masses < large.n_masses:
-        return refuted(one, other, False) is not None or excluding_points(small, large, "families")
+        return refute(one, other, False) is not None or excluding_points(small, large, "families")
     profiles = (side.profile(Representation.TF, 0) for side in (one, other))
     by_profile = by_profiles(*profiles, left_is_smaller=True)
     by_rows = of_closure(small, large, "families")

@@ -12,7 +12,7 @@ from disting import Chain, Family
 from disting.algebra.certainty import prime, residues
 from disting.model.row import Row
 from disting.model.symmetry import canonical
-from disting.questions.inclusion.across_sizes import included
+from disting.questions.inclusion.across_sizes import show_inclusion
 from disting.questions.inclusion.pole_sharing import TRIALS, excludes, excluding_points
 from disting.questions.inclusion.row_equations import (
     equation_safety,
@@ -72,7 +72,7 @@ def test_no_limit_is_refuted(damped):
         c for c in chains if c.n_masses == 3
     ]
     seen = [
-        (included(a, b, False) is not None, excluding_points(a, b, "law") != ())
+        (show_inclusion(a, b, False) is not None, excluding_points(a, b, "law") != ())
         for a, b in product(chains, larger)
         if a.n_masses < b.n_masses
     ]
@@ -87,7 +87,7 @@ def test_one_point_is_a_proof_and_is_checked_again():
     assert not excludes(small, large, "one", ())
     assert not excludes(small, large, "one", (points[0][:-1],))
     inside = canonical(Family(3, True)[2]).chain
-    assert included(inside, large, False) is not None
+    assert show_inclusion(inside, large, False) is not None
     assert not any(
         excludes(inside, large, f"trial {k}", (tuple(residues(f"{k}", 7, 10**6)),))
         for k in range(20)

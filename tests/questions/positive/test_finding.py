@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
-from disting.evidence.decision import Excluded, Theorem
+from disting.evidence.decision import Exclusion, Theorem
 from disting.evidence.positive import (
     Empirical,
     EmptyFibre,
@@ -175,7 +175,7 @@ def test_each_obstacle():
         assert (found.share, found.certainty, found.evidence) == (
             Share.NEVER,
             Certainty.THEOREM,
-            Excluded(name),
+            Exclusion(name),
         )
 
 
@@ -276,7 +276,7 @@ def test_false_evidence_is_refused():
     assert not any(
         confirms(e, six, two) for e in (swapped, nothing_lacking, negative, Theorem("Foster"))
     )
-    assert not confirms(Excluded("residues"), six, two)
+    assert not confirms(Exclusion("residues"), six, two)
     with pytest.raises(ValueError, match="no theorem is called"):
         Theorem("")
     assert not confirms(Points(evidence.without, evidence.with_one), six, two)
@@ -308,9 +308,10 @@ def test_findings_cannot_contradict_themselves():
     with pytest.raises(ValueError, match="not unknown"):
         PositiveFinding(Share.ALWAYS)
     with pytest.raises(ValueError, match="bound"):
-        PositiveFinding(Share.NEVER, Certainty.PROVEN, 120, Excluded("decay"))
+        PositiveFinding(Share.NEVER, Certainty.PROVEN, 120, Exclusion("decay"))
     assert (
-        PositiveFinding(Share.NEVER, Certainty.BOUNDED, 0, Excluded("decay")).share is Share.UNKNOWN
+        PositiveFinding(Share.NEVER, Certainty.BOUNDED, 0, Exclusion("decay")).share
+        is Share.UNKNOWN
     )
     with pytest.raises(ValueError, match="tries"):
         Empirical(8, 10, 3)

@@ -5,14 +5,14 @@ import pytest
 
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.practical import Thresholds
-from disting.fit.results.export import predicted
+from disting.fit.results.export import predict
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit import waterfall
-from disting.report.fit.style import Drawn
+from disting.report.fit.style import FigureFiles
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")  # type: ignore[arg-type]
 # antiresonance 33.8 Hz, resonance 58.5 Hz
@@ -25,7 +25,7 @@ def response(start: int, step: int, seed: int, drive: Chain = DRIVE) -> Frequenc
     omega = 2 * np.pi * np.geomspace(5.0, 200.0, 90)[start::step]
     noise = np.random.default_rng(seed).normal(size=(2, len(omega))) / 100
     values = {name: VALUES[name] for name in drive.parameters}
-    measured = predicted(drive, values, omega) * (1 + noise[0] + 1j * noise[1])
+    measured = predict(drive, values, omega) * (1 + noise[0] + 1j * noise[1])
     coherence = np.full(len(omega), 0.998)
     signals = (("torque", "Nm"), (HOSTILE, "rad/s^2"))
     return FrequencyResponse(omega, measured, None, coherence, DRIVE.sensor, *signals, HOSTILE)  # type: ignore[arg-type]
@@ -47,7 +47,7 @@ def selection(train: FrequencyResponse, test: FrequencyResponse) -> Selection:
 
 
 @pytest.fixture(scope="session")
-def starts(selection: Selection) -> Drawn:
+def starts(selection: Selection) -> FigureFiles:
     """One figure, for pages of which no figure is looked at."""
     return waterfall(selection.described)
 

@@ -14,7 +14,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit import fit_page
 from disting.report.fit.links import Site, next_steps
-from disting.report.fit.style import Drawn
+from disting.report.fit.style import FigureFiles
 from tests.report.conftest import heard
 from tests.report.links import follow_link
 
@@ -25,7 +25,7 @@ REPORTS = Path(__file__).parents[3] / "reports"
 def page(
     selection: Selection,
     train: FrequencyResponse,
-    starts: Drawn,
+    starts: FigureFiles,
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     path = tmp_path_factory.mktemp("browser") / "fit.html"
@@ -101,7 +101,7 @@ def test_structures_lead_to_the_catalogue(
     tab,  # type: ignore[no-untyped-def]
     selection: Selection,
     train: FrequencyResponse,
-    starts: Drawn,
+    starts: FigureFiles,
     tmp_path: Path,
 ) -> None:
     """To the model's page, and to the model among those with ground dampers."""

@@ -23,9 +23,9 @@ from disting.report.fit.style import (
     POINTS,
     VARIABLES,
     WIDE,
-    Drawn,
+    FigureFiles,
     Tone,
-    drawn,
+    draw_figure,
     heading,
     is_narrow,
 )
@@ -34,7 +34,7 @@ from .conftest import DRIVE, VALUES
 
 
 @pytest.fixture(scope="module")
-def figure(selection: Selection, train: FrequencyResponse, test: FrequencyResponse) -> Drawn:
+def figure(selection: Selection, train: FrequencyResponse, test: FrequencyResponse) -> FigureFiles:
     assert selection.selected is not None
     return bode(
         selection.selected,
@@ -50,7 +50,7 @@ def test_the_drive_is_found(selection: Selection) -> None:
     assert selection.selected.chain == DRIVE
 
 
-def test_files_are_what_they_claim(figure: Drawn) -> None:
+def test_files_are_what_they_claim(figure: FigureFiles) -> None:
     assert ElementTree.fromstring(figure.svg).tag == "{http://www.w3.org/2000/svg}svg"
     assert Image.open(BytesIO(figure.png)).width > 1500
     assert figure.pdf.startswith(b"%PDF-") and b"CreationDate" not in figure.pdf
@@ -76,7 +76,9 @@ def test_nothing_is_cut_off_where_units_are_not_known(train: FrequencyResponse) 
     )
 
 
-def test_settings_of_the_user_neither_enter_nor_change(selection: Selection, starts: Drawn) -> None:
+def test_settings_of_the_user_neither_enter_nor_change(
+    selection: Selection, starts: FigureFiles
+) -> None:
     before = starts
     with matplotlib.rc_context(
         {"lines.linewidth": 9, "font.size": 20, "axes.facecolor": "red", "svg.hashsalt": "other"}
@@ -86,7 +88,7 @@ def test_settings_of_the_user_neither_enter_nor_change(selection: Selection, sta
     assert (before.svg, before.png, before.pdf) == (after.svg, after.png, after.pdf)
 
 
-def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: Drawn) -> None:
+def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: FigureFiles) -> None:
     text = str(figure.inline)
     assert not any(tone.value in text for tone in VARIABLES)
     assert all(
@@ -110,7 +112,7 @@ def test_phones_get_a_narrow_drawing_with_letters_of_the_same_size() -> None:
         seen.append(is_narrow(figure))
         heading(figure, long)
 
-    made = drawn("t", long, (2, 3), draw)
+    made = draw_figure("t", long, (2, 3), draw)
     assert seen == [False, True]
     boxes = re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', str(made.inline))
     sizes = [tuple(float(side) / POINTS for side in box) for box in boxes]
@@ -120,7 +122,7 @@ def test_phones_get_a_narrow_drawing_with_letters_of_the_same_size() -> None:
 
 
 def test_marks_of_one_measurement_carry_their_style_once(
-    figure: Drawn, train: FrequencyResponse
+    figure: FigureFiles, train: FrequencyResponse
 ) -> None:
     uses = re.findall(r"<use [^>]*>", str(figure.inline))
     assert len(uses) > 2 * 2 * len(train) and sum("stroke" in use for use in uses) < 60
@@ -132,7 +134,9 @@ def test_the_label_of_a_mark_is_its_frequency_and_damping() -> None:
 
 
 def test_a_text_of_the_user_is_no_formula() -> None:
-    made = drawn("t", '"a" & <b>', (2, 2), lambda figure: heading(figure, "$\\undefined{ <b> $"))
+    made = draw_figure(
+        "t", '"a" & <b>', (2, 2), lambda figure: heading(figure, "$\\undefined{ <b> $")
+    )
     assert ElementTree.fromstring(made.svg) is not None
     assert 'aria-label="&#34;a&#34; &amp; &lt;b&gt;"' in made.inline
 
@@ -203,10 +207,10 @@ def test_one_parameter_has_no_collinearity(selection: Selection) -> None:
 
 
 def test_signs_that_the_font_lacks_are_drawn_without_a_word(recwarn) -> None:
-    found = drawn("a", "t", (1.0, 1.0), lambda figure: heading(figure, "\x9b31m 漢"))
+    found = draw_figure("a", "t", (1.0, 1.0), lambda figure: heading(figure, "\x9b31m 漢"))
     assert found.png.startswith(b"\x89PNG") and not recwarn
 
 
 def test_signs_that_no_xml_may_hold_are_left_out() -> None:
-    found = drawn("a", "t", (1.0, 1.0), lambda figure: heading(figure, "a\x1bb\ufffec"))
+    found = draw_figure("a", "t", (1.0, 1.0), lambda figure: heading(figure, "a\x1bb\ufffec"))
     assert ET.fromstring(found.svg).tag.endswith("svg")

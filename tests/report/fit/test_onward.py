@@ -10,7 +10,7 @@ from disting.cli import main
 from disting.fit.judge.members import Twin
 from disting.fit.results.selection import Selection
 from disting.model.chain import Chain
-from disting.report.fit.links import Link, Site, beside, next_steps, step_to, steps_of
+from disting.report.fit.links import Link, Site, folders_near, next_steps, step_to, steps_of
 from tests.report.fit.conftest import DRIVE
 
 REPORTS = Path(__file__).parents[3] / "reports"
@@ -51,8 +51,10 @@ def test_pages_beside_are_found_and_addresses_are_quoted(tmp_path: Path) -> None
     assert Site(tmp_path / "a b", tmp_path).page(DRIVE) == Link(
         "2:1", "a%20b/models/2-damped/1.html"
     )
-    assert beside(tmp_path / "a b") == tmp_path / "a b" == beside(tmp_path / "a b" / "fit")
-    assert beside(tmp_path) == tmp_path
+    assert (
+        folders_near(tmp_path / "a b") == tmp_path / "a b" == folders_near(tmp_path / "a b" / "fit")
+    )
+    assert folders_near(tmp_path) == tmp_path
 
 
 def test_a_page_finds_the_way_home_where_there_is_a_guide(tmp_path: Path) -> None:

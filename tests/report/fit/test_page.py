@@ -28,8 +28,8 @@ from disting.report.fit import (
 )
 from disting.report.fit.criteria import limits, nearest, parameters_by_threshold, weakest
 from disting.report.fit.selection_json import selection_to_dict
-from disting.report.fit.selection_page import reasoning
-from disting.report.fit.style import Drawn
+from disting.report.fit.selection_page import reasons
+from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import name, readable
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
@@ -65,7 +65,7 @@ def outline(written: list[Path]) -> Outline:
 
 
 @pytest.fixture(scope="module")
-def empty(nothing: Selection, train: FrequencyResponse, starts: Drawn) -> Outline:
+def empty(nothing: Selection, train: FrequencyResponse, starts: FigureFiles) -> Outline:
     """With one figure: of the files of all of them, those of `written` are looked at."""
     found = nothing.described
     return Outline(fit_page(nothing, physical(found, nothing.task), [starts], train))
@@ -177,7 +177,7 @@ def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline
 def test_more_candidates_than_fit_are_behind_details(
     selection: Selection,
     train: FrequencyResponse,
-    starts: Drawn,
+    starts: FigureFiles,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # the package has a function of the module's name
@@ -235,7 +235,7 @@ def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
 
 
 def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
-    said = dict(reasoning(selection))
+    said = dict(reasons(selection))
     count = len(selection.members) + len(selection.containing)
     assert f"{count} candidates the data do not exclude" in said["Choice"]
     out = sum(c.excluded is not None for c in selection.candidates)
@@ -267,7 +267,7 @@ def test_an_unknown_parameter_has_no_profile(
 FAR = replace(DRIVE, meas_plus=2)
 
 
-def test_structures_that_no_data_can_tell_apart_are_named(starts: Drawn) -> None:
+def test_structures_that_no_data_can_tell_apart_are_named(starts: FigureFiles) -> None:
     train, test, loose = response(0, 2, 1, FAR), response(1, 3, 2, FAR), Thresholds(*3 * (1e12,))
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
     found = select(train, candidates, test=test, thresholds=loose)

@@ -11,22 +11,22 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from disting.fit.noise.scatter import Scatter
-from disting.fit.results.export import predicted
+from disting.fit.results.export import predict
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.report.fit import residuals
-from disting.report.fit.residuals import bands_in_words, missed
+from disting.report.fit.residuals import bands_in_words, misfits
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.series import (
     BARRED,
     MANY,
     Series,
-    barred,
+    bar_lines,
     bars,
     beneath,
-    gathered,
+    gather,
     series_of,
 )
 from disting.report.fit.style import Tone
@@ -58,7 +58,7 @@ def multisine() -> Selection:
     u = np.cos(2 * np.pi * np.outer(time, lines) + 0.3 * lines**2).sum(axis=1) / 7
     whole = np.fft.rfft(u + 0.02 * u**2)
     omega = 2 * np.pi * np.arange(1, len(whole)) * RATE / PERIOD
-    whole[1:] *= predicted(DRIVE, VALUES, omega)
+    whole[1:] *= predict(DRIVE, VALUES, omega)
     y = np.tile(np.fft.irfft(whole, PERIOD), 5) + np.random.default_rng(2).normal(size=5 * PERIOD)
     record = TimeSeries(np.tile(u, 5), y, RATE, sensor="acceleration")  # type: ignore[arg-type]
     return select(record.response(), [DRIVE])
@@ -95,7 +95,7 @@ def test_lines_that_tell_their_scatter_have_bars_of_that_length(
     "omega", [np.geomspace(1, 1e4, 3000), np.linspace(1, 1e4, 3000), np.arange(1.0, 21.0)]
 )
 def test_bars_of_many_lines_are_thinned_over_the_whole_axis(omega: np.ndarray) -> None:
-    at = barred(omega)
+    at = bar_lines(omega)
     assert len(at) <= BARRED and (len(at) == len(omega) or len(omega) > BARRED)
     assert at[0] == 0 and at[-1] == len(omega) - 1 and np.all(np.diff(at) > 0)
 
@@ -103,8 +103,8 @@ def test_bars_of_many_lines_are_thinned_over_the_whole_axis(omega: np.ndarray) -
 def test_residuals_are_those_of_data_and_model(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse
 ) -> None:
-    first, second = missed(selection, train, test)
-    model = predicted(DRIVE, selection.described.estimate.parameters, train.omega)
+    first, second = misfits(selection, train, test)
+    model = predict(DRIVE, selection.described.estimate.parameters, train.omega)
     assert np.exp(first.amplitude + 1j * first.phase) == pytest.approx(train.G / model)
     assert second.series.scatter is selection.explanation.scatter
     wide = replace(
@@ -140,7 +140,7 @@ def test_a_model_that_misses_is_told_by_factors_and_its_ranges_are_marked(
     wrong: Selection, train: FrequencyResponse, test: FrequencyResponse
 ) -> None:
     assert not wrong.explanation.explains
-    assert any(m.outside > 0.8 for m in missed(wrong, train, test))
+    assert any(m.outside > 0.8 for m in misfits(wrong, train, test))
     assert "a factor " in " ".join(bands_in_words(wrong, train, test)[0])
     found = residuals(wrong, train, test)
     text = found.svg.decode()
@@ -180,7 +180,7 @@ def test_no_rounding_is_drawn_as_distortion(multisine: Selection, panel: Axes) -
 @pytest.mark.parametrize("count", [5, MANY, 4000])
 def test_many_levels_become_root_mean_squares_of_near_ones(count: int) -> None:
     hertz = np.linspace(1.0, 500.0, count)
-    at, levels = gathered(hertz, np.full(count, 0.3))
+    at, levels = gather(hertz, np.full(count, 0.3))
     assert len(at) == len(levels) <= MANY and levels == pytest.approx(0.3)
     assert hertz[0] <= at[0] and at[-1] <= hertz[-1] and np.all(np.diff(at) > 0)
 

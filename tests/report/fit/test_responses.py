@@ -10,12 +10,12 @@ from disting.fit.judge.explanation import Miss
 from disting.fit.judge.modes import physical
 from disting.fit.results.selection import fit_percent
 from disting.fit.search.cost import Cost
-from disting.fit.search.joint import Further, JointCost
+from disting.fit.search.joint import FurtherResponse, JointCost
 from disting.fit.search.setup import Setup
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
-from disting.report.fit.residuals import missed, misses_of, residuals
-from disting.report.fit.responses import fits_of, responses, seen_alone, seen_together
+from disting.report.fit.residuals import misfits, misses_of, residuals
+from disting.report.fit.responses import fits_of, in_response, responses, with_all_sensors
 from disting.report.fit.selection_page import fit_page
 from disting.report.fit.words import fit_in_words
 from tests.report.fit.conftest import DRIVE, VALUES
@@ -36,7 +36,7 @@ def data(setup, seed, noise):
 @pytest.fixture(scope="module")
 def joint():
     further = [
-        Further(data(setup, 2 * k, 0.01), setup, data(setup, 2 * k + 1, 0.03))
+        FurtherResponse(data(setup, 2 * k, 0.01), setup, data(setup, 2 * k + 1, 0.03))
         for k, setup in enumerate(SETUPS[1:], 1)
     ]
     train, test = data(SETUPS[0], 10, 0.01), data(SETUPS[0], 11, 0.03)
@@ -56,7 +56,7 @@ def test_each_response_has_its_data(joint):
 def test_residuals_of_each_response_are_its_own(joint):
     selection = joint[0]
     for one in responses(*joint):
-        train, test = missed(selection, one.train, one.test, one.at)
+        train, test = misfits(selection, one.train, one.test, one.at)
         assert np.median(np.abs(train.amplitude)) < 0.02
         # judged by what training and test differ by, of this response
         lines = selection.explanation.scatter.rho[40 * one.at : 40 * (one.at + 1)]
@@ -103,10 +103,10 @@ def test_fits_are_named_by_their_responses(joint):
 
 def test_sensors_are_drawn_where_they_are_read(joint):
     selection = joint[0]
-    both = {layer.name for layer in seen_together(DRIVE, selection).layers}
+    both = {layer.name for layer in with_all_sensors(DRIVE, selection).layers}
     assert {"sensor", "sensor y2"} <= both and not any(name.startswith("lock") for name in both)
-    assert seen_together(DRIVE, selection).title.endswith("y2: sensor at mass 2.")
-    drawn = [seen_alone(DRIVE, selection, one) for one in responses(*joint)]
+    assert with_all_sensors(DRIVE, selection).title.endswith("y2: sensor at mass 2.")
+    drawn = [in_response(DRIVE, selection, one) for one in responses(*joint)]
     names = [{layer.name for layer in scene.layers} for scene in drawn]
     assert [("sensor" in own, "sensor y2" in own) for own in names] == [
         (True, False),
@@ -121,4 +121,4 @@ def test_sensors_are_drawn_where_they_are_read(joint):
 def test_one_response_is_shown_as_ever(selection, train, test):
     assert fits_of(selection, selection.described) == []
     assert len(responses(selection, train, test)) == 1
-    assert seen_together(DRIVE, selection).title.count("sensor") == 0
+    assert with_all_sensors(DRIVE, selection).title.count("sensor") == 0
