@@ -101,7 +101,7 @@ def _counted(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:
 def _lines(equivalents: list[ModelEquivalent]) -> Iterator[str]:
     """Each with its verdict and, where values are given, its own."""
     for x in equivalents:
-        yield f"{x.model.name}  {x.verdict.told} ({x.verdict.rule or 'nothing settles it'})"
+        yield f"{x.model.name}  {x.verdict.in_words} ({x.verdict.rule or 'nothing settles it'})"
         if x.exponents:
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
@@ -157,7 +157,7 @@ def _formulas(
         progress("formulas", done, len(equivalents))
         yield ""
         if x.verdict.relation is not Relation.INDISTINGUISHABLE:
-            yield f"{mark}{x.model.name}: {x.verdict.told} (no formulas; --set gives values)"
+            yield f"{mark}{x.model.name}: {x.verdict.in_words} (no formulas; --set gives values)"
             continue
         yield f"{mark}{x.model.name}   (primed)"
         try:

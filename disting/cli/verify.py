@@ -13,9 +13,9 @@ from disting.cli.arguments import (
 )
 from disting.cli.decision import verdict_file
 from disting.errors import InputError
-from disting.verdict.verification import Standing, verify
+from disting.verdict.verification import Status, verify
 
-STATUS = {Standing.HOLDS: 0, Standing.FAILS: 1, Standing.OPEN: 3}
+STATUS = {Status.HOLDS: 0, Status.FAILS: 1, Status.OPEN: 3}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,4 +44,4 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("the file names its experiments: leave --also away")
     verification = verify(options.what[0] if is_file else verdict_file(options.what, options))
     print(f"{' and '.join(options.what)}: {verification.text}")
-    return STATUS[verification.standing]
+    return STATUS[verification.status]

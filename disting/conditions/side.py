@@ -164,7 +164,7 @@ class Side(ABC, Generic[S]):
         """The exact decision, for equal ranks."""
 
     @abstractmethod
-    def exact_again(self, other: Self, evidence: Evidence) -> Finding | None:
+    def recheck(self, other: Self, evidence: Evidence) -> Finding | None:
         """What the settings find by the exact decision with evidence of this kind: evidence that is
         true can have been chosen, and then bounds nothing.
         """

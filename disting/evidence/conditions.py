@@ -9,7 +9,7 @@ from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, Labels,
 from disting.model.question import Domain, Relation
 
 if TYPE_CHECKING:
-    from disting.evidence.model_samples import SeenPair
+    from disting.evidence.model_samples import SampledPair
 
 TRANSCENDENTAL = (
     "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
@@ -41,7 +41,7 @@ class Counts(Kind):
         (n1, m1), (n2, m2) = self.first
         return f"n + m + 1 = {n1} + {m1} + 1 = {n1 + m1 + 1},  {n2} + {m2} + 1 = {n2 + m2 + 1}"
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """Whether these are their degrees."""
         degrees = pair.left.degrees, pair.right.degrees
         return degrees == (self.left, self.right) and self.left != self.right
@@ -83,7 +83,7 @@ class Forms(Kind):
             f" {label_runs(self.only_right) or '–'}"
         )
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """Whether they vary on one side only."""
         only = (*self.only_left, *self.only_right)
         n_left, n_right = (side.free(representation, only) for side in pair.sides)
@@ -117,7 +117,7 @@ class Ranks(Kind):
         what = "Φ" if self.all_rows else label_runs(self.rows)
         return f"rank ∂({what})/∂p = {self.left} ≠ {self.right}"
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """Both ranks once more, of rows that there are."""
         labels = set[str]().union(*(s.labels(representation, self.rows) for s in pair.sides))
         ranks = tuple(side.rank(representation, self.rows) for side in pair.sides)
@@ -153,7 +153,7 @@ class Renaming(Kind):
         """All pairs."""
         return ", ".join(f"{a} → {b}" for a, b in self.pairs)
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """Whether it names every parameter once on either side, and one model is the other after
         it.
         """
@@ -193,7 +193,7 @@ class FreeChoice(Kind):
         """N_R equals the number of free invariants."""
         return f"N_R = {self.rank} = |{{{label_runs(self.free)}}}|"
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """Whether these vary, no others, and have that rank."""
         return all(
             side.free(representation, self.free) == set(self.free)
@@ -228,7 +228,7 @@ class Embedding(Kind):
         """Masses of the submodel in the larger model."""
         return ", ".join(f"{a} → {b}" for a, b in self.numbering)
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """The numbering of the part's masses once more, and both ranks."""
         fits = dict(self.numbering) in list(pair.numberings(self.left_is_submodel))
         return fits and all(side.rank("tf") == self.rank for side in pair.sides)
@@ -253,7 +253,7 @@ class Supermodel(Kind):
             " parameters."
         )
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """The third model once more, and all three ranks."""
         third = pair.united()
         if third is None or third.parameters != self.parameters:

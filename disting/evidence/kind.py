@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, Union, get_args, get_orig
 from disting.model.question import Domain, Relation
 
 if TYPE_CHECKING:  # a record is read without what its check needs
-    from disting.evidence.model_samples import SeenPair
+    from disting.evidence.model_samples import SampledPair
 
 Labels = tuple[str, ...]
 PointText = tuple[tuple[str, str], ...]
@@ -131,7 +131,7 @@ class Kind:
         """What the theorem is called that it speaks by; "" where it has no name of its own."""
         return self.theorem
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         """Whether it is true of two models, seen anew, and decides them; unless a class says how,
         by the method that finds such evidence.
         """

@@ -36,7 +36,7 @@ class RowLimits(NamedTuple):
     why: Why
     detail: str = ""
 
-    def told(self, searched: str) -> str:
+    def sentence(self, searched: str) -> str:
         """The step in words."""
         row = searched if self.part == WHOLE else f"the {self.part} row of {searched}"
         return _TOLD[self.why].format(row=row, detail=self.detail) + _IN[self.split]
@@ -78,7 +78,7 @@ class Outside(_Steps):
                 f" models {searched}, and no choice of rows has as many poles as the grounded row"
                 f" of {searched}."
             )
-        steps = "; ".join(step.told(searched) for step in self.steps)
+        steps = "; ".join(step.sentence(searched) for step in self.steps)
         return f"A generic {source} is no limit of models {searched}: {steps}."
 
     @property
@@ -101,7 +101,7 @@ class RowsInside(_Steps):
     def sentence(self, left: str, right: str) -> str:
         """Row by row."""
         source, searched = self._names(left, right)
-        steps = "; ".join(step.told(searched) for step in self.steps)
+        steps = "; ".join(step.sentence(searched) for step in self.steps)
         return f"Every {source} is a limit of models {searched}: {steps}."
 
 

@@ -47,7 +47,7 @@ class ModelSamples:
 
 
 @dataclass(frozen=True, slots=True)
-class SeenPair:
+class SampledPair:
     """Both models: whether a renaming `renames` the left one to the right one, and evidence is
     `found_again` by the method that finds such. Of chains and networks also the `numberings` of
     the nodes of a part, which the left one is or the right one, in the whole; of chains the model

@@ -98,7 +98,7 @@ class ComparedMachine(Side[MeasuredChain]):
         """Whether evidence of an inclusion is true of both."""
         return confirms_inclusion(evidence, self.measured, other.measured)
 
-    def exact_again(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
+    def recheck(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
         """What `exact` finds with evidence of this kind."""
         if not comparable(self, other):
             return None

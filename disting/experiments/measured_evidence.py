@@ -16,7 +16,7 @@ from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, MissingElements
-from disting.evidence.model_samples import ModelSamples, SeenPair, samples_of
+from disting.evidence.model_samples import ModelSamples, SampledPair, samples_of
 from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
 from disting.evidence.real import BothWays
 from disting.experiments.exact import answer_of
@@ -47,7 +47,7 @@ def confirms(
 
     Raises NotSeenError where a contradiction takes too long.
     """
-    pair = SeenPair(
+    pair = SampledPair(
         left=_seen(left),
         right=_seen(right),
         renames=partial(is_renaming, left, right),

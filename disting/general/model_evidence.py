@@ -12,7 +12,7 @@ from disting.evidence.general import Constants, Explicit, Inequality, NoEquivale
 from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
-from disting.evidence.model_samples import SeenPair, samples_of
+from disting.evidence.model_samples import SampledPair, samples_of
 from disting.fibres.ideals import Limits, find_again
 from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
@@ -40,7 +40,7 @@ def confirms_models(
 
     Raises NotSeenError where a contradiction takes too long.
     """
-    pair = SeenPair(
+    pair = SampledPair(
         left=samples_of(behaviour_of(left)),
         right=samples_of(behaviour_of(right)),
         renames=partial(is_renamed, left, right),

@@ -201,7 +201,7 @@ class ComparedModel(Side[AnyModel]):
             pair = _unnamed(self, other)
         return model_evidence.confirms_models(evidence, *pair, representation)
 
-    def exact_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
+    def recheck(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
         """What `exact` finds with evidence of this kind."""
         if isinstance(evidence, Constants):
             return self.exact(other) if self.transfer_profile.rank == 0 else None

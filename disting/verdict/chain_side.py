@@ -132,7 +132,7 @@ class ComparedChain(Side[Chain]):
         """Whether evidence on positive equivalents in the other is true."""
         return proves(share, *_canonical(self, other))
 
-    def exact_again(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
+    def recheck(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
         """What `exact` finds with evidence of this kind."""
         if self.rank != other.rank:
             return None

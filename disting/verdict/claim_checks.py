@@ -81,7 +81,7 @@ def _again(claim: Claim, evidence: Evidence) -> Claimed | None:
     if v.decided_by not in (EXACT.name, ADMISSIBLE.name):
         return _condition_again(claim) if v.decided_by in claim.query.conditions else None
     finding = (
-        claim.sides.left.exact_again(claim.sides.right, evidence)
+        claim.sides.left.recheck(claim.sides.right, evidence)
         if v.decided_by == EXACT.name
         else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
     )

@@ -41,7 +41,7 @@ class ModelEquivalent(NotebookTable):
     exponents: tuple[tuple[str, str], ...] = ()
 
     def __repr__(self) -> str:
-        return summary(self, f"{self.model.name}, {self.verdict.told}")
+        return summary(self, f"{self.model.name}, {self.verdict.in_words}")
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; values rounded to 15 digits where they are irrational."""

@@ -114,7 +114,7 @@ class Verdict(NotebookTable):
         sure = self.sure.removeprefix("probability of ").partition(" (")[0]
         how = f", {sure}" if sure else ""
         models = _models(left, right, self.premises).removesuffix(",")
-        return summary(self, f"{models}: {self.told} over {self.domain} parameters{how}")
+        return summary(self, f"{models}: {self.in_words} over {self.domain} parameters{how}")
 
     def __bool__(self) -> bool:
         raise TypeError("a verdict is not true or false; look at its relation")
@@ -162,13 +162,13 @@ class Verdict(NotebookTable):
         depending = ", depending on their values" * (self.relation is Relation.SOMETIMES)
         aside = ", special values aside" * self.has_exceptions
         return (
-            f"{self.models} are {self.told}{over}{depending}{aside} ({self.rule}):"
+            f"{self.models} are {self.in_words}{over}{depending}{aside} ({self.rule}):"
             f" {self.evidence.sentence(self.left, self.right)} {capital(self.sure)}."
             + "".join(f" {capital(note)}." for note in self.notes if note.startswith(TOLD))
         )
 
     @property
-    def told(self) -> str:
+    def in_words(self) -> str:
         """The relation as a sentence says it."""
         sometimes = self.relation is Relation.SOMETIMES
         return "sometimes indistinguishable" if sometimes else self.relation.value

@@ -40,7 +40,7 @@ from disting.verdict.verdict_file import (
 WANTED = "a file of a verdict, as 'disting compare N:I M:J --json' writes it"
 
 
-class Standing(StrEnum):
+class Status(StrEnum):
     """Whether a verdict holds, as far as its file shows."""
 
     HOLDS = "holds"
@@ -57,11 +57,11 @@ class Verification:
     show.
 
     >>> from disting import verdict_file, verify
-    >>> verify(verdict_file("2:1", "2:2")).standing.value
+    >>> verify(verdict_file("2:1", "2:2")).status.value
     'holds'
     """
 
-    standing: Standing
+    status: Status
     reason: str = ""
     verdicts: tuple[str, ...] = ()
     models: str = ""
@@ -72,13 +72,13 @@ class Verification:
         return summary(self, self.sentence)
 
     def __bool__(self) -> bool:
-        raise TypeError("a verification is not true or false; look at its standing")
+        raise TypeError("a verification is not true or false; look at its status")
 
     @property
     def sentence(self) -> str:
         """In one sentence, without a subject."""
-        because = {Standing.HOLDS: "", Standing.FAILS: ": ", Standing.OPEN: " because "}
-        return f"{self.standing.value}{because[self.standing]}{self.reason}"
+        because = {Status.HOLDS: "", Status.FAILS: ": ", Status.OPEN: " because "}
+        return f"{self.status.value}{because[self.status]}{self.reason}"
 
     @property
     def text(self) -> str:
@@ -103,7 +103,7 @@ def verify(verdict: dict[str, Any] | str | Path) -> Verification:
     >>> data = verdict_file("3:1", "3:4", damped=True)
     >>> verify(data).sentence
     'holds'
-    >>> verify(data | {"relation": "indistinguishable"}).standing.value
+    >>> verify(data | {"relation": "indistinguishable"}).status.value
     'does not hold'
     """
     data = verdict if isinstance(verdict, dict) else read_json(as_path(verdict), WANTED)
@@ -112,21 +112,21 @@ def verify(verdict: dict[str, Any] | str | Path) -> Verification:
     stored = read_everywhere(data)
     other = difference_everywhere(data, stored)
     if other:
-        return Verification(Standing.FAILS, _not_agreeing(other))
+        return Verification(Status.FAILS, _not_agreeing(other))
     ways = [_verified(plain, read) for plain, read in zip(data["verdicts"], stored, strict=True)]
     whole = Verification(
-        Standing.HOLDS,
+        Status.HOLDS,
         verdicts=tuple(sentence for way in ways for sentence in way.verdicts),
         models=ways[0].models,
         found_again=tuple(dict.fromkeys(what for way in ways for what in way.found_again)),
         as_written=tuple(dict.fromkeys(what for way in ways for what in way.as_written)),
     )
-    for standing in (Standing.FAILS, Standing.OPEN):
-        where = next((i for i, way in enumerate(ways) if way.standing is standing), None)
+    for status in (Status.FAILS, Status.OPEN):
+        where = next((i for i, way in enumerate(ways) if way.status is status), None)
         if where is not None:
-            base = whole if standing is Standing.OPEN else Verification(standing)
+            base = whole if status is Status.OPEN else Verification(status)
             reason = f"{ways[where].reason} (way {where + 1})"
-            return replace(base, standing=standing, reason=reason)
+            return replace(base, status=status, reason=reason)
     return whole
 
 
@@ -147,16 +147,16 @@ def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
                 written.append(what)
                 continue
             if wrong:
-                return Verification(Standing.FAILS, wrong)
+                return Verification(Status.FAILS, wrong)
             seen.append(what)
     except InputError as reason:
         raise InputError(f"the file of the verdict is damaged ({reason})") from None
     except (*DAMAGED, DistingError, RecursionError, AssertionError) as reason:
-        return Verification(Standing.FAILS, f"it is damaged ({type(reason).__name__}: {reason})")
+        return Verification(Status.FAILS, f"it is damaged ({type(reason).__name__}: {reason})")
     if stored.verdict.evidence is None:
         unseen.append("it is undecided: it says nothing that evidence could show")
     return Verification(
-        Standing.OPEN if unseen else Standing.HOLDS,
+        Status.OPEN if unseen else Status.HOLDS,
         unseen[0] if unseen else "",
         (as_file(stored)["sentence"],),
         _whose(stored, sides),

@@ -13,7 +13,7 @@ from disting.model.chain import Chain
 from disting.model.kinds import SENSOR
 from tests.cli.process import called
 from tests.fit.drives import truth
-from tests.fit.test_foretold import FREE, VALUES, fit_file, member, twin_values
+from tests.fit.test_predictions import FREE, VALUES, fit_file, member, twin_values
 
 PLAIN, FRICTION = (Chain(3, damped=True, ground_dampers=b) for b in ((), (2,)))
 

@@ -13,7 +13,7 @@ from disting.experiments.machine_model import MachineModel
 from disting.experiments.maps import _by_mass
 from disting.model.kinds import BRAKE, INERTIA, KINDS
 from disting.verdict.verdict_file import verdict_file
-from disting.verdict.verification import Standing, verify
+from disting.verdict.verification import Status, verify
 from tests.experiments.plain_stack import has_equivalent, keywords
 
 COMPLEX = Query(View.EXACT, inclusion=False)
@@ -136,14 +136,14 @@ def stored():
 def test_a_stored_verdict_has_its_brakes(stored):
     assert stored["experiments"][1]["left"]["brakes"] == [[1, "1/2"]]
     assert "brakes" not in stored["experiments"][0]["left"]  # as files had it before there were any
-    assert verify(stored).standing is Standing.HOLDS
+    assert verify(stored).status is Status.HOLDS
 
 
 @pytest.mark.parametrize("brakes", [[[2, "1/2"]], [[3, "1/2"]], []])
 def test_a_brake_elsewhere_is_another_verdict(stored, brakes):
     other = json.loads(json.dumps(stored))
     other["experiments"][1]["left"]["brakes"] = brakes
-    assert verify(other).standing is Standing.FAILS
+    assert verify(other).status is Status.FAILS
 
 
 def test_every_kind_says_itself_in_full():

@@ -7,7 +7,7 @@ from disting.cli import main
 from disting.experiments.places import move, parse_experiment, ways
 from disting.verdict.sides import sides_of
 from disting.verdict.verdict_file import verdict_file
-from disting.verdict.verification import Standing, verify
+from disting.verdict.verification import Status, verify
 
 A = Family(3, damped=True)
 COMPLEX = Query(View.EXACT)
@@ -162,8 +162,8 @@ def test_names_under_experiments(experiments, names):
     assert (sides.left.name, sides.right.name) == names
     stored = json.loads(json.dumps(verdict_file(A[1], A[1], experiments=asked)))
     assert (stored["left"], stored["right"]) == names
-    assert verify(stored).standing is Standing.HOLDS
-    assert verify(stored | {"left": "3:4"}).standing is Standing.FAILS
+    assert verify(stored).status is Status.HOLDS
+    assert verify(stored | {"left": "3:4"}).status is Status.FAILS
 
 
 def test_two_chains_have_names_of_their_own():

@@ -62,7 +62,7 @@ def search(other, goal, draw):
 
 def test_a_verdict_is_verified_and_a_lie_is_not():
     data = verdict_file(*CLOSED, query=Query(view=View.POSITIVE))
-    assert verify(data).standing.value == "holds"
+    assert verify(data).status.value == "holds"
     formulas = data["evidence"]["formulas"]
     at = next(i for i, f in enumerate(formulas) if ["k21", "0"] in f[2])
     for lie in ("k12", "k13 + k23"):
@@ -73,7 +73,7 @@ def test_a_verdict_is_verified_and_a_lie_is_not():
             *formulas[at + 1 :],
         ]
         evidence = data["evidence"] | {"formulas": changed}
-        assert verify(data | {"evidence": evidence}).standing.value != "holds"
+        assert verify(data | {"evidence": evidence}).status.value != "holds"
 
 
 def test_special_functions_are_not_carried_over():

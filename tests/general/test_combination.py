@@ -65,4 +65,4 @@ def test_force_and_sensor_apart_and_more_values_than_are_determined():
     inner = data["evidence"]["inner"]
     forged = inner | {"point_without": inner["point_with"]}
     changed = data | {"evidence": data["evidence"] | {"inner": forged}}
-    assert verify(changed).standing.value == "does not hold"
+    assert verify(changed).status.value == "does not hold"

@@ -57,10 +57,10 @@ def test_signs_and_numbers_of_zeros_are_told_apart():
 
 def test_a_verdict_is_verified_and_a_lie_is_not():
     data = verdict_file(*SAME[0])
-    assert data["evidence"]["name"] == "interlacing" and verify(data).standing.value == "holds"
+    assert data["evidence"]["name"] == "interlacing" and verify(data).status.value == "holds"
     other = verdict_file("#~1, 1~2, 1~3; F1; S3:2", SAME[0][1])
     lie = data | {"models": other["models"]}
-    assert verify(lie).standing.value != "holds"
+    assert verify(lie).status.value != "holds"
 
 
 @pytest.mark.slow

@@ -64,7 +64,7 @@ def test_an_equivalent_responds_alike_and_others_are_near(pair):
 def test_it_depends_on_the_values(pair):
     assert compare(*pair).relation is Relation.SOMETIMES
     data = verdict_file(*pair)
-    assert verify(data).standing.value == "holds"
+    assert verify(data).status.value == "holds"
     evidence = data["evidence"]
     points_ = evidence.get("inner", evidence)
     swapped = points_ | {
@@ -72,7 +72,7 @@ def test_it_depends_on_the_values(pair):
         "point_with": points_["point_without"],
     }
     lie = evidence | {"inner": swapped} if "inner" in evidence else swapped
-    assert verify(data | {"evidence": lie}).standing.value != "holds"
+    assert verify(data | {"evidence": lie}).status.value != "holds"
 
 
 def test_what_is_excluded_has_none():

@@ -48,7 +48,7 @@ class Mark(Kind):
     def formula(self) -> str:
         return "M"
 
-    def holds(self, pair: "SeenPair", representation: str) -> bool:
+    def holds(self, pair: "SampledPair", representation: str) -> bool:
         return pair.left.degrees == pair.right.degrees == self.degrees
 
 

@@ -11,7 +11,7 @@ from disting.model.family import MOST_MASSES, after, before, count
 from disting.model.names import name_of, read
 from disting.model.structure import Indices, violations
 from disting.verdict.verdict_file import verdict_file
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 from tests.cli.process import called
 
 
@@ -71,7 +71,7 @@ def test_sentences_of_large_chains_have_their_names(pair):
     assert all(name in sentence for name in pair) and "gap" not in sentence
     data = verdict_file(*pair, damped=False)
     assert (data["left"], data["right"]) == pair
-    assert verify(data).standing is Standing.HOLDS
+    assert verify(data).status is Status.HOLDS
 
 
 @pytest.mark.parametrize(

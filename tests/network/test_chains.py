@@ -85,7 +85,7 @@ def test_the_file_of_a_verdict_on_networks_holds_and_a_changed_element_does_not(
     elements = data["models"][0]["elements"]
     assert elements[0] == ["R0", 1, 2]
     elements[0] = ["L0", 1, 2]
-    assert verify(data).standing.value == "does not hold"
+    assert verify(data).status.value == "does not hold"
 
 
 def test_one_model_has_as_many_parameters_as_named_even_if_some_do_not_enter():

@@ -48,7 +48,7 @@ def put(data, path):
 
 def holds(data):
     try:
-        return verify(data).standing.value == "holds"
+        return verify(data).status.value == "holds"
     except InputError:
         return False
 

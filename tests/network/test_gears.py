@@ -20,7 +20,7 @@ from disting.network.gears import units, unknown_ratios, without_gears
 from disting.network.notation import network_of
 from disting.network.simplest import simplest
 from disting.verdict.result import Relation
-from disting.verdict.verification import Standing, verify
+from disting.verdict.verification import Status, verify
 
 P = 2**61 - 1
 RATIOS = st.sampled_from(["", "g", "h", "3", "2/3", "5/2"])
@@ -115,7 +115,7 @@ def test_machines_that_are_the_same_but_for_gears(pair, view) -> None:
     assert (found.evidence.name, found.certainty) == ("gears", "theorem")
     assert not found.has_exceptions
     told = verify(json.loads(json.dumps(verdict_file(*map(network_of, pair), query=query))))
-    assert told.standing is Standing.HOLDS, told
+    assert told.status is Status.HOLDS, told
 
 
 def test_parts_are_replaced_behind_gears_too() -> None:

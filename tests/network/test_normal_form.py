@@ -74,7 +74,7 @@ def test_a_verdict_by_replacement_is_checked_again():
     data = verdict_file(*SAME[-2])
     assert data["decided_by"] == "admissible" and verify(data).sentence == "holds"
     forged = data | {"right": "other"}
-    assert verify(forged).standing.value == "does not hold"
+    assert verify(forged).status.value == "does not hold"
 
 
 FAMILIES = ["machines-3", "trees-4", "circuits-5", "cells-4", "compartments-3"]

@@ -277,10 +277,10 @@ def test_verdicts_are_checked_from_their_files():
         ("R0-p(R1,P1)-p(R2,P2)", "p(R1,R2-P1,R3-P2)"),
     ):
         data = json.loads(json.dumps(verdict_file(left, right)))
-        assert verify(data).standing.value == "holds"
+        assert verify(data).status.value == "holds"
         assert any("generic" in note for note in data["notes"])
         lie = data | {"notes": [n for n in data["notes"] if "generic" not in n]}
-        assert verify(lie).standing.value != "holds"
+        assert verify(lie).status.value != "holds"
 
 
 def test_the_transfer_function_is_written_with_its_exponents():

@@ -135,7 +135,7 @@ def pattern(model, _):
 def test_pairs_that_were_open(left, right, relation):
     data = verdict_file(left, right)
     assert data["relation"] == relation and data["certainty"] in ("proven", "theorem")
-    assert verify(data).standing.value == "holds"
+    assert verify(data).status.value == "holds"
     turned = compare(right, left)
     assert turned.relation.value == relation
     one, other, draw = network_of(left), network_of(right), random.Random(1)
@@ -166,6 +166,6 @@ def test_evidence_on_other_networks_is_refused():
 
 def holds(data):
     try:
-        return verify(data).standing.value == "holds"
+        return verify(data).status.value == "holds"
     except InputError:
         return False

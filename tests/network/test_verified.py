@@ -11,7 +11,7 @@ import pytest
 
 from disting import Engine, Query, View, verdict_file, verify
 from disting.network.families import family_of
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 from tests.network.pairs import damaged
 
 VIEWS = (View.EXACT, View.REAL, View.POSITIVE)
@@ -68,7 +68,7 @@ def refused(files):
     return [
         f"{data['left']} | {data['right']}, {data['domain']}: {said.sentence}"
         for data, said in found
-        if said.standing is Standing.FAILS
+        if said.status is Status.FAILS
     ]
 
 

@@ -35,7 +35,7 @@ from disting.verdict import placement_verdicts
 from disting.verdict.result import Relation
 from tests.cli.process import called
 from tests.cli.test_fit_joint import column, written
-from tests.fit.test_foretold import FREE, VALUES, fit_file, member, twin_values
+from tests.fit.test_predictions import FREE, VALUES, fit_file, member, twin_values
 
 MODELS = {
     "title": "Vessels",

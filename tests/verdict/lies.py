@@ -7,7 +7,7 @@ from typing import Any
 
 from disting import Engine, InputError, Query, Relation, View, verdict_file, verify
 from disting.verdict.verdict_file import as_file, read_file
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 
 ENGINE = Engine()
 # what other settings and questions would have given the same verdict: nothing follows from them
@@ -65,7 +65,7 @@ def altered(data: dict[str, Any], path: tuple[Any, ...]) -> Iterator[dict[str, A
 
 def found_out(data: dict[str, Any]) -> bool:
     try:
-        return verify(data).standing is Standing.FAILS
+        return verify(data).status is Status.FAILS
     except InputError:
         return True
 

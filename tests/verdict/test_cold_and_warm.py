@@ -21,7 +21,7 @@ from disting.experiments.experiment import MeasuredChain
 from disting.general.model_files import read_models
 from disting.verdict.cascade import decide
 from disting.verdict.result import Verdict
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 from tests.cli.process import called
 
 MODELS = {
@@ -104,7 +104,7 @@ def three_ways(words, folder):
 def test_verdicts_on_chains(words, tmp_path):
     for domain in DOMAINS:
         text = three_ways(("compare", *words, "--domain", domain, "--json"), tmp_path)
-        assert verify(json.loads(text)).standing is Standing.HOLDS
+        assert verify(json.loads(text)).status is Status.HOLDS
     file = tmp_path / "verdict.json"
     file.write_text(text)
     three_ways(("verify", file), tmp_path)
@@ -123,7 +123,7 @@ def test_files_of_models(name, domain, files, tmp_path):
     one, two = list(read_models(file))[:2]
     words = (f"{file}:{one.name}", f"{file}:{two.name}", "--domain", domain, "--json")
     text = three_ways(("compare", *words), tmp_path)
-    assert verify(json.loads(text)).standing is Standing.HOLDS
+    assert verify(json.loads(text)).status is Status.HOLDS
 
 
 def read_back(verdict):

@@ -15,7 +15,7 @@ from disting.general.model_files import ModelList, models_of, write_models
 from disting.model.names import name_of
 from disting.report.listing import judge
 from disting.verdict.joint import family_safety
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 from tests.cli.process import called
 
 STRANGER = {"name": "low pass", "num": ["k"], "den": ["T", 1]}
@@ -140,7 +140,7 @@ def test_commands_tell_the_same(seed, tmp_path):
             (names[0], files[1], option),
         ]
         found = [json.loads(called("compare", *words, "--json").stdout) for words in asked]
-        assert all(verify(data).standing is Standing.HOLDS for data in found)
+        assert all(verify(data).status is Status.HOLDS for data in found)
         every = [told_in_json(data) for data in (*found, listed[*own], of_sizes[*names])]
         assert every == every[:1] * len(every)
         assert all(name in found[1]["sentence"] for name in own)

@@ -12,7 +12,7 @@ from disting import Chain, Experiment, Family, Query, Relation, Settings, View, 
 from disting.catalogs import catalog
 from disting.model.symmetry import canonical
 from disting.questions.same.exact import by_synthesis
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 from tests.cli.process import called
 from tests.verdict.lies import ENGINE, missed, plain, told_again
 
@@ -129,12 +129,12 @@ def test_a_fibre_of_models_of_unequal_rank_does_not_make_them_the_same() -> None
         "left_positive": {},
         "right_positive": {},
     }
-    assert verify(told_again(data, **lie)).standing is Standing.FAILS
+    assert verify(told_again(data, **lie)).status is Status.FAILS
 
 
 def test_what_is_open_cannot_be_checked_alone() -> None:
     found = verify(plain("3:1", "3:11", View.COMBINED))
-    assert found.standing is Standing.OPEN and "because it is undecided" in found.sentence
+    assert found.status is Status.OPEN and "because it is undecided" in found.sentence
 
 
 def test_models_are_named_wholly_with_damping_and_sensor() -> None:
@@ -158,7 +158,7 @@ def test_all_verdicts_of_a_catalogue_hold(n: int, damped: bool) -> None:
         for view in View:
             data = verdict_file(family[i], family[j], query=Query(view), engine=ENGINE)
             known = shipped.relation(i, j, view) is not Relation.UNDECIDED
-            assert verify(data).standing is (Standing.HOLDS if known else Standing.OPEN), (i, j)
+            assert verify(data).status is (Status.HOLDS if known else Status.OPEN), (i, j)
 
 
 def test_the_command_checks_files_and_pairs(tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ from disting import (
 )
 from disting.errors import NotSeenError
 from disting.general import model_evidence
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 from tests.cli.process import called
 from tests.verdict.lies import ENGINE, found_out, missed, plain, put, told_again
 
@@ -162,7 +162,7 @@ def test_models_that_change_places_with_their_names_are_found_out(name: str) -> 
         lie["experiments"] = pairs
     if data["over_complex"]:
         lie["over_complex"] = data["over_complex"] | names
-    assert verify(told_again(data, **lie)).standing is Standing.FAILS
+    assert verify(told_again(data, **lie)).status is Status.FAILS
 
 
 @pytest.mark.parametrize("name", ["measured: fibre under experiments", "general: witnesses"])
@@ -181,8 +181,8 @@ def test_experiments_and_models_are_named_wholly() -> None:
     data = told("measured: solved")
     there = data["experiments"][1]["right"]
     assert there["inertias"] == [[3, "1/2"]] and there["force"] is None
-    assert verify(put(data, ("experiments", 1, "right", "inertias"), [[3, "1/3"]])).standing is (
-        Standing.FAILS
+    assert verify(put(data, ("experiments", 1, "right", "inertias"), [[3, "1/3"]])).status is (
+        Status.FAILS
     )
     assert told("general: witnesses")["models"][0] == {
         "name": "irreversible",
@@ -220,8 +220,8 @@ def test_what_takes_too_long_to_see_again_is_open_and_all_else_is_checked(
     data = told("general: refuted")
     monkeypatch.setattr(model_evidence, "confirms_models", tired)
     found = verify(data)
-    assert found.standing is Standing.OPEN and "was not found again" in found.sentence
-    assert verify(told_again(data, safety=data["safety"] + 1)).standing is Standing.FAILS
+    assert found.status is Status.OPEN and "was not found again" in found.sentence
+    assert verify(told_again(data, safety=data["safety"] + 1)).status is Status.FAILS
 
 
 HOSTILE: dict[str, tuple[tuple[Any, ...], Any]] = {
@@ -269,7 +269,7 @@ def test_a_missing_key_or_deep_nesting_is_refused(tmp_path: Path) -> None:
 
 def test_large_numbers_in_evidence_end_soon() -> None:
     refuted = told("general: refuted")
-    assert verify(put(refuted, ("evidence", "degree"), -1)).standing is Standing.FAILS
+    assert verify(put(refuted, ("evidence", "degree"), -1)).status is Status.FAILS
     ranks = deepcopy(told("measured: ranks"))
     for labels in (["G999999999"], ["b0[1]"] * 2, []):
         assert found_out(told_again(ranks, evidence=ranks["evidence"] | {"rows": labels}))

@@ -7,7 +7,7 @@ import pytest
 from disting import Chain, InputError, Model, Query, View, verify
 from disting.model.names import name_of
 from disting.verdict.result import Verdict
-from disting.verdict.verification import Standing
+from disting.verdict.verification import Status
 from tests.cli.process import called
 from tests.verdict.lies import found_out, plain, put, told_again
 
@@ -25,7 +25,7 @@ def test_it_says_which_verdict_holds_and_what_was_looked_at():
 
 def test_what_does_not_hold_is_not_said_again():
     found = verify(plain("3:1", "3:4") | {"relation": "indistinguishable"})
-    assert found.standing is Standing.FAILS and found.text == found.sentence
+    assert found.status is Status.FAILS and found.text == found.sentence
     assert found.verdicts == () == found.found_again
 
 
@@ -35,7 +35,7 @@ def test_models_of_ones_own_that_are_called_like_chains_are_told_to_be_ones_own(
         Model.from_transfer_function("c", "s**2 + d", name="3:10"),
     )
     found = verify(plain(*models))
-    assert found.standing is Standing.HOLDS
+    assert found.status is Status.HOLDS
     assert found.models == "3:9 and 3:10: of your file, not of the catalogue"
     beside = verify(plain("2:1", models[0]))
     assert beside.models == "3:9: of your file, not of the catalogue; 2:1: a numbered chain"
@@ -45,7 +45,7 @@ def test_a_chain_without_a_number_is_not_said_to_have_one():
     far = Chain(3, act_plus=3, meas_plus=3)
     found = verify(plain(far, Chain(3)))
     name = name_of(far)
-    assert name.startswith("(") and found.standing is Standing.HOLDS
+    assert name.startswith("(") and found.status is Status.HOLDS
     assert found.models == f"{name}: a chain without a number; 3:1: a numbered chain"
 
 
@@ -102,10 +102,10 @@ def test_every_way_to_place_experiments_is_said(tmp_path):
     path = tmp_path / "ways.json"
     assert called("compare", "2:1", "2:2", "--also", "sensor=2", "--json", path).returncode == 0
     found = verify(path)
-    assert found.standing is Standing.HOLDS and len(found.verdicts) == 2
+    assert found.status is Status.HOLDS and len(found.verdicts) == 2
     data = json.loads(path.read_text(encoding="utf-8"))
-    assert verify(data | {"comment": "x"}).standing is Standing.FAILS
-    assert verify(data | {"program": "three referees"}).standing is Standing.FAILS
+    assert verify(data | {"comment": "x"}).status is Status.FAILS
+    assert verify(data | {"program": "three referees"}).status is Status.FAILS
 
 
 def test_models_that_differ_are_not_equal_over_complex_parameters_by_an_undecided_verdict():
@@ -117,7 +117,7 @@ def test_models_that_differ_are_not_equal_over_complex_parameters_by_an_undecide
     lie = plain("3:1", "3:4", View.REAL) | equal
     lie["over_complex"] = json.loads(json.dumps(Verdict.from_dict(undecided).to_dict()))
     found = verify(lie)
-    assert found.standing is Standing.FAILS
+    assert found.status is Status.FAILS
     assert "equality over complex parameters is told without evidence" in found.reason
 
 

@@ -81,7 +81,7 @@ class Stood:
         """The classes of several structures."""
         return tuple(c for c in self.classes if len(c) > 1)
 
-    def standing(self, a: int, b: int) -> Reason:
+    def reason(self, a: int, b: int) -> Reason:
         """Of two different structures."""
         survivor, other = self.left[a], self.left[b]
         if self._class(a) == self._class(b) or self._classes(a, b) in self.across:

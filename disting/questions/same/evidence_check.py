@@ -11,7 +11,7 @@ from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, NoShares, Refutation, Solutions
 from disting.evidence.kind import Kind
-from disting.evidence.model_samples import ModelSamples, SeenPair, samples_of
+from disting.evidence.model_samples import ModelSamples, SampledPair, samples_of
 from disting.evidence.positive import Share
 from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.fibres.ideals import (
@@ -48,7 +48,7 @@ class Witness:
     def confirms(self, evidence: Kind, representation: str, left: Chain, right: Chain) -> bool:
         """Whether the evidence is true of the two chains and decides them."""
         a, b = left.structure, right.structure
-        pair = SeenPair(
+        pair = SampledPair(
             left=self._seen(a),
             right=self._seen(b),
             renames=partial(is_renaming, a, b),

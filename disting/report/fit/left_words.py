@@ -66,7 +66,7 @@ class ChainAdvice:
             if set(names) <= set(group.names):
                 own_place, other_place = map(group.names.index, names)
                 return group.answer(own_place, item, other_place) is Answer.SURELY
-        return self.stood.standing(a, b) is not Reason.EQUAL
+        return self.stood.reason(a, b) is not Reason.EQUAL
 
 
 def set_in_words(lead: ChainAdvice) -> Iterator[str]:
@@ -117,7 +117,7 @@ def measured_in_words(lead: ChainAdvice) -> Iterator[str]:
 def sentence(lead: ChainAdvice, a: int, b: int) -> str:
     """How structure b stands to a, and the cheapest experiment that shows it."""
     survivor, other = lead.left[a], lead.left[b]
-    standing = lead.stood.standing(a, b)
+    standing = lead.stood.reason(a, b)
     said = f"{other.name}: {SAYS[standing].format(survivor.name)}"
     if standing is Reason.NOISE:
         if union(survivor.chain, other.chain) == other.chain:
@@ -176,7 +176,7 @@ def left_to_dict(lead: ChainAdvice) -> dict[str, Any]:
 
 def _pair(lead: ChainAdvice, a: int, b: int) -> dict[str, str]:
     names = {"left": lead.left[a].name, "right": lead.left[b].name}
-    return names | {"standing": lead.stood.standing(a, b).value}
+    return names | {"standing": lead.stood.reason(a, b).value}
 
 
 def _measured(lead: ChainAdvice, seen: Predictions) -> dict[str, Any]:
@@ -222,7 +222,7 @@ def _origin(survivor: Survivor) -> str:
 def _apart(lead: ChainAdvice) -> Iterator[tuple[str, ...]]:
     """Rows of pairs of different classes: what is told apart now stays so."""
     for a, b in combinations(range(len(lead.left)), 2):
-        if lead.stood.standing(a, b) is Reason.EQUAL:
+        if lead.stood.reason(a, b) is Reason.EQUAL:
             continue
         rule = lead.stood.rule(a, b)
         relation = Relation.DISTINGUISHABLE if rule else Relation.UNDECIDED

@@ -165,15 +165,15 @@ def test_other_values_of_a_structure_bring_it_nearer(left):
 def test_what_noise_leaves_is_no_twin(left):
     found = stood(left, Engine())
     assert found.classes == ((0, 2), (1,)) and found.groups == ((0, 2),)
-    assert found.standing(0, 2) is Reason.EQUAL and found.standing(0, 1) is Reason.NOISE
+    assert found.reason(0, 2) is Reason.EQUAL and found.reason(0, 1) is Reason.NOISE
     assert found.rule(1, 2) == found.rule(2, 1) == found.rule(0, 1) != ""
     across = replace(found, across=frozenset({(0, 1)}))
-    assert across.standing(2, 1) is Reason.EQUAL and across.groups == found.groups
+    assert across.reason(2, 1) is Reason.EQUAL and across.groups == found.groups
 
 
 def test_what_behaves_the_same_for_its_values_alone_is_a_twin(left):
     other = type(left[0])(left[1].chain, False, (), (FREE,))
-    assert stood([left[0], other], Engine()).standing(0, 1) is Reason.TWIN
+    assert stood([left[0], other], Engine()).reason(0, 1) is Reason.TWIN
 
 
 def test_a_file_that_does_not_tell_its_lines_has_no_bench(tmp_path):
