@@ -21,7 +21,7 @@ from disting.general.field import Arithmetic, Poly
 from disting.general.matrix_model import AnyModel
 from disting.general.replacement import set_of
 from disting.general.synthesis import NoFormulas
-from disting.general.target import fraction, value_at
+from disting.general.target import Values, fraction, value_at
 from disting.general.values_of_parts import values_over
 
 BITS = 600
@@ -32,7 +32,7 @@ POSITIVE = "positive"  # how many sets there are: all positive ones are known, o
 class Balls(Arithmetic):
     """Numbers: fractions, and balls around irrational ones; the values of parameters by name."""
 
-    values: dict[str, Fraction]
+    values: Values
     choices: list[tuple[str, ...]] = field(default_factory=list)
     one: Any = field(default_factory=lambda: fmpq(1))
 
@@ -92,7 +92,7 @@ class Synthesis:
         return POSITIVE if self.complete else Extent.UNKNOWN.value
 
 
-def positive_sets(model: AnyModel, values: dict[str, Fraction], other: AnyModel) -> Synthesis:
+def positive_sets(model: AnyModel, values: Values, other: AnyModel) -> Synthesis:
     """The positive values of one network that give the transfer functions of another one at
     positive values; both in powers of one variable. Raises NoFormulas.
 

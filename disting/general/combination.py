@@ -28,7 +28,7 @@ from itertools import combinations, product
 
 from disting.general.fibre_lists import is_in_one_variable, is_regular
 from disting.general.model import Model, Terms
-from disting.general.target import value_at
+from disting.general.target import Values, value_at
 
 MOST = 3000  # numbers that are looked for
 DEGREE = 2  # of the products m of monomials
@@ -37,7 +37,7 @@ Exponents = tuple[int, ...]
 TermsOf = dict[Exponents, Fraction]
 
 
-def excludes(model: Model, values: dict[str, Fraction], other: Model, degree: int = DEGREE) -> bool:
+def excludes(model: Model, values: Values, other: Model, degree: int = DEGREE) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as a
     combination with products of up to so many monomials shows it.
 
@@ -87,7 +87,7 @@ def _is_positive(products: list[TermsOf]) -> bool:
     return all(total[e] > 0 for e in places)
 
 
-def _scaled(model: Model, values: dict[str, Fraction], other: Model) -> tuple[TermsOf, ...] | None:
+def _scaled(model: Model, values: Values, other: Model) -> tuple[TermsOf, ...] | None:
     """All c_i/g_i; None where the models have other coefficients, or at p fewer or common roots."""
     mine, theirs = _coefficients(model), _coefficients(other)
     if [bool(t) for t in mine] != [bool(t) for t in theirs]:

@@ -21,7 +21,6 @@ of smaller degree has no function g, nor do its own minors.
 """
 
 from dataclasses import replace
-from fractions import Fraction
 from functools import lru_cache
 
 from flint import Ordering, fmpq, fmpq_poly, fmpz_mpoly, fmpz_mpoly_ctx
@@ -35,7 +34,7 @@ from disting.general.fibre import Extent, solve, without_zeros
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
-from disting.general.target import Target, fibre_equations, rational_values, target
+from disting.general.target import Target, Values, fibre_equations, rational_values, target
 from disting.model.question import Domain
 from disting.network.element import Port
 from disting.network.graph import move, seen_by_blocks
@@ -43,7 +42,6 @@ from disting.network.network import Network
 
 REMEMBERED = 512
 MOST_ELEMENTS = 6  # of a network of which all minors are looked at
-Values = dict[str, Fraction]
 PLACES = [place_name(i) for i in range(MOST_EXPONENTS)]
 
 

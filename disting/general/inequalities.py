@@ -32,7 +32,7 @@ from disting.general.fibre_lists import is_regular
 from disting.general.model import Model
 from disting.general.newton import are_alike
 from disting.general.relations import coefficients
-from disting.general.target import value_at
+from disting.general.target import Values, value_at
 
 REMEMBERED = 256
 MOST = 400  # edges of a cone, while they are listed
@@ -44,7 +44,6 @@ Form = tuple[tuple[CoefficientPair, int], ...]
 """Numbers f_ij by pairs of coefficients, in the order of `relations.coefficients`."""
 Labelled = tuple[tuple[int, str, str], ...]
 """Numbers f_ij with the names of both coefficients."""
-Values = dict[str, Fraction]
 
 
 @lru_cache(maxsize=REMEMBERED)

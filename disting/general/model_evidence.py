@@ -24,6 +24,7 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
+from disting.general.target import Values
 from disting.general.which_models import ways_by_all
 from disting.model.question import Domain, Settings
 from disting.questions.same.exact import by_labels
@@ -126,7 +127,7 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
 def _has(
     model: AnyModel,
     other: AnyModel,
-    values: dict[str, Fraction],
+    values: Values,
     near: tuple[float, ...],
     domain: Domain,
 ) -> bool:
@@ -137,9 +138,7 @@ def _has(
     return any(way.having(values) for way in ways_by_all(model, other, domain))
 
 
-def _has_none(
-    model: AnyModel, other: AnyModel, values: dict[str, Fraction], domain: Domain
-) -> bool:
+def _has_none(model: AnyModel, other: AnyModel, values: Values, domain: Domain) -> bool:
     if domain is Domain.POSITIVE:
         pair = [m for m in (model, other) if isinstance(m, Model)]
         if any(

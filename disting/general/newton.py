@@ -39,13 +39,12 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 from disting.general.relations import Relation, coefficients, relations, slope
 from disting.general.search import values_near
-from disting.general.target import rational_values, value_at
+from disting.general.target import Values, rational_values, value_at
 
 MOST_TERMS = 1000  # of one model
 BITS = 128
 RADII = (1e-9, 1e-6, 1e-12)  # of the box, in times of the values
 STEPS = 4  # of Newton's method before a box is drawn
-Values = dict[str, Fraction]
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,6 +48,7 @@ from disting.general.fibre_lists import goal_of, one_less, orientation, positive
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.powers import placed_network
+from disting.general.target import Values
 from disting.network.element import Element, Port
 from disting.network.graph import move
 from disting.network.network import Network
@@ -121,7 +122,7 @@ def _is_of_one_kind(network: Network) -> bool:
     return len({e.power for e in network.elements}) == 1
 
 
-def _degree(model: Model, values: dict[str, Fraction]) -> int | None:
+def _degree(model: Model, values: Values) -> int | None:
     """The sum of signs over all positive values with the function of these; 0 where they are not
     all known, None where not all are regular.
     """

@@ -9,12 +9,12 @@ from typing import Any
 from disting.algebra.certainty import residues
 from disting.general.model import Model, Terms
 from disting.general.relations import coefficients
+from disting.general.target import Values
 
 STARTS = 8  # of a search
 FARTHEST = 20.0  # logarithm of a value: farther away it runs to zero or infinity
 CLOSE = 1e-9  # relative error of coefficients, where a search has found something
 DIGITS = 100  # denominators of points that are proposed
-Values = dict[str, Fraction]
 
 
 def values_near(

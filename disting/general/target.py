@@ -24,6 +24,8 @@ from disting.general.expression import names, tree
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
 
+Values = dict[str, Fraction]
+
 
 @dataclass(frozen=True, slots=True)
 class Target:

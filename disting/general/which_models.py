@@ -9,7 +9,6 @@ looked for with `robust`.
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from itertools import islice
 
 from disting.general.cases import orders, search_cases
@@ -26,6 +25,7 @@ from disting.general.robust import (
     searched_cases,
 )
 from disting.general.sections import Section, cover, sections, sign_on
+from disting.general.target import Values
 from disting.model.question import Domain
 
 FEW = 5  # orders of the unknowns
@@ -70,7 +70,7 @@ class Way:
             else f"{cases - self.looked_at} of {cases} cases have too many unknowns to look"
         )
 
-    def having(self, values: dict[str, Fraction]) -> tuple[float, ...] | None:
+    def having(self, values: Values) -> tuple[float, ...] | None:
         """An equivalent (rounded) of a point around which all have some, as far as is seen."""
         self.parted.search.ring.begin()
         try:
@@ -78,7 +78,7 @@ class Way:
         except TooMuch:
             return None
 
-    def lacking(self, values: dict[str, Fraction]) -> bool:
+    def lacking(self, values: Values) -> bool:
         """Whether no point around this one has an equivalent, as far as is seen."""
         self.parted.search.ring.begin()
         try:
@@ -86,7 +86,7 @@ class Way:
         except TooMuch:
             return False
 
-    def _point(self, values: dict[str, Fraction]) -> ParameterValues:
+    def _point(self, values: Values) -> ParameterValues:
         return {i: values[name] for i, name in enumerate(self.given.parameters)}
 
 

@@ -24,7 +24,7 @@ from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.search import STARTS, common_points
-from disting.general.target import fibre_equations, rational_values, target
+from disting.general.target import Values, fibre_equations, rational_values, target
 from disting.model.question import Domain
 
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
@@ -35,7 +35,7 @@ Example = tuple[bool, PointText, PointText]
 """Left given, a point of it, and the rounded equivalent (nothing where there is none)."""
 
 
-def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fraction]]:
+def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[Values]:
     """Yield random rational parameters of a domain, without end, determined by the seed and the
     model.
     """
@@ -56,9 +56,7 @@ def points(model: AnyModel, domain: Domain, seed: str) -> Iterator[dict[str, Fra
         k += 1
 
 
-def _in_turn(
-    left: M, right: M, seed: str, count: int
-) -> Iterator[tuple[bool, M, M, dict[str, Fraction]]]:
+def _in_turn(left: M, right: M, seed: str, count: int) -> Iterator[tuple[bool, M, M, Values]]:
     """Yield so many positive points of either model, one of each after the other."""
     for number in range(count):
         for left_given, model, other in ((True, left, right), (False, right, left)):
@@ -167,7 +165,7 @@ def _count(model: AnyModel, other: AnyModel, point: PointText) -> int:
 
 def example(
     left_given: bool,
-    values: dict[str, Fraction],
+    values: Values,
     other: AnyModel | None = None,
     equivalent: tuple[float, ...] = (),
 ) -> Example:
