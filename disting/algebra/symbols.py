@@ -19,7 +19,7 @@ Term = tuple[int, Mapping[str, int]]
 """Coefficient and {symbol: exponent}."""
 Content = tuple[tuple[str, ...], tuple[tuple[tuple[int, ...], int], ...]]
 """Names, and (exponents, coefficient) of every term; unlike a polynomial it has a hash."""
-Number = TypeVar("Number", bound="scalar_p")
+Scalar = TypeVar("Scalar", bound="scalar_p")
 """An element of a field."""
 
 
@@ -182,7 +182,7 @@ class RationalFunction:
         """The larger total degree of numerator and denominator."""
         return max(int(p.total_degree()) for p in (self.num, self.den))
 
-    def value(self, at: Mapping[str, Number]) -> Number:
+    def value(self, at: Mapping[str, Scalar]) -> Scalar:
         """Value at a point of a field. Raises ZeroDivisionError at a pole."""
         return _value(self.num, at) / _value(self.den, at)
 
@@ -192,10 +192,10 @@ def variables(names: Sequence[str]) -> dict[str, RationalFunction]:
     return {name: RationalFunction(symbol, symbol**0) for name, symbol in symbols(names).items()}
 
 
-def _value(polynomial: fmpz_mpoly, at: Mapping[str, Number]) -> Number:
-    total = cast("Number", 0)  # whole numbers are in every field
+def _value(polynomial: fmpz_mpoly, at: Mapping[str, Scalar]) -> Scalar:
+    total = cast("Scalar", 0)  # whole numbers are in every field
     for coefficient, powers in terms(polynomial):
-        term = cast("Number", coefficient)
+        term = cast("Scalar", coefficient)
         for name, exponent in powers.items():
             term = term * at[name] ** exponent
         total = total + term

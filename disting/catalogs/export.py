@@ -28,7 +28,7 @@ CSV_COLUMNS = (
     "damped",
     "quantity",
 )
-Row = tuple[
+ExportRow = tuple[
     int | str, int | str, Relation, str, str, str, str, Domain, str, str, str, str, str, str
 ]
 """left, right (numbers, or names where models of several sizes are compared), relation,
@@ -38,7 +38,7 @@ side ("" where that is not asked), and what `premise_text` says
 """
 
 
-def csv_text(rows: Iterable[Row]) -> str:
+def csv_text(rows: Iterable[ExportRow]) -> str:
     """CSV text of the rows, left < right, with a header line.
 
     >>> told = (Relation.DISTINGUISHABLE, "1", "tf", "proven", "0", Domain.COMPLEX)
@@ -93,7 +93,7 @@ def inclusion_text(inclusion: Inclusion) -> str:
     return "" if inclusion is Inclusion.UNKNOWN else inclusion.value
 
 
-def csv_row(left: int, right: int, v: Verdict) -> Row:
+def csv_row(left: int, right: int, v: Verdict) -> ExportRow:
     """The row of a verdict on two numbered models."""
     image, closure = (inclusion_text(inclusion) for inclusion in (v.image, v.closure))
     graded = (v.relation, v.decided_by, v.representation, v.certainty or "", v.error_bound)

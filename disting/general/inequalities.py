@@ -39,7 +39,7 @@ MOST = 400  # edges of a cone, while they are listed
 SPREADS = (4, 8, 12)  # values are powers of two below 2^4, 2^8, 2^12
 POINTS = 48  # of each
 CoefficientPair = tuple[int, int]
-Row = tuple[int, ...]
+Exponents = tuple[int, ...]
 Form = tuple[tuple[CoefficientPair, int], ...]
 """Numbers f_ij by pairs of coefficients, in the order of `relations.coefficients`."""
 Labelled = tuple[tuple[int, str, str], ...]
@@ -147,7 +147,7 @@ def _polynomials(model: Model) -> list[fmpz_mpoly]:
     return [context.from_dict(dict(terms)) for terms in coefficients(model) if terms]
 
 
-def _products(model: Model) -> dict[CoefficientPair, dict[Row, int]]:
+def _products(model: Model) -> dict[CoefficientPair, dict[Exponents, int]]:
     """All c_i c_j by their monomials."""
     every = _polynomials(model)
     pairs = combinations_with_replacement(range(len(every)), 2)
@@ -157,9 +157,9 @@ def _products(model: Model) -> dict[CoefficientPair, dict[Row, int]]:
     }
 
 
-def _groups(products: dict[CoefficientPair, dict[Row, int]]) -> list[list[CoefficientPair]]:
+def _groups(products: dict[CoefficientPair, dict[Exponents, int]]) -> list[list[CoefficientPair]]:
     """Those of the products that are joined by monomials."""
-    groups = list[tuple[list[CoefficientPair], set[Row]]]()
+    groups = list[tuple[list[CoefficientPair], set[Exponents]]]()
     for pair, terms in products.items():
         joined = [group for group in groups if not group[1].isdisjoint(terms)]
         pairs = [pair, *(other for group in joined for other in group[0])]
@@ -168,7 +168,7 @@ def _groups(products: dict[CoefficientPair, dict[Row, int]]) -> list[list[Coeffi
     return [sorted(pairs) for pairs, _ in groups]
 
 
-def _edges(rows: Sequence[Row]) -> Iterator[Row]:
+def _edges(rows: Sequence[Exponents]) -> Iterator[Exponents]:
     """Yield the edges of the cone of all x at which no row is negative; none of what contains
     lines, and none where there are too many. What does not show in the rows is 0 in x.
     """
@@ -194,7 +194,7 @@ def _edges(rows: Sequence[Row]) -> Iterator[Row]:
         yield tuple(numbers.get(j, 0) for j in range(width))
 
 
-def _cut(edges: dict[Row, int], row: Row, at: int, common: int) -> dict[Row, int]:
+def _cut(edges: dict[Exponents, int], row: Exponents, at: int, common: int) -> dict[Exponents, int]:
     """The edges of what is left of a cone where a further row is not negative; of each edge the
     rows that are zero there, as bits. Two edges that share a face have `common` rows at least, and
     no third edge has all of those.
@@ -213,20 +213,20 @@ def _cut(edges: dict[Row, int], row: Row, at: int, common: int) -> dict[Row, int
     return left
 
 
-def _pivots(rows: Sequence[Row]) -> list[int]:
+def _pivots(rows: Sequence[Exponents]) -> list[int]:
     """Columns on which all others depend."""
     reduced, rank = fmpq_mat(fmpz_mat([list(row) for row in rows])).rref()
     return [next(j for j in range(len(rows[0])) if reduced[i, j]) for i in range(rank)]
 
 
-def _shortest(numbers: Iterable[int]) -> Row:
+def _shortest(numbers: Iterable[int]) -> Exponents:
     """In the same direction, without a common factor."""
     row = tuple(numbers)
     common = gcd(*row)
     return tuple(x // common for x in row)
 
 
-def _whole(numbers: Sequence[object]) -> Row:
+def _whole(numbers: Sequence[object]) -> Exponents:
     fractions = [Fraction(str(x)) for x in numbers]
     common = lcm(*(x.denominator for x in fractions))
     return _shortest(int(x * common) for x in fractions)

@@ -55,7 +55,7 @@ from dataclasses import replace
 
 from flint import ctx
 
-from disting.algebra.symbols import Number
+from disting.algebra.symbols import Scalar
 from disting.fibres.synthesis.branch import Imprecise, RowValues
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.methods import is_covered, synthesise
@@ -65,9 +65,9 @@ from disting.model.row import Row, grounded_and_free, rows_of
 from disting.model.structure import Ports
 from disting.model.symmetry import canonical
 
-Law = tuple[Number, ...]  # (c, d) of a spring and its damper, (c,) undamped
+Law = tuple[Scalar, ...]  # (c, d) of a spring and its damper, (c,) undamped
 Outwards = tuple[
-    list[Number], list[tuple[Number, ...]]
+    list[Scalar], list[tuple[Scalar, ...]]
 ]  # masses and springs from the port outwards
 
 
@@ -187,12 +187,12 @@ def are_dual(left: Chain, right: Chain) -> bool:
     return plain and left.n_masses == right.n_masses == left.gap + right.gap + 1
 
 
-def dual(chain: Chain, values: Mapping[str, Number]) -> dict[str, Number]:
+def dual(chain: Chain, values: Mapping[str, Scalar]) -> dict[str, Scalar]:
     """Parameters of the dual chain with the same transfer function; exact for exact values."""
     n, g = chain.n_masses, chain.gap
     masses = [values[f"m{i}"] for i in range(1, n + 1)]
     names = [name for name in chain.parameters if name[0] == "k"]
-    laws: list[Law[Number]] = [
+    laws: list[Law[Scalar]] = [
         (values[k], values[f"d{k[1:]}"]) if chain.damped else (values[k],) for k in names
     ]
     total = sum(masses[g + 1 :], masses[g])
@@ -222,7 +222,7 @@ def _mirror_gap(chain: Chain) -> Chain:
     return Chain(chain.n_masses, h, h, h + 1, h, h + 1, sensor=chain.sensor, damped=chain.damped)
 
 
-def _grounded(masses: list[Number], springs: list[Law[Number]], total: Number) -> Outwards[Number]:
+def _grounded(masses: list[Scalar], springs: list[Law[Scalar]], total: Scalar) -> Outwards[Scalar]:
     """The row of F - 1/(M s^2)."""
     if not springs:
         return [], []
@@ -234,7 +234,7 @@ def _grounded(masses: list[Number], springs: list[Law[Number]], total: Number) -
     ]
 
 
-def _free(masses: list[Number], springs: list[Law[Number]], total: Number) -> Outwards[Number]:
+def _free(masses: list[Scalar], springs: list[Law[Scalar]], total: Scalar) -> Outwards[Scalar]:
     """The row of R + 1/(M s^2), the inverse: M1 = M^2/(M + mu)."""
     if not masses:
         return [total], []
@@ -246,10 +246,10 @@ def _free(masses: list[Number], springs: list[Law[Number]], total: Number) -> Ou
     return [total - rest, *inner], [_scaled(springs[0], factor), *laws]
 
 
-def _scaled(law: Law[Number], factor: Number) -> Law[Number]:
+def _scaled(law: Law[Scalar], factor: Scalar) -> Law[Scalar]:
     return tuple(factor * x for x in law)
 
 
-def _in_order(chain: Chain, masses: list[Number], laws: list[Law[Number]]) -> list[Number]:
+def _in_order(chain: Chain, masses: list[Scalar], laws: list[Law[Scalar]]) -> list[Scalar]:
     """Masses, springs, dampers: the order of a chain's parameters."""
     return [*masses, *(law[0] for law in laws), *(law[1] for law in laws if chain.damped)]

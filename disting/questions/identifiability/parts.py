@@ -11,7 +11,7 @@ from typing import cast
 
 from disting.algebra.certainty import Certainty, Size
 from disting.algebra.notation import latex, text
-from disting.algebra.symbols import Number, Term
+from disting.algebra.symbols import Scalar, Term
 from disting.model.question import Answer
 
 Exponents = tuple[tuple[str, int], ...]
@@ -31,7 +31,7 @@ class Formula:
 
     terms: tuple[tuple[int, Exponents], ...]
 
-    def value(self, at: Mapping[str, Number]) -> Number:
+    def value(self, at: Mapping[str, Scalar]) -> Scalar:
         """Value at a point of a field."""
         return sum(
             (c * _power(at, e) for c, e in self.terms[1:]),
@@ -86,8 +86,8 @@ def monomial(**exponents: int) -> Formula:
     return Formula(((1, tuple((name, e) for name, e in exponents.items() if e)),))
 
 
-def _power(at: Mapping[str, Number], exponents: Exponents) -> Number:
-    value = cast("Number", 1)  # whole numbers are in every field
+def _power(at: Mapping[str, Scalar], exponents: Exponents) -> Scalar:
+    value = cast("Scalar", 1)  # whole numbers are in every field
     for name, exponent in exponents:
         value = value * at[name] ** exponent if exponent > 0 else value / at[name] ** -exponent
     return value

@@ -40,7 +40,7 @@ from disting.report.words import plural
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ParameterRow:
     """A row of a table of numbers: what, value, unit, how sure it is (error in percent, or an
     interval), a remark.
     """
@@ -52,7 +52,7 @@ class Row:
     remark: str = ""
 
 
-def result_row(result: Result, measured: FrequencyResponse) -> Row:
+def result_row(result: Result, measured: FrequencyResponse) -> ParameterRow:
     """A physical result in the units of the data."""
     share = result.standard_error / abs(result.value) if result.value else 0.0
     low, high = measured.frequency[0], measured.frequency[-1]
@@ -60,7 +60,7 @@ def result_row(result: Result, measured: FrequencyResponse) -> Row:
     remark = "outside the measured band" if outside else ""
     # follows its mode
     what = "its damping ratio" if result.name.startswith("damping ratio") else result.name
-    return Row(
+    return ParameterRow(
         what,
         with_error(result.value, result.standard_error),
         result_unit(result, measured),
@@ -69,7 +69,9 @@ def result_row(result: Result, measured: FrequencyResponse) -> Row:
     )
 
 
-def parameter_rows(candidate: Candidate, task: Task, measured: FrequencyResponse) -> list[Row]:
+def parameter_rows(
+    candidate: Candidate, task: Task, measured: FrequencyResponse
+) -> list[ParameterRow]:
     """Parameters in the order of the chain."""
     values = candidate.estimate.parameters
     return [
@@ -78,11 +80,11 @@ def parameter_rows(candidate: Candidate, task: Task, measured: FrequencyResponse
     ]
 
 
-def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) -> Row:
+def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) -> ParameterRow:
     if n in task.fixed:
-        return Row(n, readable(value, 6), of, "", "fixed")
+        return ParameterRow(n, readable(value, 6), of, "", "fixed")
     share = candidate.practical.relative_errors[n]
-    return Row(
+    return ParameterRow(
         n,
         with_error(value, share * value),
         of,
@@ -91,14 +93,14 @@ def _parameter(candidate: Candidate, task: Task, n: str, value: float, of: str) 
     )
 
 
-def intervals(member: Member, measured: FrequencyResponse) -> list[Row]:
+def intervals(member: Member, measured: FrequencyResponse) -> list[ParameterRow]:
     """Values of a member with their intervals of 95 %, those that the test data contradict
     marked; last, what is given.
     """
     apart = {d.name: d for d in member.disagreements}
     values, intervals = member.candidate.estimate.parameters, member.intervals
     return [
-        Row(
+        ParameterRow(
             n,
             readable(value, 4 if n in intervals else 6),
             unit_of(n[0], measured),
@@ -130,7 +132,7 @@ class ListedStructure:
     member: Member
     drawing: Markup
     page: Link | None
-    parameters: Sequence[Row]
+    parameters: Sequence[ParameterRow]
     same: Sequence[Same]
     steps: Sequence[Step]
     fits: Sequence[tuple[str, str]]
@@ -158,7 +160,7 @@ def list_structures(
 
 
 @dataclass(frozen=True, slots=True)
-class Number:
+class KeyFigure:
     """A number that matters, and what it means."""
 
     what: str
@@ -172,11 +174,11 @@ class Answer:
 
     title: str
     plain: str
-    numbers: tuple[Number, ...]
+    numbers: tuple[KeyFigure, ...]
     rule: str
 
 
-def answer(selection: Selection, results: Sequence[Row]) -> Answer:
+def answer(selection: Selection, results: Sequence[ParameterRow]) -> Answer:
     """The answer of a selection; `results`: what the described model says about the machine."""
     numbers = (_misfit(selection), _left(selection), _third(selection, results))
     return Answer(_title(selection), _plain(selection), numbers, _rule(selection))
@@ -236,27 +238,27 @@ def _beside(selection: Selection) -> Iterator[str]:
         yield "The data exclude every other one."
 
 
-def _misfit(selection: Selection) -> Number:
+def _misfit(selection: Selection) -> KeyFigure:
     said = selection.explanation
     meaning = (
         f"chi2 per line: 1 is noise alone, above {readable(largest_cost(said.scatter), 2)} a"
         " structure does not explain the data"
     )
-    return Number("misfit", readable(said.chi2), meaning)
+    return KeyFigure("misfit", readable(said.chi2), meaning)
 
 
-def _left(selection: Selection) -> Number:
+def _left(selection: Selection) -> KeyFigure:
     count, of = len(selection.members) + len(selection.containing), len(selection.candidates)
-    return Number("structures left", f"{count} of {of}", "fitted, and not excluded by the data")
+    return KeyFigure("structures left", f"{count} of {of}", "fitted, and not excluded by the data")
 
 
-def _third(selection: Selection, results: Sequence[Row]) -> Number:
+def _third(selection: Selection, results: Sequence[ParameterRow]) -> KeyFigure:
     """The first resonance; of a model without one how far a line scatters."""
     for row in results:
         if row.name.startswith("resonance"):
-            return Number(row.name, f"{row.value} {row.unit}", "value ± standard error")
+            return KeyFigure(row.name, f"{row.value} {row.unit}", "value ± standard error")
     scatter = selection.explanation.scatter
-    return Number("scatter", percent(scatter.typical), f"of a line, known from {scatter.source}")
+    return KeyFigure("scatter", percent(scatter.typical), f"of a line, known from {scatter.source}")
 
 
 def _rule(selection: Selection) -> str:
