@@ -161,7 +161,7 @@ CALLS: tuple[Call, ...] = (
     ("fit.margins", lambda: fit.margins(FREE, np.ones(3), fit.Controller(P=1.0)), InputError),
     ("fit.plan", lambda: fit.plan(DRIVE, {}, FREE, OMEGA, OMEGA), InputError),
     ("fit.poles", lambda: fit.poles(STRUCTURE, P), ValueError),
-    ("fit.predicted", lambda: fit.predict(DRIVE, VALUES, OMEGA, 2), InputError),
+    ("fit.predict", lambda: fit.predict(DRIVE, VALUES, OMEGA, 2), InputError),
     ("fit.profile", lambda: fit.profile(*fitted(), "k9"), InputError),
     ("fit.read_model", lambda: fit.read_model(Path("missing.json")), InputError),
     ("fit.select", lambda: fit.select(measured(), []), InputError),
@@ -187,7 +187,7 @@ CALLS: tuple[Call, ...] = (
     ("experiments.move", lambda: experiments.move(Experiment(locked=9), ((1, 2),)), KeyError),
     ("experiments.Change", lambda: experiments.Change(LOCK, 2, "0.5"), InputError),
     ("experiments.MeasuredChain", lambda: experiments.MeasuredChain(DRIVE, (Experiment(locked=9),)), InputError),
-    ("questions.identifiability.decoded", lambda: identifiability.decoded("nonsense"), ValueError),
+    ("questions.identifiability.decode", lambda: identifiability.decode("nonsense"), ValueError),
     ("questions.identifiability.identifiability", lambda: identifiability.identifiability("no"), InputError),
 )  # fmt: skip
 

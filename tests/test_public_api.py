@@ -211,13 +211,13 @@ TOTAL = {
     },
     ".simulation": {"port_vectors"},
     ".fit": {
-        "confidence", "designed", "estimates", "fit_percent", "physical", "variants",
+        "confidence", "design", "estimates", "fit_percent", "physical", "variants",
     },
     ".equivalence": {"among"},
     ".experiments": set(),
-    ".general": {"as_chain", "is_explicit", "is_without", "parameter_identifiability", "unnamed"},
+    ".general": {"as_chain", "is_explicit", "is_without", "parameter_identifiability", "without_names"},
     ".questions.identifiability": {
-        "as_given", "by_parameter", "confirms", "encoded", "identifiabilities", "joint", "local",
+        "by_parameter", "confirms", "encode", "identifiabilities", "in_names_of", "joint", "local",
     },
 }  # fmt: skip
 """Functions that take whatever their types allow."""

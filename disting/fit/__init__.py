@@ -58,7 +58,7 @@ True
 >>> type(both.plant(drive.structure, 1)).__name__, both.measured is data
 ('JointPlant', True)
 
-Margins of a controller around it, and how much measuring excludes a Rival, as it is Designed:
+Margins of a controller around it, and how much measuring excludes a Rival, and the Design of that:
 
 >>> from disting.fit import Controller, design, gain, margins, plan
 >>> p = np.array([best.estimate.parameters[name] for name in drive.parameters])

@@ -58,10 +58,10 @@ if TYPE_CHECKING:
 # The same list, by which a name is found when it is used, as those of `disting` are: whoever reads
 # an answer that is stored needs none of what finds it.
 _NAMES = {
-    "analysis": "IDENTIFIABILITY as_given identifiabilities identifiability",
+    "analysis": "IDENTIFIABILITY in_names_of identifiabilities identifiability",
     "answer": "Identifiability",
     "check": "confirms",
-    "levels": "Local ParameterIdentifiability by_parameter decoded encoded joint local",
+    "levels": "Local ParameterIdentifiability by_parameter decode encode joint local",
     "parts": "Alternative Combination Formula Level Origin Renaming",
 }
 _HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
