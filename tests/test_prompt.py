@@ -200,7 +200,7 @@ def test_rooms_are_imported_when_they_are_named():
         "print(disting.fit.select.__name__, disting.transfer_function(disting.Chain(1)))\n"
         "disting.fits"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600)
     assert done.stdout.split() == ["select", "1/m1"]
     assert "AttributeError: disting has no fits; dir(disting) lists what it has" in done.stderr
 

@@ -118,7 +118,9 @@ def test_what_type_checkers_are_told_is_what_a_name_gives():
 
 def fresh(code):
     """Words that a new process prints."""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600
+    )
     return done.stdout.split()
 
 
@@ -170,7 +172,7 @@ def test_sympy_is_loaded_for_its_expressions_alone(tmp_path):
         "disting.transfer_function('2:1'); print('loaded', 'sympy' in sys.modules)"
     )
     said = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600
     ).stdout
     loaded = [line for line in said.splitlines() if line.startswith("loaded ")]
     assert loaded == ["loaded False"] * len(commands) + ["loaded True"]

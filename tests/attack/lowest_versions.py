@@ -48,17 +48,23 @@ def environment(folder: Path, python: str, newest: bool) -> Path:
 
     Raises CalledProcessError where the versions cannot be had together.
     """
-    subprocess.run([python, "-m", "venv", folder], check=True)
+    subprocess.run([python, "-m", "venv", folder], check=True, timeout=600)
     inside = folder / ("Scripts" if sys.platform == "win32" else "bin") / "python"
     chosen = [] if newest else pins()
     package = f"{ROOT}[control,dask,hdf5,swarm,uff,test]"
     subprocess.run(
-        [inside, "-m", "pip", "install", "-q", "--prefer-binary", package, *chosen], check=True
+        [inside, "-m", "pip", "install", "-q", "--prefer-binary", package, *chosen],
+        check=True,
+        timeout=600,
     )
     # away from the checkout: the wheel's own files
     alone = {"DISTING_CACHE": str(folder / "cache.sqlite3")}
     subprocess.run(
-        [inside, "-m", "disting", "compare", "3:2", "3:5"], check=True, cwd=folder, env=alone
+        [inside, "-m", "disting", "compare", "3:2", "3:5"],
+        check=True,
+        cwd=folder,
+        env=alone,
+        timeout=600,
     )
     return inside
 
@@ -68,7 +74,7 @@ def run(python: str, newest: bool, keep: Path | None, arguments: list[str]) -> i
     with tempfile.TemporaryDirectory() as name:
         inside = environment(keep or Path(name) / "venv", python, newest)
         command = [inside, "-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", *arguments]
-        return subprocess.run(command, cwd=ROOT, check=False).returncode
+        return subprocess.run(command, cwd=ROOT, check=False, timeout=600).returncode
 
 
 def main() -> int:

@@ -21,7 +21,11 @@ PART = (
 
 def test_the_lowest_versions(counts):
     done = subprocess.run(
-        [sys.executable, str(SCRIPT), *PART], capture_output=True, text=True, check=False
+        [sys.executable, str(SCRIPT), *PART],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=600,
     )
     counts[done.stdout.strip().splitlines()[-1]] += 1
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]

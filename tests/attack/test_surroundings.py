@@ -39,6 +39,7 @@ def test_readers_that_go_away(tmp_path, counts, arguments):
                 text=True,
                 check=False,
                 env=environment,
+                timeout=600,
             )
             counts["tried"] += 1
             odd = done.returncode != 0 or "Traceback" in done.stderr or "Exception" in done.stderr
@@ -53,7 +54,9 @@ def frozen():
 
     def freeze(path):
         done = (
-            subprocess.run(["chattr", "+i", str(path)], capture_output=True, check=False)
+            subprocess.run(
+                ["chattr", "+i", str(path)], capture_output=True, check=False, timeout=600
+            )
             if shutil.which("chattr")
             else None
         )
@@ -63,7 +66,7 @@ def frozen():
 
     yield freeze
     for path in kept:
-        subprocess.run(["chattr", "-i", str(path)], check=True)
+        subprocess.run(["chattr", "-i", str(path)], check=True, timeout=600)
 
 
 @pytest.mark.parametrize("which", ["file", "folder", "both"])
@@ -106,14 +109,14 @@ def small(tmp_path):
         folder = tmp_path / f"disk{size}"
         folder.mkdir()
         how = ["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", str(folder)]
-        if subprocess.run(how, capture_output=True, check=False).returncode:
+        if subprocess.run(how, capture_output=True, check=False, timeout=600).returncode:
             pytest.skip("only root can mount")
         mounted.append(folder)
         return folder
 
     yield mount
     for folder in mounted:
-        subprocess.run(["umount", str(folder)], check=True)
+        subprocess.run(["umount", str(folder)], check=True, timeout=600)
 
 
 @pytest.mark.parametrize("size", [4, 16, 64, 256])

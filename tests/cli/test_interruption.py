@@ -98,7 +98,7 @@ def test_a_run_killed_at_any_moment_resumes(tmp_path):
         time.sleep(delay)
         delay = delay + 0.4 if len(stored) < 3 else 2 * delay
         process.send_signal(signal.SIGKILL)
-        process.wait()
+        process.wait(timeout=600)
         stored.append(entries(cache))
     assert stored == sorted(stored)
     assert stored[-1] > 0
@@ -127,7 +127,8 @@ def interrupted(cache, stored, *arguments):
         # a shell's background jobs inherit SIG_IGN
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
-    while process.poll() is None and entries(cache) < stored:
+    end = time.monotonic() + 600
+    while process.poll() is None and entries(cache) < stored and time.monotonic() < end:
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)
     _, error = process.communicate(timeout=600)
@@ -171,7 +172,11 @@ IN_WORK = "networkx.algorithms"  # is imported by what looks at circuits, and by
 def pressed(program, *arguments):
     """What a process that presses Ctrl-C itself ends with, and what it says."""
     done = subprocess.run(
-        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False
+        [sys.executable, "-c", program, *arguments],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=600,
     )
     return done.returncode, done.stderr.strip()
 
@@ -251,7 +256,9 @@ def test_interrupt_ends_the_workers_without_a_word(tmp_path):
 
 def shell(arguments, redirected):
     command = f"set -o pipefail; {' '.join(COMMAND)} {arguments} {redirected}"
-    return subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    return subprocess.run(
+        ["bash", "-c", command], capture_output=True, text=True, check=False, timeout=600
+    )
 
 
 @pytest.mark.parametrize(
@@ -302,7 +309,9 @@ def test_no_file_gets_the_number_of_a_closed_stream(tmp_path):
         " 'w'))"
     )
     command = f"exec 3>&1; {sys.executable} -c {shlex.quote(program)} <&- >&- 2>&-"
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        ["bash", "-c", command], capture_output=True, text=True, check=True, timeout=600
+    )
     assert done.stdout == "['/dev/null', '/dev/null', '/dev/null']\n"
 
 

@@ -95,7 +95,12 @@ def test_every_command_runs_where_posix_is_not_and_names_are_not_ascii(tmp_path,
         "PYTHONPATH": os.pathsep.join([str(blocker), os.getcwd(), *filter(None, sys.path)]),
     }
     done = subprocess.run(
-        [sys.executable, "script.py"], cwd=folder, env=environment, capture_output=True, text=True
+        [sys.executable, "script.py"],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=600,
     )
     assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr[-1000:]
     written = {"pairs ü.csv", "pairs ü.json", "bench ß.csv", "catalogues ø", "cache å.sqlite3"}

@@ -26,7 +26,9 @@ def shell(command: str, folder: Path, **variables: str) -> subprocess.CompletedP
     """A line of a shell in which $D is the program."""
     environment = os.environ | {"DISTING_CACHE": "off", "D": " ".join(COMMAND)} | variables
     line = ["bash", "-c", f"set -o pipefail; {command}"]
-    return subprocess.run(line, capture_output=True, env=environment, cwd=folder, check=False)
+    return subprocess.run(
+        line, capture_output=True, env=environment, cwd=folder, check=False, timeout=600
+    )
 
 
 @pytest.fixture

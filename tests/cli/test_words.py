@@ -178,6 +178,8 @@ def test_a_shell_is_told_how_a_line_may_go_on(tmp_path: Path, line: str, offered
     asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "COMP_LINE": line, "COMP_TYPE": "9"}
     asked |= {"COMP_POINT": str(len(line)), "_ARGCOMPLETE_STDOUT_FILENAME": str(path)}
     asked["_ARGCOMPLETE_COMP_WORDBREAKS"] = " \t\n"
-    done = subprocess.run([*COMMAND], env=os.environ | asked, capture_output=True, check=False)
+    done = subprocess.run(
+        [*COMMAND], env=os.environ | asked, capture_output=True, check=False, timeout=600
+    )
     assert (done.returncode, done.stdout) == (0, b"")
     assert set(path.read_text(encoding="utf-8").split()) == offered

@@ -95,7 +95,7 @@ def test_every_cell_still_runs(path, tmp_path, monkeypatch):
 @pytest.mark.skipif(not importlib.util.find_spec("nbclient"), reason="needs disting[dev]")
 def test_executed_anew_they_say_the_same(tmp_path):
     command = [sys.executable, str(ROOT / ".ci" / "notebooks"), "--into", str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     for path in NOTEBOOKS:
         assert texts(tmp_path / path.name) == texts(path), path.name

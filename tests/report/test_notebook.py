@@ -230,7 +230,7 @@ def test_without_matplotlib_a_plot_names_the_remedy():
         "assert len(disting.catalog(3, damped=False)._repr_html_()) > 1000\n"
         "disting.catalog(3, damped=False).plot()"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600)
     assert done.stderr.splitlines()[-1] == (
         "disting.errors.DistingError: a plot needs matplotlib; install it: pip install matplotlib"
     )

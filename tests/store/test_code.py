@@ -93,6 +93,11 @@ def test_a_change_of_the_ports_in_the_chain_model_changes_the_key_of_estimates(t
 def digest_of(folder):
     command = "from disting.store.code import digest; print(digest('disting.fit.search.exchange'))"
     done = subprocess.run(
-        [sys.executable, "-c", command], cwd=folder, capture_output=True, text=True, check=True
+        [sys.executable, "-c", command],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=600,
     )
     return done.stdout.strip()
