@@ -16,7 +16,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import SupportsInt
 
-from disting.algebra.groebner.modular import MAX_DEGREE, Order, Sparse, matrix as modular_matrix
+from disting.algebra.groebner.modular import (
+    MAX_DEGREE,
+    Matrix,
+    Order,
+    Sparse,
+    matrix as modular_matrix,
+)
 
 Multiple = tuple[list[int], tuple[int, ...]]  # codes and coefficients of a row of the matrix
 Pivots = dict[int, Multiple]  # by leading monomial
@@ -219,19 +225,30 @@ def _left(
     is left in the free columns. All rows at once, column by column: a column is a vector, whose
     entries FLINT multiplies faster than Python one of them.
     """
-    entries: dict[int, list[int]] = {}
+    size = len(rows)
+    entries: dict[int, list[tuple[int, int]]] = {}
     for i, (places, numbers) in enumerate(rows):
         for j, c in zip(places, numbers, strict=True):
-            entries.setdefault(j, [0] * len(rows))[i] = c
-    vectors = {j: modular_matrix(1, len(rows), x, modulus) for j, x in entries.items()}
+            entries.setdefault(j, []).append((i, c))
+    changes: dict[int, Matrix] = {}  # by multiples of pivot rows
     for j, columns, factors in steps:
-        vector = vectors.pop(j, None)
+        if j in changes:
+            vector = changes.pop(j)
+            for i, c in entries.get(j, ()):
+                vector[0, i] = int(vector[0, i]) + c
+        elif j in entries:
+            at = dict(entries[j])
+            vector = modular_matrix(1, size, [at.get(i, 0) for i in range(size)], modulus)
+        else:
+            continue
         if vector:
             for k, c in zip(columns[1:], factors[1:], strict=True):
-                known = vectors.get(k)
-                vectors[k] = vector * -c if known is None else known - vector * c
-    nothing = [0] * len(rows)
-    left = ([int(x) for x in vectors[j].entries()] if j in vectors else nothing for j in free)
+                known = changes.get(k)
+                changes[k] = vector * -c if known is None else known - vector * c
+    left = [list(map(int, changes[j].entries())) if j in changes else [0] * size for j in free]
+    for j, column in zip(free, left, strict=True):
+        for i, c in entries.get(j, ()):
+            column[i] = (column[i] + c) % modulus
     return zip(*left, strict=True)
 
 
