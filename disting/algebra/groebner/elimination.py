@@ -16,13 +16,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import SupportsInt
 
-from disting.algebra.groebner.modular import (
-    MAX_DEGREE,
-    Matrix,
-    Order,
-    Sparse,
-    matrix as modular_matrix,
-)
+from disting.algebra.groebner.modular import MAX_DEGREE, Order, Sparse, matrix as modular_matrix
 
 Multiple = tuple[list[int], tuple[int, ...]]  # codes and coefficients of a row of the matrix
 Pivots = dict[int, Multiple]  # by leading monomial
@@ -184,11 +178,13 @@ def _echelon(
     placed = {at[m]: ([at[c] for c in codes], numbers) for m, (codes, numbers) in pivots.items()}
     free = [j for j in range(len(columns)) if j not in placed]
     steps = [(j, *placed[j]) for j in sorted(placed)]
-    monomials, kept = [columns[j] for j in free], list[tuple[int, ...]]()
+    monomials, kept = [columns[j] for j in free], list[list[int]]()
     rows = list[MatrixRow]()
     for part in _parts(others, len(free)):
-        placed_rows = [([at[c] for c in codes], numbers) for codes, numbers in part]
-        kept += [row for row in _left(placed_rows, steps, free, modulus) if any(row)]
+        reduced = (
+            _freed([at[c] for c in codes], numbers, steps, free, modulus) for codes, numbers in part
+        )
+        kept += [row for row in reduced if any(row)]
         rows = _independent(kept, monomials, modulus)
         if rows and rows[-1].codes[0] == 0:
             return rows[-1:]
@@ -201,9 +197,7 @@ def _parts(rows: list[Multiple], width: int) -> list[list[Multiple]]:
     return [part for part in (rows[:first], rows[first:]) if part]
 
 
-def _independent(
-    rows: list[tuple[int, ...]], monomials: list[int], modulus: int
-) -> list[MatrixRow]:
+def _independent(rows: list[list[int]], monomials: list[int], modulus: int) -> list[MatrixRow]:
     """Their echelon form."""
     if not rows:
         return []
@@ -215,41 +209,24 @@ def _independent(
     return [_new_row(entries[r * width : (r + 1) * width], monomials) for r in range(rank)]
 
 
-def _left(
-    rows: list[tuple[list[int], tuple[int, ...]]],
+def _freed(
+    places: list[int],
+    numbers: tuple[int, ...],
     steps: list[tuple[int, list[int], tuple[int, ...]]],
     free: list[int],
     modulus: int,
-) -> Iterator[tuple[int, ...]]:
-    """Rows minus multiples of the pivot rows, which are sparse, in the order of their columns: what
-    is left in the free columns. All rows at once, column by column: a column is a vector, whose
-    entries FLINT multiplies faster than Python one of them.
+) -> list[int]:
+    """A row minus multiples of the pivot rows, which are sparse, in the order of their columns:
+    what is left in the free columns.
     """
-    size = len(rows)
-    entries: dict[int, list[tuple[int, int]]] = {}
-    for i, (places, numbers) in enumerate(rows):
-        for j, c in zip(places, numbers, strict=True):
-            entries.setdefault(j, []).append((i, c))
-    changes: dict[int, Matrix] = {}  # by multiples of pivot rows
-    for j, columns, factors in steps:
-        if j in changes:
-            vector = changes.pop(j)
-            for i, c in entries.get(j, ()):
-                vector[0, i] = int(vector[0, i]) + c
-        elif j in entries:
-            at = dict(entries[j])
-            vector = modular_matrix(1, size, [at.get(i, 0) for i in range(size)], modulus)
-        else:
-            continue
-        if vector:
-            for k, c in zip(columns[1:], factors[1:], strict=True):
-                known = changes.get(k)
-                changes[k] = vector * -c if known is None else known - vector * c
-    left = [list(map(int, changes[j].entries())) if j in changes else [0] * size for j in free]
-    for j, column in zip(free, left, strict=True):
-        for i, c in entries.get(j, ()):
-            column[i] = (column[i] + c) % modulus
-    return zip(*left, strict=True)
+    row = [0] * (len(steps) + len(free))
+    for j, c in zip(places, numbers, strict=True):
+        row[j] = c
+    for j, columns, entries in steps:
+        if row[j] and (factor := row[j] % modulus):
+            for k, c in zip(columns, entries, strict=True):
+                row[k] -= factor * c
+    return [row[j] % modulus for j in free]
 
 
 def _new_row(entries: Sequence[SupportsInt], columns: list[int]) -> MatrixRow:
