@@ -149,12 +149,8 @@ def bands_in_words(
     """What bars and bands are, with their sizes: sentences for below the Bode diagram, and for
     below the residuals; `at` = which one of several responses.
     """
-    candidate, task, misses, omega = (
-        selection.described,
-        selection.task,
-        misfits(selection, train, test, at),
-        train.omega,
-    )
+    candidate, task, omega = selection.described, selection.task, train.omega
+    misses = misfits(selection, train, test, at)
     sure = confidence(candidate, task, omega, at)
     own = series_of(candidate, task, train, test, at)
     bars = [_bars(s) for s in own if s.has_bars]
