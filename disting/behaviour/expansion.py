@@ -26,12 +26,12 @@ from disting.model.chain import Chain, Sensor
 from disting.model.names import read_together
 from disting.model.structure import Structure
 
-Fraction = tuple[fmpz_mpoly, fmpz_mpoly]
+Quotient = tuple[fmpz_mpoly, fmpz_mpoly]
 
 NO_UNITS: Mapping[str | int, int] = MappingProxyType({})
 
 
-def expand(structure: Structure) -> Fraction:
+def expand(structure: Structure) -> Quotient:
     """Numerator and denominator of the transfer function (24) without dead time, in lowest terms
     for every chain of the class.
 
@@ -88,7 +88,7 @@ def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> 
     return become(expand(left), expand(right), renaming)
 
 
-def become(a: Fraction, b: Fraction, renaming: Mapping[str, str]) -> bool:
+def become(a: Quotient, b: Quotient, renaming: Mapping[str, str]) -> bool:
     """Whether renaming turns one numerator and its denominator into the other ones: an identity."""
     ring = symbols([str(g) for g in b[1].context().gens()])
     num, den = (rename_symbols(p, ring, renaming) for p in a)

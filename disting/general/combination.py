@@ -34,7 +34,7 @@ MOST = 3000  # numbers that are looked for
 DEGREE = 2  # of the products m of monomials
 ROUNDED = 10**9  # largest denominator of one
 Exponents = tuple[int, ...]
-TermsOf = dict[Exponents, Fraction]
+SparsePolynomial = dict[Exponents, Fraction]
 
 
 def excludes(model: Model, values: Values, other: Model, degree: int = DEGREE) -> bool:
@@ -74,20 +74,20 @@ def _monomials(model: Model) -> list[Exponents]:
     return sorted({e for terms in _coefficients(model) for e, _ in terms})
 
 
-def _is_positive(products: list[TermsOf]) -> bool:
+def _is_positive(products: list[SparsePolynomial]) -> bool:
     """Whether a combination is found all of whose coefficients are positive."""
     places = {e: at for at, e in enumerate(sorted({e for p in products for e in p}))}
     numbers = _numbers(products, places)
     if numbers is None:
         return False
-    total: TermsOf = defaultdict(Fraction)
+    total: SparsePolynomial = defaultdict(Fraction)
     for number, terms in zip(numbers, products, strict=True):
         for e, c in terms.items():
             total[e] += number * c
     return all(total[e] > 0 for e in places)
 
 
-def _scaled(model: Model, values: Values, other: Model) -> tuple[TermsOf, ...] | None:
+def _scaled(model: Model, values: Values, other: Model) -> tuple[SparsePolynomial, ...] | None:
     """All c_i/g_i; None where the models have other coefficients, or at p fewer or common roots."""
     mine, theirs = _coefficients(model), _coefficients(other)
     if [bool(t) for t in mine] != [bool(t) for t in theirs]:
@@ -110,12 +110,14 @@ def _coefficients(model: Model) -> tuple[Terms, ...]:
     return (*model.numerator_terms, *model.denominator_terms)
 
 
-def _products(rows: Sequence[TermsOf], monomials: Sequence[Exponents]) -> Iterator[TermsOf]:
+def _products(
+    rows: Sequence[SparsePolynomial], monomials: Sequence[Exponents]
+) -> Iterator[SparsePolynomial]:
     """Yield all m f_ij, over their largest coefficient; those that cancel are kept as 0, as
     they do not near by.
     """
     for first, other in combinations(rows, 2):
-        terms: TermsOf = defaultdict(Fraction)
+        terms: SparsePolynomial = defaultdict(Fraction)
         for row, sign in ((first, 1), (other, -1)):
             for e, c in row.items():
                 terms[e] += sign * c
@@ -125,7 +127,7 @@ def _products(rows: Sequence[TermsOf], monomials: Sequence[Exponents]) -> Iterat
 
 
 def _numbers(
-    products: Sequence[TermsOf], places: dict[Exponents, int]
+    products: Sequence[SparsePolynomial], places: dict[Exponents, int]
 ) -> tuple[Fraction, ...] | None:
     """Numbers by which they add up to coefficients of 1 or more, rounded; None without any."""
     import numpy as np  # imported late: all three take longer than most of what is asked

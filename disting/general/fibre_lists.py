@@ -60,7 +60,7 @@ def find_equivalent(model: AnyModel, values: Values, other: AnyModel) -> tuple[f
     return next((tuple(x.real for x in e.numbers) for e in regular), None)
 
 
-def has_none(model: AnyModel, values: Values, other: AnyModel) -> bool:
+def has_no_equivalent(model: AnyModel, values: Values, other: AnyModel) -> bool:
     """Whether no point around this one has a positive equivalent in the other model, as far as is
     shown.
     """

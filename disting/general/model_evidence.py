@@ -146,7 +146,7 @@ def _has_none(model: AnyModel, other: AnyModel, values: Values, domain: Domain) 
             for shown in (excludes_around, excludes)
         ):
             return True
-        if fibre_lists.has_none(model, values, other):
+        if fibre_lists.has_no_equivalent(model, values, other):
             return True
     return any(way.lacking(values) for way in ways_by_all(model, other, domain))
 

@@ -41,7 +41,7 @@ from disting.general.orthant import Orthant, TooMuch
 from disting.general.sections import cover, sections
 from disting.model.question import Domain
 
-InS = list[fmpz_mpoly]
+CoefficientsInS = list[fmpz_mpoly]
 """Coefficients of s^0, s^1, .. in the parameters."""
 ORDER = 5
 TERMS = 150  # of a coefficient: quotients of larger ones would take seconds
@@ -100,7 +100,9 @@ def _reaches(ring: Orthant, coordinates: list[RationalFunction] | None) -> bool:
         return False
 
 
-def _foster(ring: Orthant, num: InS, den: InS) -> list[RationalFunction] | None:
+def _foster(
+    ring: Orthant, num: CoefficientsInS, den: CoefficientsInS
+) -> list[RationalFunction] | None:
     """k_oo, k_0, and all k_i and a_i, where the denominator has linear factors."""
     functions = [RationalFunction(num[-1], den[-1])] if len(num) == len(den) else []
     s = ring.generators[ring.path]
@@ -121,7 +123,9 @@ def _foster(ring: Orthant, num: InS, den: InS) -> list[RationalFunction] | None:
     return functions
 
 
-def _dual_foster(ring: Orthant, num: InS, den: InS) -> list[RationalFunction] | None:
+def _dual_foster(
+    ring: Orthant, num: CoefficientsInS, den: CoefficientsInS
+) -> list[RationalFunction] | None:
     """The same of H = den/(s num)."""
     return (
         _foster(ring, den[1:], num)
@@ -130,7 +134,9 @@ def _dual_foster(ring: Orthant, num: InS, den: InS) -> list[RationalFunction] | 
     )
 
 
-def _cauer(ring: Orthant, num: InS, den: InS) -> list[RationalFunction] | None:
+def _cauer(
+    ring: Orthant, num: CoefficientsInS, den: CoefficientsInS
+) -> list[RationalFunction] | None:
     """r_0, c_1, r_1, .. of the continued fraction; None where the degrees do not fall one by
     one.
     """

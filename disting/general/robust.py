@@ -79,7 +79,7 @@ def searched_cases(parted: CaseSearch) -> int:
     return len(parted.sections) + sum(_is_searched(parted, case) for case in parted.others)
 
 
-def has_none(parted: CaseSearch, point: ParameterValues) -> bool:
+def has_no_equivalent(parted: CaseSearch, point: ParameterValues) -> bool:
     """Whether no parameters near the point have an equivalent; False also where it is not seen."""
     if any(not value_at(g, point) for g in parted.search.generic):
         return False

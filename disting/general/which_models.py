@@ -21,7 +21,7 @@ from disting.general.robust import (
     CaseSearch,
     ParameterValues,
     find_equivalent,
-    has_none,
+    has_no_equivalent,
     searched_cases,
 )
 from disting.general.sections import Section, cover, sections, sign_on
@@ -82,7 +82,7 @@ class Way:
         """Whether no point around this one has an equivalent, as far as is seen."""
         self.parted.search.ring.begin()
         try:
-            return has_none(self.parted, self._point(values))
+            return has_no_equivalent(self.parted, self._point(values))
         except TooMuch:
             return False
 

@@ -73,7 +73,7 @@ def by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesse
         the_values = fibre_lists.find_equivalent(model, values, other)
         if the_values:
             having.append(example(left_given, values, other, the_values))
-        elif fibre_lists.has_none(model, values, other):
+        elif fibre_lists.has_no_equivalent(model, values, other):
             lacking.append(example(left_given, values))
         if having and lacking:
             return witnesses_of(left, right, having[0], lacking[0], Domain.POSITIVE)

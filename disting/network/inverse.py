@@ -12,7 +12,7 @@ from collections import Counter
 
 from disting.network.element import Element, Sort
 from disting.network.network import Network
-from disting.network.simplest import notation
+from disting.network.simplest import network_text
 
 TURNED = {
     Sort.MACHINE: {"m": "k", "j": "k", "d": "d", "k": "j"},
@@ -36,5 +36,5 @@ def at_inverse(network: Network) -> Network | None:
         letter = turned[e.letter]
         count[letter] += 1
         elements.append(Element(f"{letter}{count[letter]}", letter, (*e.nodes, 0)[:2]))
-    name = notation(elements, network.inputs, network.outputs)
+    name = network_text(elements, network.inputs, network.outputs)
     return Network(tuple(elements), network.inputs, network.outputs, network.order, name)

@@ -23,7 +23,9 @@ REMEMBERED = 4096
 TWO = 2
 RESISTOR: Power = (0, "")  # its power of s; a spring has the same, and the lowest of a machine
 MOST_ORDERS = 720  # of nodes that look alike
-Drawing = tuple[list[tuple[int, int]], list[tuple[tuple[int, int], Any]], list[tuple[int, Any]]]
+NumberedGraph = tuple[
+    list[tuple[int, int]], list[tuple[tuple[int, int], Any]], list[tuple[int, Any]]
+]
 """Ports, edges with what is there, nodes with what hangs there."""
 Tree = Power | tuple[str, tuple["Tree", ...]]
 """The power of s of an element, or "S" or "P" and what is in series or parallel."""
@@ -55,7 +57,7 @@ def simplest(network: Network, whole: Part | None = None) -> Network | None:
     ports = tuple(Port(plus, minus) for plus, minus in ends)
     inputs, outputs = ports[: len(plain.inputs)], ports[len(plain.inputs) :]
     is_one = plain.sort is Sort.CIRCUIT and len(texts) == 1 and inputs == outputs
-    name = texts[0] if is_one else notation(made.elements, inputs, outputs)
+    name = texts[0] if is_one else network_text(made.elements, inputs, outputs)
     return Network(tuple(made.elements), inputs, outputs, plain.order, name)
 
 
@@ -66,7 +68,9 @@ def _ways_round(network: Network, form: NormalForm) -> Iterator[NormalForm]:
         yield replace(form, edges=tuple(sorted((b, a, label) for a, b, label in form.edges)))
 
 
-def notation(elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]) -> str:
+def network_text(
+    elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]
+) -> str:
     """Elements and ports as text."""
     said = [f"in {p.plus} {p.minus}" for p in inputs] + [f"out {p.plus} {p.minus}" for p in outputs]
     return ", ".join([*map(str, elements), *said])
@@ -98,7 +102,7 @@ def same_but_for_gears(network: Network, other: Network) -> bool:
     return alike and same_drawing(first, second)
 
 
-def _plain(network: Network) -> Drawing:
+def _plain(network: Network) -> NumberedGraph:
     """Every element by itself, in the smallest numbers."""
     ends = [(*e.nodes, 0)[:2] for e in network.elements]
     kinds = [(e.power, e.letter == "a") for e in network.elements]
@@ -106,13 +110,13 @@ def _plain(network: Network) -> Drawing:
     return canonical_numbers(network, NormalForm(edges, ()))
 
 
-def canonical_numbers(network: Network, form: NormalForm) -> Drawing:
+def canonical_numbers(network: Network, form: NormalForm) -> NumberedGraph:
     """Ports, edges and nodes in numbers, those of ports first: the smallest of what readings of the
     ports and orders of nodes that look alike make of them.
     """
     outside = (0,) if network.is_directed else ()  # it stays 0
     inside = {i for a, b, _ in form.edges for i in (a, b)} | {i for i, _ in form.nodes}
-    the_pairs = list[Drawing]()
+    the_pairs = list[NumberedGraph]()
     for ends in _readings(network):
         held = [i for plus, minus in ends for i in ((plus,) if outside else (minus, plus))]
         for order in _orders(form, held, sorted(inside - {*outside, *held}), bool(outside)):

@@ -41,13 +41,13 @@ from disting.report.payload import payload
 from disting.report.search import Families, families
 from disting.report.words import (
     VIEW_TITLES,
-    enumeration,
     headline,
     plural,
     short_title,
     title,
     totals,
     unknown_parameters,
+    with_and,
 )
 from disting.verdict.next_words import anywhere
 from disting.verdict.query import View
@@ -216,7 +216,7 @@ def summary(catalog: Catalog, view: View) -> str:
         for name, n in counts.items()
         if name not in by_name
     ]
-    return f"{enumeration(parts) or 'No pair decided'}; {left or 'none'} left undecided."
+    return f"{with_and(parts) or 'No pair decided'}; {left or 'none'} left undecided."
 
 
 def counts(catalog: Catalog) -> list[Count]:

@@ -122,10 +122,10 @@ def sign(decided_by: str) -> str:
     return RULES[decided_by].sign if decided_by else ""
 
 
-def enumeration(parts: list[str]) -> str:
+def with_and(parts: list[str]) -> str:
     """Parts with commas and a final "and".
 
-    >>> enumeration(["a", "b", "c"]), enumeration(["a"])
+    >>> with_and(["a", "b", "c"]), with_and(["a"])
     ('a, b and c', 'a')
     """
     return " and ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)

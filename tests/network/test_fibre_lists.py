@@ -85,7 +85,7 @@ def test_no_search_finds_what_lists_deny_and_all_around_it(pair):
     tried = 0
     for given, other in ((left, right), (right, left)):
         for values in islice(points(given, Domain.POSITIVE, "lists"), 2):
-            if fibre_lists.has_none(given, values, other):
+            if fibre_lists.has_no_equivalent(given, values, other):
                 assert distance(given, values, other, rng) > 1e-7
                 around = near(values, rng, 1e-6)
                 assert distance(given, around, other, rng, 4) > 1e-7
@@ -139,7 +139,7 @@ def test_lists_agree_with_formulas():
         values = next(points(left, Domain.POSITIVE, "agree"))
         has, none = (
             fibre_lists.find_equivalent(left, values, right),
-            fibre_lists.has_none(left, values, right),
+            fibre_lists.has_no_equivalent(left, values, right),
         )
         assert not (has and none)
         if has:
@@ -158,9 +158,9 @@ def test_a_function_of_a_minor_has_equivalents_near_by():
     near_by = at | {"c": Fraction(1, 10**6)}
     assert fibre_lists.find_equivalent(given, near_by, whole) is not None
     assert fibre_lists.find_equivalent(given, at, whole) is None
-    assert not fibre_lists.has_none(given, at, whole)
+    assert not fibre_lists.has_no_equivalent(given, at, whole)
     negative = at | {"c": Fraction(-1, 10**6)}
-    assert fibre_lists.has_none(given, negative, whole) and fibre_lists.has_none(
+    assert fibre_lists.has_no_equivalent(given, negative, whole) and fibre_lists.has_no_equivalent(
         given, negative, part
     )
 
@@ -176,7 +176,7 @@ def test_values_without_a_transfer_function_are_passed_over():
     given = Model.from_transfer_function(["a"], ["a - b", "c"])
     values = {"a": Fraction(1), "b": Fraction(1), "c": Fraction(1)}
     assert fibre_lists.find_equivalent(given, values, given) is None
-    assert not fibre_lists.has_none(given, values, given)
+    assert not fibre_lists.has_no_equivalent(given, values, given)
     assert admissible_finding(given, given, Domain.POSITIVE, "disting").outcome is not None
 
 

@@ -216,3 +216,18 @@ def test_every_page_has_its_sign_the_product_and_help(site: Path) -> None:
         for name in ("index", "guide/start", "guide/index", "guide/glossary"):
             assert f"{'../' * (len(way) - 1)}{name}.html" in links, page
     assert alone == 3 + len(HOSTILE)
+
+
+def test_coefficients_stay_inside_in_a_font_that_is_wider(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
+    """Which font for formulas a phone has is not known: letters of 1.4 times the width."""
+    tab.goto(f"{site.as_uri()}/models/3-damped/8.html")
+    for width in (320, 361, 390, 480):
+        tab.set_viewport_size({"width": width, "height": 800})
+        tab.evaluate(
+            "document.querySelectorAll('.coefficients math').forEach((m) => {"
+            " m.style.fontSize = '';"
+            " m.style.fontSize = `${1.4 * parseFloat(getComputedStyle(m).fontSize)}px`; })"
+        )
+        assert tab.evaluate("document.documentElement.scrollWidth") <= width
+        wider = "(d) => d.some((one) => one.scrollWidth > one.clientWidth)"
+        assert tab.eval_on_selector_all(".coefficients dd", wider) or width > 320

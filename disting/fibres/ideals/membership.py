@@ -47,7 +47,7 @@ NO_BOUND = "primes of 64 bits give no useful bound for models of this size"
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """`entries` of one matrix (about 1 microsecond each), `safety` wanted bits, `seconds` for the
+    """`entries` of one matrix (1 to 10 microseconds each), `safety` wanted bits, `seconds` for the
     whole decision.
 
     The seconds are those of this process, whatever else the machine does. `long`: whether primes

@@ -27,7 +27,7 @@ from disting.report.fit.words import (
     percent,
     readable,
 )
-from disting.report.words import enumeration, plural
+from disting.report.words import plural, with_and
 from disting.verdict.result import Relation
 
 FIRST = 30  # rows of candidates that are shown at once
@@ -257,8 +257,8 @@ def choices(selection: Selection) -> list[tuple[str, str]]:
         ("Cost", f"J adds {cost_in_words(task.cost)}"),
         ("Weights of lines", "equal" if task.cost.parts[0].lines is None else "one for each line"),
         ("Sign of the sensor", f"{task.sign:+d}".replace("-", "−")),
-        ("Bounds", enumeration(bounds) or "none"),
-        ("Fixed", enumeration(fixed) or "none"),
+        ("Bounds", with_and(bounds) or "none"),
+        ("Fixed", with_and(fixed) or "none"),
         ("Seed", task.seed),
         ("disting", __version__),
     ]
