@@ -8,7 +8,7 @@ Equal matroids have equal forms, so the form is a key.
 
 Certainty: independence is seen at one point and so proven. Each dependence used is a statement
 "these rows have at most this rank"; all of them are looked at again at the independent points with
-large primes (see `sampling`).
+large primes (see `behaviour.profile`).
 """
 
 from collections.abc import Iterator

@@ -3,9 +3,10 @@
 
 `next-<masses>-<undamped|damped>.jsonl`: a header, then a line a group of structures that one
 measurement cannot tell apart over complex parameters: its `group` (numbers of the structures), and
-for each kind of experiment what `verdict.placed.Placed` holds of its spots, structure by structure
-and mass by mass: `gains` (a letter each: n new, r repeats, s silent), `columns`, `classes`,
-`links`, `open` and `safety`. The evidence is not kept: `disting compare --also` gives it.
+for each kind of experiment what `verdict.placement_record.Placement` holds of its spots, structure
+by structure and mass by mass: `gains` (a letter each: n new, r repeats, s silent), `columns`,
+`classes`, `links`, `open` and `safety`. The evidence is not kept: `disting compare --also` gives
+it.
 
 `next-dampers-<masses>-<undamped|damped>.jsonl`, shipped for 3 masses: the same for structures with
 dampers to the ground, in groups in which at least one has some; a number is the place, from 0,

@@ -1,7 +1,7 @@
 """Families of several sizes in one matrix: models named N:I.
 
 Models of different sizes differ in their degrees (conditions 1 and 2); but the smaller model may
-lie inside the larger one, as a limit (see `conditions.across_sizes`).
+lie inside the larger one, as a limit (see `questions.inclusion.across_sizes`).
 """
 
 from collections.abc import Iterator, Sequence

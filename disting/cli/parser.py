@@ -15,8 +15,8 @@ from disting.errors import LONGEST_ECHO, short
 from disting.files import __version__
 
 DESCRIPTION = (
-    "Which servo-drive chain models can one force and one sensor not tell apart? Exact verdicts,"
-    " with evidence."
+    "Which models of a servo drive, or of another linear network, can a measurement not tell apart?"
+    " Exact verdicts, with evidence."
 )
 STATUS = (
     "exit status: 0 fine, 1 a failed verification, 2 bad usage or bad input,"

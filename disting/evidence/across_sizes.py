@@ -15,8 +15,8 @@ class RowLimit(NamedTuple):
     and by a count.
 
     Step: an element and what it tends to, masses of the row numbered anew after each. `room`:
-    rank, coordinates, factors and 1 or 0 for the mass (see `meeting`) of the last step; () if the
-    steps lead to the row itself. Rows are canonical.
+    rank, coordinates, factors and 1 or 0 for the mass (see `questions.inclusion.limits`) of the
+    last step; () if the steps lead to the row itself. Rows are canonical.
     """
 
     given: str
@@ -91,8 +91,8 @@ class Limit(Kind):
 
 @dataclass(frozen=True, slots=True)
 class Meeting(Kind):
-    """Dimensions of closures add up (see `meeting`), so a common factor exists with which the
-    smaller model is a limit.
+    """Dimensions of closures add up (see `questions.inclusion.limits`), so a common factor exists
+    with which the smaller model is a limit.
     """
 
     kind: ClassVar[str] = "meeting"
@@ -140,7 +140,7 @@ class TooLarge(Kind):
 @dataclass(frozen=True, slots=True)
 class PoleSharing(Kind):
     """Smaller models whose poles cannot be distributed to the rows of the larger chain (see
-    `pole_sharing`).
+    `questions.inclusion.pole_sharing`).
 
     `points`: their parameters in order, canonical form, each modulo the prime that belongs to the
     label and its place. One point needs no more; at several, equations of the grounded row were
@@ -171,8 +171,8 @@ class LimitFibre(Kind):
     chain's rows lead to.
 
     `steps` of each row by name, the others being at rest; `solutions` at the prime and point of
-    each label, see `disting.fibres.ideals.Solved`, where `small_given` says that the points are of
-    the smaller chain.
+    each label, see `disting.evidence.ideals.Solutions`, where `small_given` says that the points
+    are of the smaller chain.
     """
 
     kind: ClassVar[str] = "limit-fibre"

@@ -108,7 +108,7 @@ class Theorem(Kind):
 @dataclass(frozen=True, slots=True)
 class DeadTime(Kind):
     """Exact decision: one of the two has a dead time, so a factor that is no rational function
-    (see `exact`).
+    (see `questions.same.exact`).
     """
 
     kind: ClassVar[str] = "dead time"

@@ -21,7 +21,7 @@ class Solutions(Kind):
     the same transfer function.
 
     `left_given`: the points are of the left model and the right one was searched. A scale factor,
-    where needed, comes last. `is_normalised`: in the coordinates of `system.normalised`, for
+    where needed, comes last. `is_normalised`: in the coordinates of `system.normalise`, for
     chains.
     """
 
@@ -51,7 +51,7 @@ class Refutation(Kind):
     combination of degree `degree`.
 
     `tangent`: the tangent equations belong to them, which is right for models of equal rank only.
-    `is_normalised`: in the coordinates of `system.normalised`, for chains.
+    `is_normalised`: in the coordinates of `system.normalise`, for chains.
     """
 
     kind: ClassVar[str] = "refuted"

@@ -185,7 +185,7 @@ def _covering(parted: CaseSearch) -> tuple[Section, ...]:
     """Sections that cover all generic p, none if these do not or a polynomial is too large to tell.
 
     At a section lead(q) and, over positive numbers, the values are not zero for generic p (see
-    `nonzero` in `cases`); it is looked at once more.
+    `cases`); it is looked at once more.
     """
     ring = parted.search.ring
     ring.begin()

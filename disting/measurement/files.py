@@ -93,7 +93,7 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
       `frequency_unit`, `magnitude_unit` (`tabular.frequency_response`);
     - MATLAB `.mat`: `frequency`, `response`, `deviation`, `coherence`, `frequency_unit`, `index`,
       `sensor`, `sign` (`variables.from_variables`); `response` may name an object frd or idfrd
-      (`stored.from_stored`), in a struct as `frf.Pv`, with the number of output and input as
+      (`matlab_models.from_object`), in a struct as `frf.Pv`, with the number of output and input as
       `frf.Pv[2,1]`;
     - universal file `.uff`, `.unv`: `record`, `sensor`, `sign` (`uff.read_uff`).
 

@@ -281,7 +281,7 @@ def _units(
 
 
 def _written(comments: Sequence[str]) -> dict[str, str]:
-    """What `writing.csv_text` wrote into comment lines; empty for a file of another origin."""
+    """What `files.csv_text` wrote into comment lines; empty for a file of another origin."""
     pairs = [comment.split(": ", 1) for comment in comments if ": " in comment]
     plain = {name: ESCAPED.sub(lambda code: chr(int(code[1], 16)), text) for name, text in pairs}
     return plain if MARK in comments else {}

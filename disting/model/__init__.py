@@ -1,1 +1,1 @@
-"""What a chain model is and which there are."""
+"""What a chain model is and which there are; what every family of models offers (`protocol`)."""

@@ -1,4 +1,4 @@
-"""Simulated measurements of chains: what a bench would record, with noise, quantisation,
+"""Simulated measurements of machines: what a bench would record, with noise, quantisation,
 friction, dead time and lag.
 """
 

@@ -11,7 +11,7 @@ work is that of its price:
    such sets with a union of equal rank as well (9); equal fingerprints of colours are looked at
    for a renaming (6).
 3. One representative a class: ranks of the Markov parameters of 1/G, then every pair of a bucket
-   that is still together is asked: `quick` first; what was settled of two forms before is taken
+   that is still together is asked: `QUICKLY` first; what was settled of two forms before is taken
    over; then whatever questions are added.
 
 Certainty: every step is a theorem, proven, or bounded by 2^-LEAST_SAFETY at most; the relation of
@@ -60,7 +60,8 @@ def classes(
     progress: Progress = silent,
 ) -> Classes:
     """The classes of chains of one size and sensor without dead time; `more`: questions about what
-    `quick` leaves open. Of what is `settled`, pairs with a chain that is not here are passed over.
+    `QUICKLY` leaves open. Of what is `settled`, pairs with a chain that is not here are passed
+    over.
 
     Raises InputError for chains that differ in size, sensor or dampers beside the springs, or that
     have a dead time.

@@ -94,8 +94,8 @@ class Verification:
 
 
 def verify(verdict: dict[str, Any] | str | Path) -> Verification:
-    """Whether a verdict holds: plain data of `verdict_file` or of `everywhere_file`, or the file
-    with it as JSON.
+    """Whether a verdict holds: plain data of `verdict_file` or of
+    `placement_verdicts.everywhere_file`, or the file with it as JSON.
 
     Raises InputError for what is no file of a verdict, or is damaged.
 

@@ -3,7 +3,7 @@ fibres of that map.
 
 Force and sensor at the masses a <= b of one row: N = g theta prod_(a <= i < b) (s + h_i) phi over
 D, with theta the determinant of the masses left of a, phi of those right of b, c_i = u_i + e_i s
-the joints, h_i their ratio between the ports. `normalised` has ratios of masses everywhere; here
+the joints, h_i their ratio between the ports. `normalise` has ratios of masses everywhere; here
 theta and phi look alike, and joints between the ports have their root as an unknown:
 
     left of a:   w_i = (u_i + e_i s)        enters row i,      r_i w_i    row i + 1       (c_i =
@@ -20,7 +20,7 @@ joints have e_i = 0. A damper of the mass at a wall has its own f_1.
 
 For non-zero masses, springs and dampers of the joints these unknowns are quotients of products of
 the elements, and the elements quotients of products of these and of one mass: a birational map, as
-in `normalised`. N/g, theta, phi and D are monic.
+in `normalise`. N/g, theta, phi and D are monic.
 
 FIBRES WITH SHARES. Let p0 be a point of one row where N has its roots in the field, all distinct.
 An equivalent q of another row has the same N, so its joints between the ports, its theta and its

@@ -47,7 +47,7 @@ def fibre_ideal(
     """The fibre of `other` over a random point of `model`, modulo a random prime, both determined
     by the label.
 
-    Both maps have coordinates that can be compared (see `system.matched`).
+    Both maps have coordinates that can be compared (see `system.match_maps`).
     """
     modulus, point = draw_point(model, label, bits)
     origin = residues(f"slice:{label}", len(other.parameters), modulus)

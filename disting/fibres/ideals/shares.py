@@ -18,7 +18,7 @@ prime: one tuple of each type is enough, and `safety_of_empty` is the bound of o
 are drawn until one has its roots in the field; as many points as could be drawn may be bad, each
 with that probability.
 
-The Galois group is seen modulo primes (Dedekind, see `monodromy`), without any chance. A
+The Galois group is seen modulo primes (Dedekind, see `splits`), without any chance. A
 transitive group that holds a cycle of m - 1 roots is doubly transitive, so primitive; with a
 transposition it is S_m (C. Jordan). If one element is a transposition of phi and trivial on theta,
 its conjugates generate 1 x S_n, and the group is S_m x S_n if it projects onto S_m.

@@ -8,11 +8,12 @@ Where a ball leaves out a zero that every solution has, a branch is refuted; if 
 solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls
 double the precision; what stays undecided at the last one is a special point.
 
-Dampers to the ground: `friction`, `driving`, `end`, `inner`. A damper b_1 beside the damped spring
-from mass 1 to the ground is counted to it: only d_01 + b_1 is determined, a family of which half
-and half is listed. The pole of a lag 1/(1 + T1 s) is one of the poles of H, each is tried; without
-any damper it is the one that makes H even. A dead time is no rational function, and H exp(-Td s)
-determines both factors: it is left out on both sides.
+Dampers to the ground: `friction`, `ground_dampers_only`, `driving_point`, `damped_next_to_end`,
+`damped_neighbours`. A damper b_1 beside the damped spring from mass 1 to the ground is counted to
+it: only d_01 + b_1 is determined, a family of which half and half is listed. The pole of a lag 1/(1
++ T1 s) is one of the poles of H, each is tried; without any damper it is the one that makes H even.
+A dead time is no rational function, and H exp(-Td s) determines both factors: it is left out on
+both sides.
 
 Lag: H = H0/(1 + T1 s), so -1/T1 is one of the poles of H, and H0 = H (1 + T1 s).
 

@@ -5,7 +5,7 @@ one candidate may stand for another only if every positive model of either has a
 equivalent in the other, within what is given:
 
 - where neither has a parameter that is given or bounded, both shares of positive equivalents are
-  "always" (see `positivity`);
+  "always" (see `questions.positive`);
 - where one has, a renaming of parameters by symmetry turns the one into the other and takes each
   range into that of the parameter that it becomes, both ways. A dead time and a lag that both have
   are renamed to themselves.

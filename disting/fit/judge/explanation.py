@@ -2,7 +2,7 @@
 absolute terms.
 
 With residuals r in units of the scatter (`whitened`) and what they are expected to be, the errors
-of the parameters included (`covariance.expected`),
+of the parameters included (`covariance.expected_deviation`),
 
     chi2 per line = mean (r / expected)^2
 

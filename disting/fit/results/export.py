@@ -1,5 +1,5 @@
 """Models with numbers for other programs: state space (20) to (23), zeros and poles, MATLAB,
-python-control. As JSON: `selection_json`.
+python-control. As JSON: `report.fit.selection_json`.
 """
 
 from collections.abc import Sequence

@@ -8,7 +8,7 @@ zeros cancel. What settles a pair first is kept:
    `profiles`). Refuted.
 2. `limits`: elements that vanish or grow without bound, row by row, each an identity that is
    computed. Proven.
-3. `meeting`: dimensions that add up, for the whole or for a row after such limits. Proven.
+3. `limits` too: dimensions that add up, for the whole or for a row after such limits. Proven.
 4. `model.minors`: what has no lag, or no dead time, is a limit of what has one. Proven.
 5. Ranks: limits with fewer poles are a proper closed subset, so of smaller dimension. Refuted,
    with the rank's error bound.

@@ -6,7 +6,7 @@ impossible. What is found first is kept. Chains of different sizes are compared 
 there CLOSURE is asked alone. A dead time of the one alone is a limit of the other's at most, never
 finite. For chains of one size:
 
-1. CLOSURE by `missing_elements`: it is proven where elements that vanish or grow without bound make
+1. CLOSURE by `by_elements`: it is proven where elements that vanish or grow without bound make
    the one of the other.
 2. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
 3. CLOSURE by rows: `closures` proves or refutes it; small ideals of both rows

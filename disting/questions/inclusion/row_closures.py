@@ -3,7 +3,7 @@ limit of its receptances.
 
 * INSIDE: it is the very same map. FULL: its rank is the number of its coefficients, up to a common
   factor, that do not vanish identically, so its closure is the linear space of all such. MOMENTUM:
-  a free damped row has a_2 b_1 = a_3 b_0 (see `meeting`), an irreducible quadric; where the rank
+  a free damped row has a_2 b_1 = a_3 b_0 (see `limits`), an irreducible quadric; where the rank
   is one less than in FULL, its closure is this quadric. A rank seen modulo a prime is a lower
   bound of the rank, so nothing of this is left to chance.
 * COEFFICIENT: one that vanishes identically in the row and not in what is wanted.

@@ -30,7 +30,7 @@ from disting.questions.positive.shares import refuse, row_words, theorem, withou
 
 def confirms(evidence: PositiveEvidence, chain: Chain, other: Chain) -> bool:
     """Whether the evidence is true of the two chains; statements about ranges are confirmed by
-    `confirms_within`.
+    `ranges.confirms_within`.
     """
     refuse(chain, other)
     chain, other = without_dead_time(chain), without_dead_time(other)

@@ -15,19 +15,19 @@ are negative. The residues of a row with d = 0 are squares of modes, positive. S
 Own poles (undamped, the other chain has d > 0 in a row). The residues of that row sum to zero:
 which subsets of the residues r_j of `chain` do that for all parameters? A factor of all masses and
 springs of one row of `chain` divides its residues alone, so the sum over the subset is zero for
-each row by itself. Poles and zeros of a row can be chosen freely within a word (see `words`); r_j =
-nu N/D' at a pole grows without bound as the pole nears another of the same row. So no proper subset
-of a row's sums to zero for all parameters: it is all of a row of `chain`, with d > 0.
-The free row is the one with the pole 0. Hence R and F are the same functions in both chains, with
-the same gap and decay; otherwise there is no equivalent.
+each row by itself. Poles and zeros of a row can be chosen freely within a word (see
+`undamped_rows`); r_j = nu N/D' at a pole grows without bound as the pole nears another of the same
+row. So no proper subset of a row's sums to zero for all parameters: it is all of a row of `chain`,
+with d > 0. The free row is the one with the pole 0. Hence R and F are the same functions in both
+chains, with the same gap and decay; otherwise there is no equivalent.
 
 Signs (undamped, the other chain has no gap). In a row of n masses with ports a < b, d = b - a, the
 residue of mode j has the sign of (-1)^h_j, where h_0 = 0, h_(n-1) = d and h changes by 1 - z from
-one mode to the next, z zeros lying between both poles (see `words`). So in the order of the poles
-the residues change their signs as often as z is 0 or 2, that is d + 2 t times with t twos, and t
-<= min(a - 1, n - b). In a sum of two rows the residues of each row keep their order: they change
-their signs max(d_R, d_F) times at least. If that is more than d + 2 min(a - 1, n - b) of the other
-chain, it never equals the sum.
+one mode to the next, z zeros lying between both poles (see `undamped_rows`). So in the order of the
+poles the residues change their signs as often as z is 0 or 2, that is d + 2 t times with t twos,
+and t <= min(a - 1, n - b). In a sum of two rows the residues of each row keep their order: they
+change their signs max(d_R, d_F) times at least. If that is more than d + 2 min(a - 1, n - b) of the
+other chain, it never equals the sum.
 
 Swapped rows (damped). Let the only subsets of non-zero poles whose residues sum to zero be the
 poles of R, and those of F. (At one rational point balls tell the sums of all other subsets from

@@ -11,7 +11,7 @@ statements below make it one.
 
 A piece with equivalents (exact). At p in B, let f be a map that takes the models of `chain` near p
 to equivalent ones of `other`, continuous near p: a renaming, duality, or a listed solution of a
-chain without tests (see `synthesis.construction`). The last one is continuous, for it is computed
+chain without tests (see `synthesis.theorems`). The last one is continuous, for it is computed
 from simple roots by operations whose balls leave out every zero divisor, for fixed free choices;
 and it stays real, for near p its conjugate belongs to the balls of the conjugate, which meet no
 other one. If each element of f(p) lies strictly inside its interval of C, the same holds near p.

@@ -4,11 +4,11 @@ ranges of `other`.
 ALWAYS: a renaming takes the box of one into the box of the other. NEVER: not even without ranges
 (a range that is one value may make special what never happens generically: then only the decay
 counts). SOMETIMES: an open part of the box of `chain` that has equivalents in the box of `other`
-and one that has none. Short random points look for both; long ones near by testify (see `witness`,
+and one that has none. Short random points look for both; long ones near by testify (see `points`,
 which has the proof). Where no long point confirms what the search saw, nothing is claimed.
 
 What is proven at a point: exact maps (renamings, duality) that lead into the box are equivalents;
-so are the listed solutions of an undamped chain without tests (see `synthesis.construction`), if
+so are the listed solutions of an undamped chain without tests (see `synthesis.theorems`), if
 they are real. None exists if there is no positive one at all, or if the list of solutions is
 complete and each has a value outside. Of a family of solutions random members are seen only: if
 none of them is inside, the point stays open.
@@ -106,7 +106,7 @@ def within_ranges(
 
 def confirms_within(evidence: BoxMap | Points, chain: Chain, other: Chain, limits: Ranges) -> bool:
     """Whether evidence of `within_ranges` is true; what holds without ranges is confirmed by
-    `confirms`.
+    `confirmation.confirms`.
     """
     if isinstance(evidence, BoxMap):
         renaming = dict(evidence.pairs)

@@ -13,7 +13,7 @@ real factor of degree a - 1. Then there is a real row:
     Theta of degree a (see `synthesis.undamped_rows`). Theta needs a real root of D + kappa N at
     most, and kappa = -D(x)/N(x) makes any real x one.
   - b = n: A = N/nu, and real tau_i can be chosen (see `synthesis.undamped_rows`). a = 1: the mirror
-    image of that; at the wall the reversed row (see `synthesis.foster`): its masses t^2 s_i^2 and
+    image of that; at the wall the reversed row (see `synthesis.theorems`): its masses t^2 s_i^2 and
     springs are rational, for s_i^2 and s_a s_b J_(a,a+1) .. J_(b-1,b) hold even powers of the
     off-diagonal elements of J alone; t^2 may be any real number.
 Each element is a rational function of those polynomials and free choices, which form an

@@ -2,13 +2,13 @@
 
 Strongest grounds first. Theorems that hold for all pairs of a kind: renaming by symmetry, duality,
 Foster (ALWAYS); decay, residues, own poles, signs, swapped rows (NEVER, see `obstacles`); the
-arrangement of poles and zeros of each row (ALWAYS or SOMETIMES, see `words`). Then a rational
-point without any equivalent (NEVER, but for a probability that is bounded). Then random points:
-one with a positive equivalent and one without (SOMETIMES).
+arrangement of poles and zeros of each row (ALWAYS or SOMETIMES, see `undamped_rows`). Then a
+rational point without any equivalent (NEVER, but for a probability that is bounded). Then random
+points: one with a positive equivalent and one without (SOMETIMES).
 
 ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic
 subset. SOMETIMES speaks of two open sets. A word is the same for all models near one where balls
-tell it (see `witness`), so points of undamped models testify however short they are; damped ones,
+tell it (see `points`), so points of undamped models testify however short they are; damped ones,
 whose solutions are listed, are never called SOMETIMES by points.
 
 Foster: undamped, both chains with force and sensor at one place. H = sum r_j/(x + l_j) with l_j >=

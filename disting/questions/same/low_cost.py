@@ -39,7 +39,7 @@ class _OutOfTime(Exception):
 
 
 def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """What is cheap of `exact_finding`, for chains of equal rank and size without dead time;
+    """What is cheap of `exact.exact_finding`, for chains of equal rank and size without dead time;
     ABANDONED where it is silent.
     """
     for method in (by_theorem, by_full_rows):
