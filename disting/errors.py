@@ -108,7 +108,7 @@ def enumeration(names: Iterable[str], separator: str = ", ") -> str:
         for name in islice(rest, MOST_LISTED)
     ]
     more = sum(1 for _ in rest)
-    return printable(separator.join(first)) + f" and {more} more" * bool(more)
+    return printable(separator.join(first)) + (f" and {more} more" if more else "")
 
 
 def in_row(names: Iterable[str]) -> str:

@@ -150,7 +150,7 @@ def search_labels(label: str) -> Iterator[str]:
     they are special.
     """
     for attempt in range(SEARCHES):
-        yield f"{label}:search{f':{attempt}' * bool(attempt)}"
+        yield f"{label}:search{f':{attempt}' if attempt else ''}"
 
 
 def from_samples(

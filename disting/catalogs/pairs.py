@@ -183,7 +183,7 @@ class ModelRow:
     def __repr__(self) -> str:
         phrase = f"{self.rank} of {self.n_parameters} parameters determinable"
         return summary(
-            self, f"model {self.number}, {phrase}" + f", group {self.group}" * bool(self.group)
+            self, f"model {self.number}, {phrase}" + (f", group {self.group}" if self.group else "")
         )
 
 

@@ -275,7 +275,7 @@ def add_work(parser: argparse.ArgumentParser, jobs: tuple[int, str] = (1, "1")) 
 
 def add_masses(parser: argparse.ArgumentParser, default: str = "") -> None:
     """One number of masses or more; with a default they can be left away."""
-    text = "numbers of masses" + f" (default: {default})" * bool(default)
+    text = "numbers of masses" + (f" (default: {default})" if default else "")
     parser.add_argument(
         "masses", type=MASSES, nargs="*" if default else "+", metavar="N", help=text
     )

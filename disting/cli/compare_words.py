@@ -33,7 +33,7 @@ def explain(
     unknown = list(
         filter(None, (undetermined_sentence(*parts) for parts in (apart and items) or ()))
     )
-    lines += [*unknown, *[""] * bool(unknown)]
+    lines += [*unknown, *([""] if unknown else [])]
     lines += [meaning_sentence(verdict, what, everywhere), "", verdict.sentence]
     if verdict.evidence:
         lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]

@@ -123,7 +123,7 @@ def _told(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterat
     )
     yield explain(verdict, drawn, judgement.known, measurand(judgement.models), everywhere)
     said = special.sentence(verdict.left, verdict.right) if special else ""
-    yield from [f"special    {said}"] * bool(said)
+    yield from [f"special    {said}"] if said else []
     if chains and limits:
         yield from both_ways(verdict, "within the ranges", _within(chains, limits))
     elif chains and not verdict.proves_shares:

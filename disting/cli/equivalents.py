@@ -27,6 +27,7 @@ from disting.errors import InputError
 from disting.model.chain import Chain, text_drawing
 from disting.model.kinds import EXAMPLES
 from disting.model.names import name_of, read_together
+from disting.model.presentation import plural
 from disting.network.notation import notations_of
 
 ABREAST = 3  # parameter sets beside each other
@@ -163,7 +164,7 @@ def _placed(listing: Listing) -> str:
 
 def _counted(listing: Listing) -> str:
     count = len(listing.members)
-    return f"{count} parameter set{'s' * (count != 1)}, {listing.sentence}"
+    return f"{plural(count, 'parameter set')}, {listing.sentence}"
 
 
 def _table(chain: Chain, group: Sequence[tuple[int, Equivalent]]) -> Iterator[str]:
@@ -187,9 +188,9 @@ def _table(chain: Chain, group: Sequence[tuple[int, Equivalent]]) -> Iterator[st
 
 
 def _signs(member: Equivalent) -> str:
-    return {Signs.POSITIVE: "positive", Signs.REAL: "signs mixed"}.get(
-        member.signs, "complex"
-    ) + "?" * (not member.proven)
+    return {Signs.POSITIVE: "positive", Signs.REAL: "signs mixed"}.get(member.signs, "complex") + (
+        "" if member.proven else "?"
+    )
 
 
 def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:

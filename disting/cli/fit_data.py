@@ -16,6 +16,7 @@ from disting.fit.select import MOST_LINES
 from disting.measurement import FrequencyResponse, beginnings, in_si, mean_of, read
 from disting.measurement.scaling import scale, with_constant
 from disting.model.kinds import CHANGES
+from disting.model.presentation import plural
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
 OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
@@ -123,8 +124,8 @@ def _responses(
     count = len(sensors(options))
     if len(files) not in (1, count):
         raise InputError(
-            f"{len(files)} files of {what} and {count} sensor{'s' * (count > 1)}: name a place for"
-            " each file, as --sensor 1,2"
+            f"{len(files)} files of {what} and {plural(count, 'sensor')}: name a place"
+            " for each file, as --sensor 1,2"
         )
     for k in range(count):
         repeats = options.repeat if what == "TRAIN" else []
@@ -193,7 +194,7 @@ def _begun(file: Path, settings: dict[str, Any], which: int) -> dict[str, Any]:
         )
     if which >= len(begin):
         raise InputError(
-            f"{file.name} holds {len(begin)} response{'s' * (len(begin) > 1)}, for"
+            f"{file.name} holds {plural(len(begin), 'response')}, for"
             f" {which + 1} sensors: give a file or a column for each"
         )
     return settings | {"column": begin[which]}

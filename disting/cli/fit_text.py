@@ -46,7 +46,7 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from first_lines(selection)
     yield ""
     left, more = [m.candidate for m in selection.members], len(selection.containing)
-    beside = f" ({more} more contain{'s' * (more == 1)} one of these)" * bool(more)
+    beside = f" ({more} more contain{'s' if more == 1 else ''} one of these)" if more else ""
     yield (
         f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
         f" validated on {selection.validation}"
@@ -99,7 +99,7 @@ def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
 def _lines(selection: Selection) -> str:
     """How much data there is."""
     sizes = [str(len(part.measured)) for part in selection.task.cost.parts]
-    several = f" of {len(sizes)} responses" * (len(sizes) > 1)
+    several = f" of {len(sizes)} responses" if len(sizes) > 1 else ""
     return f"{' + '.join(sizes)} frequency lines{several}"
 
 

@@ -166,7 +166,7 @@ def _formulas(
             yield f"{mark}no formulas: {none} (--set gives values)"
             continue
         for number, form in enumerate(forms, 1):
-            ways = f"{number} of {len(forms)}: " * (len(forms) > 1)
+            ways = f"{number} of {len(forms)}: " if len(forms) > 1 else ""
             yield f"{mark}{ways}{form.checked}"
             yield from (f"{mark}{name}' = {same}" for name, same in sorted(x.exponents))
             yield from (f"{mark}where {g} > 0" for g in form.where)

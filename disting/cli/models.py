@@ -103,12 +103,11 @@ def run(options: argparse.Namespace) -> int:
 def _explain(has_profiles: bool, has_sets: bool, several: bool) -> None:
     """What the columns mean."""
     print("force, sensor: what it acts or looks on, and against (0 the ground)")
-    said = f"; {NOT_ASKED} not asked (--ranks asks)" * (not has_profiles)
+    said = "" if has_profiles else f"; {NOT_ASKED} not asked (--ranks asks)"
     print("n/m degrees of (25), free non-constant coefficients, par parameters,")
     print(f"rank determinable parameters{said}")
-    said = (
-        "1 identifiable, ∞ not, ? not known"
-        + f", {NOT_ASKED} not asked (--identifiability asks)" * (not has_sets)
+    said = "1 identifiable, ∞ not, ? not known" + (
+        "" if has_sets else f", {NOT_ASKED} not asked (--identifiability asks)"
     )
     where = " in all experiments" if several else ""
     print(f"sets parameter sets, real or complex, with the same behaviour{where}:\n     {said}")

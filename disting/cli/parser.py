@@ -143,7 +143,7 @@ class _Parser(argparse.ArgumentParser):
                 return f": one of {', '.join(action.choices)}"
             names = (action.metavar, action.dest, "/".join(action.option_strings))
             if name in names and action.help:
-                value = f": {action.metavar}" * bool(action.option_strings and action.metavar)
+                value = f": {action.metavar}" if action.option_strings and action.metavar else ""
                 said = re.split(r"; | \(", action.help)[0]
                 return f"{value}: {said}"
         return ""

@@ -131,7 +131,7 @@ class Equivalents(NotebookTable):
 
     def __repr__(self) -> str:
         sizes = ", ".join(listing.name for listing in self.listings if listing.members)
-        return summary(self, f"{len(self)} of {self.name}" + f" in {sizes}" * bool(sizes))
+        return summary(self, f"{len(self)} of {self.name}" + (f" in {sizes}" if sizes else ""))
 
     def __iter__(self) -> Iterator[Equivalent]:
         members = [member for listing in self.listings for member in listing.members]
@@ -199,11 +199,12 @@ def among(chains: Sequence[Chain]) -> str:
     first = chains[0]
     count = "the structure" if len(chains) == 1 else f"the {len(chains)} structures"
     kind = ["damped" if first.damped else "undamped"]
-    kind += ["with a lag"] * first.lag + ["with a dead time"] * first.dead_time
+    kind += ["with a lag"] if first.lag else []
+    kind += ["with a dead time"] if first.dead_time else []
     dampers = {c.ground_dampers for c in chains}
-    kind += ["with dampers to the ground"] * (dampers != {()})
+    kind += ["with dampers to the ground"] if dampers != {()} else []
     sizes = " or ".join(map(str, sorted({c.n_masses for c in chains})))
-    return f"{count} of {sizes} mass{'es' * (sizes != '1')}, {', '.join(kind)}, looked at"
+    return f"{count} of {sizes} mass{'es' if sizes != '1' else ''}, {', '.join(kind)}, looked at"
 
 
 def obstacle(chain: Chain, other: Chain) -> str:

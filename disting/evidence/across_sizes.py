@@ -28,7 +28,8 @@ class RowLimit(NamedTuple):
     def sentence(self) -> str:
         """What happens to the row, without names of models."""
         path = ", then ".join(f"{element} {_WORDS[limit]}" for element, limit in self.steps)
-        ways = [f"with {path}"] * bool(path) + ["by a count of dimensions"] * bool(self.room)
+        ways = [f"with {path}"] if path else []
+        ways += ["by a count of dimensions"] if self.room else []
         becomes = (
             f"becomes the {self.wanted} one {' and '.join(ways)}"
             if ways

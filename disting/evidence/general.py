@@ -106,7 +106,7 @@ class NoEquivalent(OverDomain):
         source, searched = (left, right) if self.left_given else (right, left)
         whole = (c if set("<>=") & set(c) else f"{c} = 0" for c in self.contradictions[:SHOWN])
         first = (c if len(c) <= LONGEST else f"{c[:LONGEST]} .." for c in whole)
-        some = " or ".join([*first, *[".."] * (len(self.contradictions) > SHOWN)])
+        some = " or ".join([*first, *([".."] if len(self.contradictions) > SHOWN else [])])
         return (
             f"{source} has no equivalent in {searched} with {self.domain} parameters: that asks for"
             f" {some}, which is impossible (p0, p1, .. parameters of {source} by the alphabet, q0,"
@@ -140,7 +140,7 @@ class Inequality(OverDomain):
         """
         said = ""
         for number, first, second in self.form:
-            size = f"{abs(number)}*" * (abs(number) != 1)
+            size = f"{abs(number)}*" if abs(number) != 1 else ""
             sign = " - " if number < 0 else " + "
             said += sign + size + (f"{first}^2" if first == second else f"{first}*{second}")
         return said.removeprefix(" + ") if said.startswith(" + ") else f"-{said[len(' - ') :]}"

@@ -175,10 +175,11 @@ class MissingElements(Kind):
         part, whole = (left, right) if self.left_is_part else (right, left)
         bodies = [f"masses {' and '.join(map(str, body))} one rigid body" for body in self._bodies]
         stiff = [*bodies, *(f"mass {i} at rest" for i, at in self._nodes if i and not at)]
-        how, bound = ", ".join(["some elements missing", *stiff]), " or grow without bound"
+        how = ", ".join(["some elements missing", *stiff])
+        bound = " or grow without bound" if stiff else ""
         return (
             f"{part} is {whole} with {how}, measured at the same masses: elements of {whole} that"
-            f" go to zero{bound * bool(stiff)} give every response of {part}."
+            f" go to zero{bound} give every response of {part}."
         )
 
     @property
@@ -222,8 +223,10 @@ class Minor(Kind):
     def sentence(self, left: str, right: str) -> str:
         """Which network is part of which."""
         part, whole = (left, right) if self.left_is_part else (right, left)
-        how = [f"without {', '.join(self.missing)}"] * bool(self.missing)
-        how += [f"with a direct connection in place of {', '.join(self.rigid)}"] * bool(self.rigid)
+        how = [f"without {', '.join(self.missing)}"] if self.missing else []
+        how += (
+            [f"with a direct connection in place of {', '.join(self.rigid)}"] if self.rigid else []
+        )
         how += [f"with the exponent {x} of {name}" for name, x in self.exponents]
         return (
             f"{whole} {' and '.join(how)} is {part}; as the elements come near to that, every"

@@ -79,7 +79,7 @@ class Interlacing(Kind):
         """Numbers of lacking words."""
         counted = ((p.part, len(p.lacking)) for p in self.parts)
         return ", ".join(
-            f"{name}: {n or 'no'} arrangement{'s' * (n > 1)} lacking" for name, n in counted
+            f"{name}: {n or 'no'} arrangement{'s' if n > 1 else ''} lacking" for name, n in counted
         )
 
     @classmethod

@@ -22,7 +22,7 @@ from disting.general.fibre import Extent, Fibre, solve
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.target import Target, joint_equations, rational_values, target
-from disting.model.presentation import summary
+from disting.model.presentation import plural, summary
 from disting.model.question import Domain
 
 SECONDS = 30.0
@@ -98,10 +98,7 @@ class Alternatives:
                     f" {self.reason}."
                 )
             case Extent.FINITE:
-                many = (
-                    f"exactly {len(self.equivalents)} parameter"
-                    f" vector{'s' * (len(self.equivalents) > 1)}"
-                )
+                many = f"exactly {plural(len(self.equivalents), 'parameter vector')}"
             case Extent.FAMILY:
                 many = (
                     f"infinitely many parameter vectors; {len(self.equivalents)} found with random"

@@ -103,7 +103,7 @@ class ClosedForm:
     def python(self) -> str:
         """Python source: symbols for SymPy, positive ones, the steps and a dictionary of values."""
         names = ", ".join(self.given)
-        comma = "," * (len(self.given) == 1)
+        comma = "," if len(self.given) == 1 else ""
         steps = "".join(f"{name} = {of}\n" for name, of in self.named)
         values = "".join(f'    "{name}": {text(value)},\n' for name, value in self.values)
         return (

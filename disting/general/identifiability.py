@@ -122,7 +122,8 @@ def _with_exponents(
         weaker = Level.LOCAL if renaming else Level.UNKNOWN
         levels |= {name: weaker for name in moved if levels[name] is Level.GLOBAL}
     symmetries = [renaming for _, renaming in orders if renaming]
-    many, reason = 1 + len(symmetries), OTHER_ORDER * (len(symmetries) < len(orders))
+    many = 1 + len(symmetries)
+    reason = OTHER_ORDER if len(symmetries) < len(orders) else ""
     if names and may_be_others(cells_of(model), powers):
         levels |= {name: Level.UNKNOWN for name in levels if levels[name] is Level.GLOBAL}
         reason = OTHER_EXPONENTS

@@ -88,7 +88,7 @@ class ComparedModel(Side[AnyModel]):
     def notes(self) -> tuple[str, ...]:
         """What degrees count where that is not s, and which exponents are spoken of."""
         phrase = self.subject.powers.sentence(self.name)
-        return (phrase,) * bool(phrase) + (GENERIC,) * bool(self.subject.powers.weights)
+        return ((phrase,) if phrase else ()) + ((GENERIC,) if self.subject.powers.weights else ())
 
     @property
     def in_s(self) -> bool:
@@ -182,7 +182,7 @@ class ComparedModel(Side[AnyModel]):
         if self.has_other_readings:
             return Finding(finding.rule, Outcome.ABANDONED, note=OTHER_ORDER)
         safeties = [s.transfer_profile.safety for s in (self, other)]
-        safety = joint_safety([*safeties, *[finding.safety] * bool(finding.safety)])
+        safety = joint_safety([*safeties, *([finding.safety] if finding.safety else [])])
         return replace(finding, certainty=Certainty.BOUNDED, safety=safety)
 
     def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:

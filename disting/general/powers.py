@@ -116,9 +116,9 @@ class Powers:
         """
         if not self.weights:
             return HALVES if self.halves else ""
-        rows = [("s", self.step)] * (self.halves or self.weights[0][1] > 1)
+        rows = [("s", self.step)] if self.halves or self.weights[0][1] > 1 else []
         rows += [(f"s^{name}", weight) for name, weight in self.weights]
-        equal = (f"{power} = v" + f"^{weight}" * (weight > 1) for power, weight in rows)
+        equal = (f"{power} = v" + (f"^{weight}" if weight > 1 else "") for power, weight in rows)
         return f"{COUNTED}v: in {model} {', '.join(equal)}"
 
 

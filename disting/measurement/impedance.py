@@ -68,7 +68,7 @@ def as_impedance(measured: FrequencyResponse) -> FrequencyResponse:
         measured,
         G=measured.G.conj() if turned else measured.G,
         sensor=Sensor.POSITION,
-        notes=(*notes, *[TURNED] * bool(turned)),
+        notes=(*notes, *([TURNED] if turned else [])),
     )
 
 

@@ -54,7 +54,7 @@ def estimate(
     """
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     detected = f"period of {length} samples ({length / rate:g} s) detected in the input"
-    notes = [detected] * (period is None)
+    notes = [detected] if period is None else []
     inputs, outputs, exciting = (
         _spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation)
     )
@@ -71,12 +71,14 @@ def estimate(
             " where the excitation is no sum of sines, give --read segment=SAMPLES for Welch's"
             " method"
         )
-    notes += [f"{len(chosen)} excited lines detected in the input"] * (lines is None)
+    notes += [f"{len(chosen)} excited lines detected in the input"] if lines is None else []
     between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
-    notes += [said] * bool(said)
+    notes += [said] if said else []
     if band is not None:
         chosen = chosen[(chosen * spacing >= band[0]) & (chosen * spacing <= band[1])]
-    notes += ["one period alone: no standard deviation and no coherence"] * (len(inputs) == 1)
+    notes += (
+        ["one period alone: no standard deviation and no coherence"] if len(inputs) == 1 else []
+    )
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
     refuse_few(omega, notes, band)
     response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)

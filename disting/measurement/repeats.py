@@ -105,7 +105,7 @@ def _where(row: Mask, omega: Real) -> str:
         return ""
     if len(hertz) == len(row):
         return "all lines"
-    more = f" and {len(hertz) - NAMED} more lines" * (len(hertz) > NAMED)
+    more = f" and {len(hertz) - NAMED} more lines" if len(hertz) > NAMED else ""
     return f"{', '.join(f'{f:.4g}' for f in hertz[:NAMED])} Hz{more}"
 
 

@@ -96,7 +96,7 @@ class TimeSeries:
     left_out: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("u", "y", *["reference"] * (self.reference is not None)):
+        for name in ("u", "y", *(["reference"] if self.reference is not None else [])):
             object.__setattr__(self, name, frozen(_samples(getattr(self, name), name)))
         if len(self.u) != len(self.y):
             raise InputError(
@@ -180,7 +180,9 @@ class TimeSeries:
                 )
         in_doubt = segment is not None and self.reference is None
         doubt = follows_output(self.u, self.y) if in_doubt else None
-        closed = ", with a reference, which holds in closed loop" * (self.reference is not None)
+        closed = (
+            ", with a reference, which holds in closed loop" if self.reference is not None else ""
+        )
         response = replace(
             the_response,
             sensor=self.sensor,

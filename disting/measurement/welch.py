@@ -89,7 +89,7 @@ def estimate(
     lines = grid[kept]
     even = np.rint(lines * segment / rate) % 2 == 0
     good = even & (coherence >= level)
-    out = [_left_out(lines[even], good[even], level)] * (not good[even].all())
+    out = [] if good[even].all() else [_left_out(lines[even], good[even], level)]
     notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples", *out]
     refuse_few(lines[good], notes, band)
     bias, whole, beyond = _bias(response, deviation)

@@ -134,8 +134,9 @@ class Chain(NotebookPicture):
         ports = self.indices[1:] if self.indices[1:] != PORTS else ()
         arguments = [repr(i) for i in (self.n_masses, *ports)]
         arguments += [f"damped={self.damped}", f"sensor={self.sensor.value!r}"]
-        arguments += [f"ground_dampers={self.ground_dampers}"] * bool(self.ground_dampers)
-        arguments += ["lag=True"] * self.lag + ["dead_time=True"] * self.dead_time
+        arguments += [f"ground_dampers={self.ground_dampers}"] if self.ground_dampers else []
+        arguments += ["lag=True"] if self.lag else []
+        arguments += ["dead_time=True"] if self.dead_time else []
         return f"Chain({', '.join(arguments)})"
 
     def transfer_function(self) -> Any:
@@ -214,13 +215,12 @@ class Chain(NotebookPicture):
 
     def __str__(self) -> str:
         ports = f"force {self.act_plus}-{self.act_minus}, sensor {self.meas_plus}-{self.meas_minus}"
-        extras = [self.sensor.value] * (self.sensor is not Sensor.ACCELERATION) + [
-            "damped"
-        ] * self.damped
-        extras += [f"ground dampers {'+'.join(map(str, self.ground_dampers))}"] * bool(
-            self.ground_dampers
-        )
-        extras += ["lag"] * self.lag + ["dead time"] * self.dead_time
+        dampers = "+".join(map(str, self.ground_dampers))
+        extras = [self.sensor.value] if self.sensor is not Sensor.ACCELERATION else []
+        extras += ["damped"] if self.damped else []
+        extras += [f"ground dampers {dampers}"] if dampers else []
+        extras += ["lag"] if self.lag else []
+        extras += ["dead time"] if self.dead_time else []
         return ", ".join([f"{self.n_masses} masses, gap {self.gap}, {ports}", *extras])
 
 
@@ -267,7 +267,8 @@ def text_drawing(chain: Chain, ports: Ports | None = None) -> str:
     elements = set(chain.structure.elements)
     parts = ["#" + _joint(elements, 0)] if Spring(0) in elements else []
     for i in range(1, chain.n_masses + 1):
-        parts.append(f"[{i}{_roles(ports or chain, i)}]" + "," * (GroundDamper(i) in elements))
+        damper = "," if GroundDamper(i) in elements else ""
+        parts.append(f"[{i}{_roles(ports or chain, i)}]{damper}")
         parts.append(_joint(elements, i) if i < chain.n_masses else "")
     return "".join(parts)
 

@@ -73,8 +73,7 @@ def read(text: str) -> Name:
         raise InputError(
             "a model is written masses:number, for instance 3:4 or 3:4+b1+lag, or A4 where the"
             f" number of masses is known, not {short(text)}"
-            + f"; did you mean {meant}?"
-            * bool(meant)
+            + (f"; did you mean {meant}?" if meant else "")
         )
     if match[1] and not int(match[1]):
         raise InputError(f"{short(text)}: a chain has one mass or more, for instance 3:{match[2]}")
@@ -155,8 +154,8 @@ def names_another(text: str, chain: Chain) -> bool:
 
 def extras_of(chain: Chain) -> str:
     """What stands behind the number: +b1+lag."""
-    words = [*(f"b{i}" for i in chain.ground_dampers), *["lag"] * chain.lag]
-    return "".join(f"+{word}" for word in [*words, *["delay"] * chain.dead_time])
+    words = [*(f"b{i}" for i in chain.ground_dampers), *(["lag"] if chain.lag else [])]
+    return "".join(f"+{word}" for word in [*words, *(["delay"] if chain.dead_time else [])])
 
 
 def damping_option(damped: bool) -> str:

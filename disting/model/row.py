@@ -135,11 +135,11 @@ class Row:
 
     def __str__(self) -> str:
         where = "at a wall" if self.grounded else "free"
-        extras = [f"ground dampers {'+'.join(map(str, self.ground_dampers))}"]
-        extras_in_words = ["undamped"] * (not self.damped) + extras * bool(self.ground_dampers)
-        return ", ".join(
-            [f"{self.n_masses} masses {where}, ports {self.a} and {self.b}", *extras_in_words]
-        )
+        dampers = "+".join(map(str, self.ground_dampers))
+        said = [f"{self.n_masses} masses {where}, ports {self.a} and {self.b}"]
+        said += [] if self.damped else ["undamped"]
+        said += [f"ground dampers {dampers}"] if dampers else []
+        return ", ".join(said)
 
 
 def rows_of(structure: Structure) -> tuple[Row, ...]:

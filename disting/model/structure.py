@@ -238,7 +238,11 @@ class Structure:
     @cached_property
     def parameters(self) -> tuple[str, ...]:
         """Parameter names in the order of the elements, then T1 and Td."""
-        return (*(e.parameter for e in self.elements), *["T1"] * self.lag, *["Td"] * self.dead_time)
+        return (
+            *(e.parameter for e in self.elements),
+            *(["T1"] if self.lag else []),
+            *(["Td"] if self.dead_time else []),
+        )
 
     @property
     def n_states(self) -> int:

@@ -113,7 +113,7 @@ class Element:
     def parameters(self) -> tuple[str, ...]:
         """Its value, and a ratio that is unknown."""
         unknown = [self.ratio] if self.known_ratio is None else []
-        return (*[self.value] * bool(self.value), *unknown)
+        return (*([self.value] if self.value else []), *unknown)
 
     @property
     def feels(self) -> dict[int, Fraction | str]:
@@ -134,7 +134,8 @@ class Element:
 
     def __str__(self) -> str:
         where = " ".join(map(str, self.nodes))
-        more = f" *{self.ratio}" * bool(self.ratio) + f" ^{self.exponent}" * bool(self.exponent)
+        more = f" *{self.ratio}" if self.ratio else ""
+        more += f" ^{self.exponent}" if self.exponent else ""
         return f"{self.value or self.letter} {where}{more}"
 
 

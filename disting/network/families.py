@@ -133,7 +133,9 @@ def _is_whole(masses: int, joints: Sequence[Edge], force: Edge, sensor: Edge) ->
 
 def _machine(joints: Sequence[Edge], force: Edge, sensor: Edge, joint: str) -> str:
     runs = [f"{'#' if a == 0 else a}{joint}{b}" for a, b in joints]
-    ends = [f"{letter}{b}" + f":{a}" * bool(a) for letter, (a, b) in (("F", force), ("S", sensor))]
+    ends = [
+        f"{letter}{b}" + (f":{a}" if a else "") for letter, (a, b) in (("F", force), ("S", sensor))
+    ]
     return f"{', '.join(runs)}; {'; '.join(ends)}"
 
 

@@ -89,7 +89,7 @@ def part_name(chain: Chain, layer: Layer) -> str:
         "sensor": (chain.meas_minus, chain.meas_plus),
     }
     # a spring makes room for the damper below it
-    above = ("damped",) * (chain.damped and layer.name.startswith("k"))
+    above = ("damped",) if chain.damped and layer.name.startswith("k") else ()
     return "-".join(map(str, ("part", layer.name, *depends.get(layer.name, ()), *above)))
 
 

@@ -54,7 +54,7 @@ class Layout:
     @property
     def axis(self) -> float:
         """y of the masses' middle."""
-        return RISE + PORT + NOTE * (self.chain.lag or self.chain.dead_time)
+        return RISE + PORT + (NOTE if self.chain.lag or self.chain.dead_time else 0)
 
     @property
     def width(self) -> float:
@@ -135,7 +135,8 @@ def describe(chain: Chain) -> str:
         f"{chain.sensor.value} of {_node(chain.meas_plus)} relative to {_node(chain.meas_minus)}"
     ]
     said += [f"damper from mass {i} to the ground" for i in chain.ground_dampers]
-    said += ["first-order lag of the force"] * chain.lag + ["dead time"] * chain.dead_time
+    said += ["first-order lag of the force"] if chain.lag else []
+    said += ["dead time"] if chain.dead_time else []
     return "; ".join(said) + "."
 
 
@@ -209,9 +210,9 @@ def _ground_damper(x: float, at: Layout) -> tuple[Shape, ...]:
 def _ground(at: Layout) -> Iterator[Layer]:
     """The hatched wall, as high as what is fixed to it; nothing if nothing is."""
     chain = at.chain
-    ports = [-RISE] * (chain.act_minus == 0) + [RISE] * (chain.meas_minus == 0)
-    reach = [y + side for y in ports for side in (-9, 9)] + [-MASS / 2 - 3, MASS / 2 + 3] * (
-        chain.gap > 0
+    ports = ([-RISE] if chain.act_minus == 0 else []) + ([RISE] if chain.meas_minus == 0 else [])
+    reach = [y + side for y in ports for side in (-9, 9)] + (
+        [-MASS / 2 - 3, MASS / 2 + 3] if chain.gap > 0 else []
     )
     if reach:
         top, bottom = at.axis + min(reach), at.axis + max(reach)
@@ -259,7 +260,7 @@ def sensor_bar(
     """Bar from the reference (open dot, or the wall) to the measured mass (filled dot); `aside`:
     how far right of the middle of a mass it hangs.
     """
-    x0, x1 = (at.middle(i) + aside * bool(i) for i in ends)
+    x0, x1 = (at.middle(i) + (aside if i else 0) for i in ends)
     centre = at.sign(ends)
     posts = [
         _post(x, at.axis + MASS / 2, y, Ink.SENSOR)
@@ -270,7 +271,7 @@ def sensor_bar(
         Path(((a, y), (b, y)), Ink.SENSOR, line=2)
         for a, b in _pieces(x0 + 2 * (not ends[0]), x1, _stems(at))
     ]
-    dots = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] * bool(ends[0])
+    dots = [Circle(x0, y, 3.5, Ink.PAPER, Ink.SENSOR, 2)] if ends[0] else []
     dots += [Circle(x1, y, 4.5, Ink.SENSOR)]
     box = (
         Rect(centre - 8, y - 8, 16, 16, Ink.PAPER, Ink.SENSOR),
@@ -295,6 +296,7 @@ def _pieces(x0: float, x1: float, cuts: tuple[float, ...]) -> Iterator[Place]:
 
 def _notes(at: Layout) -> Iterator[Layer]:
     """What the force passes before it acts, in words."""
-    said = [("T1", "lag T1")] * at.chain.lag + [("Td", "dead time Td")] * at.chain.dead_time
+    said = [("T1", "lag T1")] if at.chain.lag else []
+    said += [("Td", "dead time Td")] if at.chain.dead_time else []
     for place, (name, text) in enumerate(said):
         yield Layer(name, (Text(WALL + 9 + 50 * place, 10, text, 11, Ink.FORCE, Anchor.START),))

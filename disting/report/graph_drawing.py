@@ -45,7 +45,7 @@ def port_signs(network: Network) -> tuple[list[str], list[str]]:
     }[network.sort]
     sides = network.inputs, network.outputs
     return tuple(
-        [name + str(k) * (len(side) > 1) for k in range(1, len(side) + 1)]
+        [f"{name}{k}" if len(side) > 1 else name for k in range(1, len(side) + 1)]
         for name, side in zip(names, sides, strict=True)
     )  # type: ignore[return-value]
 

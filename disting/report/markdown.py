@@ -261,7 +261,8 @@ def _anchor(heading: str) -> str:
 def _words(inline: Token) -> str:
     # a line of the source that ends within a sentence is a child without words
     return "".join(
-        child.content or " " * (child.type == "softbreak") for child in inline.children or ()
+        child.content or (" " if child.type == "softbreak" else "")
+        for child in inline.children or ()
     )
 
 

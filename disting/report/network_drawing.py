@@ -77,7 +77,7 @@ def describe_network(network: Network) -> str:
     ):
         for sign, p in zip(side, source_ports, strict=True):
             other = f" against {p.minus or end}" if p.minus or network.sort is Sort.CIRCUIT else ""
-            shown = f" ({list(Sensor)[network.order]})" * (sign[0] == "y")
+            shown = f" ({list(Sensor)[network.order]})" if sign[0] == "y" else ""
             ports.append(f"{sign}{shown} at {p.plus}{other}")
     if network.inputs == network.outputs and network.sort is Sort.CIRCUIT:
         ports = [f"port between {p.plus} and {p.minus}" for p in network.inputs]

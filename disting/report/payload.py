@@ -163,7 +163,7 @@ def _entry(verdict: Verdict, what: str, reached: str) -> Entry:
         verdict.domain,
     )
     sentence = meaning_sentence(replace(verdict, left="{L}", right="{R}"), what)
-    aside = ", special values aside" * verdict.has_exceptions
+    aside = ", special values aside" if verdict.has_exceptions else ""
     return *graded, f"{sentence} {reached}".strip(), why, formula, verdict.rule, more, aside
 
 

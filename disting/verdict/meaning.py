@@ -9,7 +9,7 @@ from disting.conditions.inclusion import Inclusion
 from disting.conditions.rule import EXACT
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.decision import DeadTime
-from disting.model.presentation import COUNTED, HALVES
+from disting.model.presentation import COUNTED, HALVES, plural
 from disting.model.question import Domain
 from disting.verdict.result import Relation, Verdict, open_note
 
@@ -87,7 +87,7 @@ def undetermined_sentence(name: str, rank: int, parameters: int) -> str:
     """
     if rank >= parameters:
         return ""
-    fixed = f"{rank} combination{'s' * (rank != 1)}" if rank else "no combination"
+    fixed = plural(rank, "combination") if rank else "no combination"
     return (
         f"Not all of {name} can be determined: what is measured fixes {fixed} of its"
         f" {parameters} parameters."
@@ -97,7 +97,7 @@ def undetermined_sentence(name: str, rank: int, parameters: int) -> str:
 def _the_same(verdict: Verdict, what: str, everywhere: bool) -> str:
     left, right = verdict.left, verdict.right
     over = "" if verdict.domain is Domain.POSITIVE else f" with {verdict.domain} parameters"
-    aside = ", special values aside" * (verdict.has_exceptions and not everywhere)
+    aside = ", special values aside" if verdict.has_exceptions and not everywhere else ""
     return (
         f"For every {left} there is a {right}{over} with exactly the same {what}, and vice"
         f" versa{aside}. What is measured here does not tell them apart."

@@ -82,10 +82,9 @@ class Query:
 
     def __repr__(self) -> str:
         options = [] if self.view is View.POSITIVE else [f"View.{self.view.name}"]
-        options += [f"conditions={self.conditions}"] * (self.conditions != ALL_CONDITIONS)
-        options += [f"markov={self.markov}"] * bool(self.markov) + ["inclusion=False"] * (
-            not self.inclusion
-        )
+        options += [f"conditions={self.conditions}"] if self.conditions != ALL_CONDITIONS else []
+        options += [f"markov={self.markov}"] if self.markov else []
+        options += [] if self.inclusion else ["inclusion=False"]
         return f"Query({', '.join(options)})"
 
     def asks(self, rule: Rule) -> bool:

@@ -159,8 +159,8 @@ class Verdict(NotebookTable):
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
             return f"{self.models} are undecided{over}: nothing settles them{why}."
-        depending = ", depending on their values" * (self.relation is Relation.SOMETIMES)
-        aside = ", special values aside" * self.has_exceptions
+        depending = ", depending on their values" if self.relation is Relation.SOMETIMES else ""
+        aside = ", special values aside" if self.has_exceptions else ""
         return (
             f"{self.models} are {self.in_words}{over}{depending}{aside} ({self.rule}):"
             f" {self.evidence.sentence(self.left, self.right)} {capital(self.sure)}."

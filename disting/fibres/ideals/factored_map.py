@@ -193,7 +193,8 @@ def _names(row: Row) -> tuple[str, ...]:
         for x in (between if row.a <= i < row.b else outside)
     )
     apart = (i for i in row.ground_dampers if not (row.grounded and row.damped and i == 1))
-    return (*(f"{x}0" for x in wall * row.grounded), *joints, *(f"f{i + at}" for i in apart))
+    walls = (f"{x}0" for x in wall) if row.grounded else ()
+    return (*walls, *joints, *(f"f{i + at}" for i in apart))
 
 
 def _entries(joint: int, row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:

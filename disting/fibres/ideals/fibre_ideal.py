@@ -108,7 +108,7 @@ def sides_at(
     """Coefficients of numerator and denominator at a point modulo a prime."""
     values = [evaluate(c, point, modulus) for c in model.coordinates]
     count = len(model.numerator)
-    return values[:count], [*values[count:], *[1] * model.is_monic]
+    return values[:count], [*values[count:], *([1] if model.is_monic else [])]
 
 
 def agree(

@@ -154,7 +154,7 @@ def normalise(structure: Structure) -> CoefficientMap:
     (('u1', 'e1', 'r1', 'g1'), ['u1*r1 + u1', 'e1*r1 + e1', '1'])
     """
     rows = rows_of(structure)
-    names = (*(name for row in rows for name in unknowns(row)), *["lag"] * structure.lag)
+    names = (*(name for row in rows for name in unknowns(row)), *(["lag"] if structure.lag else []))
     ring = symbols(["s", *names])
     fractions = [receptance_of_row(row, ring) for row in rows]
     num, den = reduce(lambda x, y: (x[0] * y[1] + y[0] * x[1], x[1] * y[1]), fractions)
@@ -223,7 +223,7 @@ def unknowns(row: Row) -> tuple[str, ...]:
     names = [
         f"{kind}{i + row.before}"
         for i in range(row.n_masses)
-        for kind in kinds * (i in row.joints) + "r" * (i > 0)
+        for kind in (kinds if i in row.joints else "") + ("r" if i > 0 else "")
     ]
     return (*names, *(f"f{i + row.before}" for i in row.ground_dampers), f"g{first}")
 

@@ -93,7 +93,7 @@ class Member:
 
     def __repr__(self) -> str:
         return summary(
-            self, f"{self.name}" + f", {plural(len(self.twins), 'twin')}" * bool(self.twins)
+            self, f"{self.name}" + (f", {plural(len(self.twins), 'twin')}" if self.twins else "")
         )
 
     @property

@@ -19,6 +19,7 @@ from disting.fit.search.estimate import Task
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import measured_chain
 from disting.model.chain import Chain
+from disting.model.presentation import plural
 from disting.model.question import Settings
 from disting.questions.identifiability.functions import basis
 from disting.questions.identifiability.parts import Formula
@@ -56,7 +57,7 @@ def _told_together(
     if lacking <= 0:
         return assessment
     indices = (*assessment.condition_indices[: len(assessment.names) - lacking], *(inf,) * lacking)
-    directions = f"{lacking} combination{'s' * (lacking > 1)} of its parameters"
+    directions = plural(lacking, "combination") + " of its parameters"
     words = f"not identifiable: these responses together leave {directions} open, whatever the data"
     return replace(assessment, condition_indices=indices, collinearity=inf, unidentifiable=words)
 
@@ -69,7 +70,7 @@ def _told(chain: Chain, assessment: Practical, settings: Settings) -> Practical:
         return assessment
     chosen = basis(chain.structure, proof, max(t.rank for t in proof), settings.seed).chosen
     indices = assessment.condition_indices[:rank] + (inf,) * lacking
-    text = " and what is given" * (len(assessment.names) < len(chain.parameters))
+    text = " and what is given" if len(assessment.names) < len(chain.parameters) else ""
     words = in_words([c.formula for c in chosen]) + text
     return replace(assessment, condition_indices=indices, collinearity=inf, unidentifiable=words)
 
@@ -83,8 +84,8 @@ def in_words(determined: Sequence[Formula]) -> str:
     """
     short = [formula.text for formula in determined if len(formula.terms) <= MOST_TERMS]
     more = len(determined) - len(short)
-    counted = [f"{more} {'longer ' * bool(short)}combination{'s' * (more > 1)}"] * bool(more)
+    counted = [plural(more, "longer combination" if short else "combination")] if more else []
     return (
         "not identifiable: no data determine more than"
-        f" {' and '.join([', '.join(short)] * bool(short) + counted)}"
+        f" {' and '.join(([', '.join(short)] if short else []) + counted)}"
     )

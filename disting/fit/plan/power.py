@@ -76,7 +76,7 @@ class Plan(NotebookTable):
     repeats: int | None = None
 
     def __repr__(self) -> str:
-        size = f", lambda {self.noncentrality:.3g}" * (self.noncentrality > 0)
+        size = f", lambda {self.noncentrality:.3g}" if self.noncentrality > 0 else ""
         return summary(self, f"{self.names[0]} against {self.names[1]}: {self.answer}{size}")
 
     @property

@@ -46,7 +46,8 @@ class StateSpace:
 
     def __repr__(self) -> str:
         return summary(
-            self, plural(len(self.A), "state") + f", dead time {self.delay:g} s" * bool(self.delay)
+            self,
+            plural(len(self.A), "state") + (f", dead time {self.delay:g} s" if self.delay else ""),
         )
 
 

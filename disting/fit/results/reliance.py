@@ -103,7 +103,7 @@ def statements(
     omega = np.unique(np.concatenate([part.measured.omega for part in task.cost.parts]))
     some = omega[spread(np.log(omega), min(len(omega), LINES))]
     every = list(with_twins(left, fitted, some))
-    family = FAMILY * any(twin.free_choices for m in left for twin in m.twins)
+    family = FAMILY if any(twin.free_choices for m in left for twin in m.twins) else ""
     both = (_at_the_sensor(fitted, some), _at_the_load(every, some, family))
     return (
         total_inertia(every, family),

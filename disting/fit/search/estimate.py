@@ -70,7 +70,7 @@ class Task:
                 raise InputError(f"bounds of {name} are 0 <= low < high, not {low:g}..{high:g}")
         for name, value in self.fixed.items():
             if not (0 < value < inf or (value == 0 and name[0] in DAMPERS)):
-                zero = ", or a damper to 0" * (name[0] in DAMPERS)
+                zero = ", or a damper to 0" if name[0] in DAMPERS else ""
                 raise InputError(f"{name} is fixed to a positive number{zero}, not {value:g}")
 
     def __repr__(self) -> str:

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
-from disting.model.presentation import NotebookTable, summary
+from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Answer
 from disting.questions.identifiability.parts import (
     Alternative,
@@ -133,7 +133,7 @@ class Identifiability(NotebookTable):
 def _sentence(answer: Identifiability) -> str:
     """One sentence: how many parameters are determinable, and what else has the same behaviour."""
     many = len(answer.parameters)
-    head = f"{many} parameter{'s' * (many > 1)}"
+    head = plural(many, "parameter")
     if answer.level is Level.NOT:
         return f"{head}, only {answer.rank} determinable: {_listed(answer.basis)}."
     return f"{head}, all determinable; {_rest(answer)}."
@@ -152,7 +152,7 @@ def _listed(basis: tuple[Combination, ...]) -> str:
     """Formulas, then the coefficients that are only named."""
     formulas = [c.text for c in basis if not c.is_named]
     named = sorted(c.name for c in basis if c.is_named)
-    what = "transfer-function coefficient" + "s" * (len(named) > 1)
+    what = "transfer-function coefficient" + ("s" if len(named) > 1 else "")
     return ", ".join([*formulas, f"{what} {', '.join(named)}"] if named else formulas)
 
 

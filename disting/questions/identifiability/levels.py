@@ -16,7 +16,7 @@ from typing import Any
 from disting.algebra.certainty import Certainty, enough, grade_of, joint_safety, safety
 from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
-from disting.model.presentation import summary
+from disting.model.presentation import plural, summary
 from disting.model.protocol import Model
 from disting.model.question import Settings
 from disting.questions.identifiability.parts import Level
@@ -78,7 +78,7 @@ class ParameterIdentifiability:
         '3 parameters, all determinable; globally: c; locally: a, b; 2 sets of them fit.'
         """
         n = len(self.levels)
-        head = f"{n} parameter{'s' * (n != 1)}"
+        head = plural(n, "parameter")
         if self.level is Level.GLOBAL:
             return f"{head}, all globally identifiable."
         free = f"; {self.freedom} can be chosen freely" if self.freedom else self._count

@@ -186,7 +186,8 @@ def asymptotes(
     """
     inertias = {r.name: r for r in results}
     free = chain.gap == 0 and chain.act_minus == 0 and chain.meas_minus == 0
-    wanted = ["total inertia"] * free + ["motor inertia"] * (free and chain.collocated)
+    wanted = ["total inertia"] if free else []
+    wanted += ["motor inertia"] if free and chain.collocated else []
     return [
         (
             f"{key} {readable(inertias[key].value)} {result_unit(inertias[key], measured)}",
@@ -207,7 +208,7 @@ def _amplitude(
     hertz = line.omega / (2 * pi)
     for s in series:
         size, factor = np.abs(s.measured.G), np.exp(QUANTILE * s.scatter.rho)
-        points(panel, s, size, label=s.label + ", 95 % bars" * s.has_bars)
+        points(panel, s, size, label=s.label + (", 95 % bars" if s.has_bars else ""))
         bars(panel, s, size, size / factor, size * factor)
     panel.semilogy(
         hertz, np.abs(line.G), color=Tone.INK, linewidth=1.5, label="model, 95 % band", zorder=3

@@ -70,9 +70,9 @@ def first_sentence(lead: ChainAdvice) -> str:
             f" machine is {selected.name}, it shows a difference from {_of(lead, best, others)}"
         )
         left = [f"{lead.left[k].name} (power {chance(power)})" for k, power in best.left]
-        said += f"; not {enumeration(left)}" * bool(left)
+        said += f"; not {enumeration(left)}" if left else ""
     contain = enumeration([lead.left[k].name for k in larger])
-    return said + f"; no data exclude {contain}, which {_contain(larger)} it" * bool(larger)
+    return said + (f"; no data exclude {contain}, which {_contain(larger)} it" if larger else "")
 
 
 def _alone(named: FitRecord, source: str) -> Iterator[str]:

@@ -214,7 +214,7 @@ def _least(lead: ChainAdvice, seen: Predictions) -> Iterator[dict[str, Any]]:
 def _origin(survivor: Survivor) -> str:
     if survivor.fitted:
         return "fitted"
-    family = f", one of many sets of values, {survivor.free} free" * bool(survivor.free)
+    family = f", one of many sets of values, {survivor.free} free" if survivor.free else ""
     like = ", ".join(reference(chain) for chain in survivor.like)
     return f"with the fitted response of {like}{family}"
 

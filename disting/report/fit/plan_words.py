@@ -201,7 +201,7 @@ def _short(plan: Plan) -> str:
     if plan.rival is None:
         return f"impossible: {next_command(plan)}"
     if plan.answer is Answer.SAME:
-        ends = f" ({', '.join(plan.rival.limits)} without effect)" * bool(plan.rival.limits)
+        ends = f" ({', '.join(plan.rival.limits)} without effect)" if plan.rival.limits else ""
         does = "contains the model" if plan.is_contained else "gives the same on these lines"
         return f"impossible: it {does}{ends}"
     return plan.answer.value + ("" if is_trusted(plan) else ", doubtful: few starts agree")
@@ -211,7 +211,7 @@ def _figures(plan: Plan, rival: Rival, source: str) -> Iterator[str]:
     """Numbers behind the answer."""
     hertz, both = rival.hertz, plan.joint
     larger = f" ({reference(both)} contains both)" if both and both != plan.model else ""
-    plural = "s" * (plan.surplus > 1)
+    plural = "s" if plan.surplus > 1 else ""
     yield (
         f"lines           {len(hertz)} from {hertz[0]:.4g} to {hertz[-1]:.4g} Hz, noise of a line"
         f" {percent(typical(rival.rho))} ({source})"

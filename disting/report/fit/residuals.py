@@ -287,7 +287,7 @@ def _scatter(panel: "Axes", m: Misfit, scaled: Callable[[Real], Real], label: st
             color=m.series.tone,
             lw=0.9,
             ls=dashes,
-            label=label * (sign > 0),
+            label=label if sign > 0 else "",
             zorder=1.9,
         )
 

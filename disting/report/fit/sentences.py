@@ -134,13 +134,14 @@ def _explained(selection: Selection) -> Iterator[str]:
         )
     others, more = [m.name for m in selection.members[1:]], len(selection.containing)
     larger = (
-        f"{more} more that contain{'s' * (more == 1)} one of these, with elements that this data"
-        " does not determine"
+        f"{more} more that contain{'s' if more == 1 else ''} one of these, with elements that this"
+        " data does not determine"
     )
     if others:
-        yield f"not excluded by this data either: {_listed(others)}" + f"; {larger}" * bool(more)
+        beside = f"; {larger}" if more else ""
+        yield f"not excluded by this data either: {_listed(others)}{beside}"
     elif selection.members:
-        beside = f", but {larger.replace('one of these', 'it')}" * bool(more)
+        beside = f", but {larger.replace('one of these', 'it')}" if more else ""
         yield f"this data excludes every other candidate{beside}"
     for m in [m for m in selection.members if m.twins][:1]:
         same = list(dict.fromkeys(t.name for t in m.twins))
@@ -172,7 +173,7 @@ def _unexplained(selection: Selection) -> Iterator[str]:
             " is wrong, or the machine changed between the measurements"
         )
     elif not selection.explanation.noisy and not selection.quantities:
-        loop = "is the loop closed, " * any(FOLLOWS in said for said in _said(selection))
+        loop = "is the loop closed, " if any(FOLLOWS in said for said in _said(selection)) else ""
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
             f" mass explains it: {loop}is the machine a chain, are other forces at work?"

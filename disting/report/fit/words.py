@@ -127,12 +127,14 @@ def name(chain: Chain) -> str:
     """
     said = [plural(chain.n_masses, "mass", "masses")]
     if chain.indices[1:] != Chain(chain.n_masses, damped=False).indices[1:]:
-        said += [f"gap {chain.gap}–{chain.gap + 1}"] * bool(chain.gap)
+        said += [f"gap {chain.gap}–{chain.gap + 1}"] if chain.gap else []
         said.append(f"force {_port(chain.act_minus, chain.act_plus)}")
         said.append(f"sensor {_port(chain.meas_minus, chain.meas_plus)}")
     dampers = ", ".join(f"b{i}" for i in chain.ground_dampers)
-    said += [f"damper{'s' * (len(chain.ground_dampers) > 1)} {dampers}"] * bool(dampers)
-    return ", ".join(said + ["lag"] * chain.lag + ["dead time"] * chain.dead_time)
+    said += [f"damper{'s' if len(chain.ground_dampers) > 1 else ''} {dampers}"] if dampers else []
+    return ", ".join(
+        said + (["lag"] if chain.lag else []) + (["dead time"] if chain.dead_time else [])
+    )
 
 
 def _port(minus: int, plus: int) -> str:

@@ -136,7 +136,7 @@ def _identifiability(shown: Identifiability) -> str:
 def _global(shown: GlobalIdentifiability) -> str:
     local = shown.local.identifiable
     rows = (
-        (p, "determinable" if p in local else "not by itself", "yes" * (p in shown.unique))
+        (p, "determinable" if p in local else "not by itself", "yes" if p in shown.unique else "")
         for p in shown.local.parameters
     )
     return block(
@@ -152,7 +152,7 @@ def _response(shown: FrequencyResponse) -> str:
     unit = response_unit(shown)
     rows = [
         ("lines", f"{len(shown)}, {low} to {high} Hz"),
-        ("shows", f"{shown.sensor} per input" + f" [{unit}]" * bool(unit)),
+        ("shows", f"{shown.sensor} per input" + (f" [{unit}]" if unit else "")),
         ("amplitude", f"{readable(float(size.min()))} to {readable(float(size.max()))}"),
         ("input", typeset(str(shown.input))),
         ("output", typeset(str(shown.output))),
@@ -227,7 +227,9 @@ def _candidate(shown: Candidate, chosen: bool) -> tuple[object, ...]:
 def _members(shown: Selection) -> Iterator[str]:
     for member in shown.members:
         same = ", ".join(dict.fromkeys(twin.name for twin in member.twins))
-        yield f"Not excluded: {member.name}" + f"; the same response: {same}" * bool(same) + "."
+        yield (
+            f"Not excluded: {member.name}" + (f"; the same response: {same}" if same else "") + "."
+        )
 
 
 @table_of.register
