@@ -17,7 +17,7 @@ from disting.fit.judge.explanation import explain, merge, noises, scatters
 from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
-from disting.fit.search.cost import Case, Cost
+from disting.fit.search.cost import Case, Cost, comparable
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
@@ -103,9 +103,9 @@ def fit_networks(
         for i, (plant, p) in zip(chosen, pairs, strict=True)
     ]
     fits = [replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits]
-    ordered = tuple(sorted(fits, key=lambda f: f.chi2))
+    ordered = tuple(sorted(fits, key=lambda f: comparable(f.chi2)))
     whole = NetworkSelection(ordered, tuple(asked), tuple(data), scatter, decided)
-    order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left, f.chi2))
+    order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left))
     return replace(whole, fits=tuple(order))
 
 

@@ -4,10 +4,11 @@
 The record is cut into P whole periods of N samples, which have no leakage. With U_p, Y_p the
 discrete Fourier transforms of period p, at every excited line
 
-    G         = mean_p(Y_p) / mean_p(U_p)                                  (noise that does not
-    repeat averages out) deviation = sqrt( sum_p |Y_p/U_p - mean(Y_p/U_p)|^2 / (P - 1) / P )
-    (standard deviation of the mean of P periods) coherence = |sum_p Y_p conj(U_p)|^2 / (sum_p
-    |U_p|^2 sum_p |Y_p|^2).
+    G         = mean_p(Y_p) / mean_p(U_p)
+    deviation = sqrt( sum_p |Y_p/U_p - mean(Y_p/U_p)|^2 / (P - 1) / P )
+    coherence = |sum_p Y_p conj(U_p)|^2 / (sum_p |U_p|^2 sum_p |Y_p|^2).
+
+Noise that does not repeat averages out; the deviation is that of the mean of P periods.
 """
 
 from collections.abc import Sequence
@@ -59,26 +60,23 @@ def estimate(
         _spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation)
     )
     spacing = rate / length
-    chosen = (
-        excited_lines(np.abs(exciting.mean(axis=0)))
-        if lines is None
-        else _given(lines, spacing, inputs.shape[1])
-    )
-    if lines is None and len(chosen) < FEWEST:
-        raise InputError(
-            f"{plural(len(chosen), 'excited line')} in a period of {length} samples:"
-            f" too few, at least {FEWEST} are needed;"
-            " where the excitation is no sum of sines, give --read segment=SAMPLES for Welch's"
-            " method"
-        )
-    notes += [f"{len(chosen)} excited lines detected in the input"] if lines is None else []
+    if lines is None:
+        chosen = excited_lines(np.abs(exciting.mean(axis=0)))
+        if len(chosen) < FEWEST:
+            raise InputError(
+                f"{plural(len(chosen), 'excited line')} in a period of {length} samples: too few,"
+                f" at least {FEWEST} are needed; where the excitation is no sum of sines, give"
+                " --read segment=SAMPLES for Welch's method"
+            )
+        notes.append(f"{len(chosen)} excited lines detected in the input")
+    else:
+        chosen = _given(lines, spacing, inputs.shape[1])
     between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
     notes += [said] if said else []
     if band is not None:
         chosen = chosen[(chosen * spacing >= band[0]) & (chosen * spacing <= band[1])]
-    notes += (
-        ["one period alone: no standard deviation and no coherence"] if len(inputs) == 1 else []
-    )
+    if len(inputs) == 1:
+        notes.append("one period alone: no standard deviation and no coherence")
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
     refuse_few(omega, notes, band)
     response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)

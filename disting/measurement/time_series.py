@@ -158,12 +158,11 @@ class TimeSeries:
         Periodic excitation (module `periodic`): `period` [samples], detected where not given;
         `transient` = periods dropped at the beginning; `lines` = excited frequencies [Hz],
         detected where not given; `outliers` among the periods as in `mean_of`. Any other
-        excitation: `segment` [samples] of Welch's method
-        (module `welch`), which is used exactly where `segment` is given; lines of a coherence
-        below `least_coherence` are left out then (default: what chance gives). A reference makes
-        both methods hold in closed loop. `band` = (low, high) [Hz]. Raises InputError where no
-        period is found, periods are missing, too few lines are left, or `segment` is given with
-        `period` or `outliers`.
+        excitation: `segment` [samples] of Welch's method (module `welch`), which is used exactly
+        where `segment` is given; lines of a coherence below `least_coherence` are left out then
+        (default: what chance gives). A reference makes both methods hold in closed loop. `band` =
+        (low, high) [Hz]. Raises InputError where no period is found, periods are missing, too few
+        lines are left, or `segment` is given with `period` or `outliers`.
         """
         parts = (self.u, self.y, self.sampling_rate)
         _check_method(segment, period, lines, least_coherence, outliers)
@@ -180,9 +179,7 @@ class TimeSeries:
                 )
         in_doubt = segment is not None and self.reference is None
         doubt = follows_output(self.u, self.y) if in_doubt else None
-        closed = (
-            ", with a reference, which holds in closed loop" if self.reference is not None else ""
-        )
+        closed = "" if self.reference is None else ", with a reference, which holds in closed loop"
         response = replace(
             the_response,
             sensor=self.sensor,

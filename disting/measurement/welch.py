@@ -4,15 +4,13 @@ closed loop.
 Half-overlapping Hann segments give the spectra S_ab of input u, output y and reference r. In open
 loop r = u. With
 
-    G = S_ry / S_ru,      S_vv = S_yy - 2 Re(conj(G) S_uy) + |G|^2 S_uu      (v = y - G u, what u
-    does not explain),
-
-    deviation = sqrt(S_vv S_rr / n_e) / |S_ru|,      n_e = n_d / (1 + 2/36),
+    G = S_ry / S_ru,
+    S_vv = S_yy - 2 Re(conj(G) S_uy) + |G|^2 S_uu  (v = y - G u, what u does not explain),
+    deviation = sqrt(S_vv S_rr / n_e) / |S_ru|,  n_e = n_d / (1 + 2/36),
 
 for n_d segments; 1/36 is the squared correlation of neighbouring segments (Welch 1967). A Hann
 window correlates the errors of neighbouring lines by 4/9, of next ones by 1/36: every second line
-is taken, which tells as much as all. For r = u
-this is the H1 estimator with
+is taken, which tells as much as all. For r = u this is the H1 estimator with
 
     deviation = |G| sqrt((1 - gamma^2) / (gamma^2 n_e))
 

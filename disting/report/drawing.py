@@ -131,9 +131,8 @@ def describe(chain: Chain) -> str:
     said = [row + (" with dampers beside the springs" if chain.damped else "")]
     said += [f"no spring between {_node(chain.gap)} and {_node(chain.gap + 1)}"]
     said += [f"force from {_node(chain.act_minus)} on {_node(chain.act_plus)}"]
-    said += [
-        f"{chain.sensor.value} of {_node(chain.meas_plus)} relative to {_node(chain.meas_minus)}"
-    ]
+    measured, reference = _node(chain.meas_plus), _node(chain.meas_minus)
+    said += [f"{chain.sensor.value} of {measured} relative to {reference}"]
     said += [f"damper from mass {i} to the ground" for i in chain.ground_dampers]
     said += ["first-order lag of the force"] if chain.lag else []
     said += ["dead time"] if chain.dead_time else []
@@ -209,11 +208,10 @@ def _ground_damper(x: float, at: Layout) -> tuple[Shape, ...]:
 
 def _ground(at: Layout) -> Iterator[Layer]:
     """The hatched wall, as high as what is fixed to it; nothing if nothing is."""
-    chain = at.chain
-    ports = ([-RISE] if chain.act_minus == 0 else []) + ([RISE] if chain.meas_minus == 0 else [])
-    reach = [y + side for y in ports for side in (-9, 9)] + (
-        [-MASS / 2 - 3, MASS / 2 + 3] if chain.gap > 0 else []
-    )
+    ports = [-RISE] if at.chain.act_minus == 0 else []
+    ports += [RISE] if at.chain.meas_minus == 0 else []
+    reach = [y + side for y in ports for side in (-9, 9)]
+    reach += [-MASS / 2 - 3, MASS / 2 + 3] if at.chain.gap > 0 else []
     if reach:
         top, bottom = at.axis + min(reach), at.axis + max(reach)
         strokes = range(round(top) + 8, round(bottom) + 1, 7)

@@ -37,6 +37,15 @@ def selection():
     return select(planted(1), figure_1((1, 2)), test=planted(2))
 
 
+def test_what_only_rounding_makes_cheaper_does_not_come_first(selection):
+    small, large = sorted(selection.candidates[:2], key=lambda c: c.n_parameters)
+    assert small.n_parameters < large.n_parameters
+    same = [replace(large, j_test=small.j_test * (1 + step)) for step in (-3e-8, 3e-8)]
+    assert all(sorted([c, small], key=lambda c: c.order) == [small, c] for c in same)
+    better = replace(large, j_test=small.j_test * 0.999)
+    assert sorted([small, better], key=lambda c: c.order) == [better, small]
+
+
 def test_the_planted_structure_is_selected(selection):
     found = selection.selected
     assert (
@@ -51,14 +60,14 @@ def test_every_excluded_candidate_has_a_reason_and_kept_ones_share_the_weight(se
     assert len(selection.candidates) == 24
     assert all(c.admissible or (c.reasons and c.akaike_weight == 0) for c in selection.candidates)
     assert sum(c.akaike_weight for c in selection.candidates) == pytest.approx(1.0)
-    costs = [c.j_test for c in selection.candidates]
+    costs = [c.order for c in selection.candidates]
     assert costs == sorted(costs)
 
 
 def test_the_simplest_of_what_is_not_excluded_is_selected(selection):
     left = [m.candidate for m in selection.members]
     assert left[0] == selection.selected
-    sizes = [(c.n_parameters, c.j_test) for c in left]
+    sizes = [(c.n_parameters, c.order) for c in left]
     assert sizes == sorted(sizes)
     names = [m.candidate.chain for m in selection.members]
     assert all(m.contains in names and not m.candidate.admissible for m in selection.containing)

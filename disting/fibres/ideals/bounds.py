@@ -64,8 +64,8 @@ delta = d_0 d_1 .. d_k. There is a polynomial E(y_0, .., y_k) with integer coeff
 such that E(q_0, .., q_k) = 0, with d_0 a_0 + .. + d_k a_k <= delta for each of its monomials y^a
 (O. Perron, Algebra I, 1927), and with a Mahler measure of
 
-    log M(E) <= sum_j delta/d_j log(||q_j|| + 2) + delta/2 log (k+1)!,      M(E) = exp of the mean
-    of log |E| over |y_j| = 1
+    log M(E) <= sum_j delta/d_j log(||q_j|| + 2) + delta/2 log (k+1)!,
+    M(E) = exp of the mean of log |E| over |y_j| = 1
 
 So a coefficient of y^a is at most M(E) prod_j binomial(deg_j E, a_j) (K. Mahler, On some
 inequalities for polynomials in several variables, J. London Math. Soc. 37, 1962), deg_j E <=
@@ -79,8 +79,8 @@ Res(x_0^d_0, .., x_k^d_k) = 1; it is multiplicative in each F_j; and putting s x
 multiplies it by s^delta (D. Cox, J. Little, D. O'Shea, Using Algebraic Geometry, chapter 3). Let
 Q_j = x_0^d_j q_j(x_1/x_0, ..), and
 
-    R(y, e) = Res(Q_0 - y_0 x_0^d_0, Q_1 - y_1 x_0^d_1 + e x_1^d_1, .., Q_k - y_k x_0^d_k + e
-    x_k^d_k).
+    R(y, e) = Res(Q_0 - y_0 x_0^d_0, Q_1 - y_1 x_0^d_1 + e x_1^d_1, .., Q_k - y_k x_0^d_k
+                  + e x_k^d_k).
 
 R is not zero: the coefficient of y_0^D_0 e^(D_1 + .. + D_k) is +-Res(x_0^d_0, .., x_k^d_k) = +-1,
 because R is homogeneous in the coefficients of each form. R vanishes for y_0 = q_0(x), y_j =

@@ -6,10 +6,9 @@ D, with theta the determinant of the masses left of a, phi of those right of b, 
 the joints, h_i their ratio between the ports. `normalise` has ratios of masses everywhere; here
 theta and phi look alike, and joints between the ports have their root as an unknown:
 
-    left of a:   w_i = (u_i + e_i s)        enters row i,      r_i w_i    row i + 1       (c_i =
-    m_i w_i) between:     e_i (s + h_i)              enters row i,      x_i (s + h_i)    row i + 1
-    right of b:  w_i = (u_i + e_i s)        enters row i + 1,  r_i w_i    row i           (c_i =
-    m_(i+1) w_i)
+    left of a:   w_i = u_i + e_i s  enters row i,      r_i w_i        row i + 1  (c_i = m_i w_i)
+    between:     e_i (s + h_i)      enters row i,      x_i (s + h_i)  row i + 1
+    right of b:  w_i = u_i + e_i s  enters row i + 1,  r_i w_i        row i      (c_i = m_(i+1) w_i)
 
 and f_i = b_i/m_i. The joint to a wall enters the first row alone; a damper of the first mass
 beside it is part of it.

@@ -5,12 +5,12 @@ denominator, polynomials with integer coefficients. For chains there are two: `c
 the parameters themselves, and `normalise` in fewer and better ones. There row i of M s^2 + D s +
 K is divided by m_i; with c_i, d_i for spring and damper between masses i and i+1
 
-    u_i = c_i/m_i,  e_i = d_i/m_i,  r_i = m_i/m_(i+1),  u_0 = c_0/m_1,  e_0 = d_0/m_1,  f_i =
-    b_i/m_i,  g = 1/m_b
+    u_i = c_i/m_i,  e_i = d_i/m_i,  r_i = m_i/m_(i+1),  u_0 = c_0/m_1,  e_0 = d_0/m_1,
+    f_i = b_i/m_i,  g = 1/m_b
 
-with one gain g for each row, b its right port. A joint enters row i as u_i +
-e_i s and row i+1 as r_i (u_i + e_i s), so every determinant is monic in s and linear in each
-single unknown, and the receptance of a row is
+with one gain g for each row, b its right port. A joint enters row i as u_i + e_i s and row i+1 as
+r_i (u_i + e_i s), so every determinant is monic in s and linear in each single unknown, and the
+receptance of a row is
 
     H = g * prod_(a <= i < b) (u_i + e_i s) * theta_(a-1) * phi_(b+1) / D
 

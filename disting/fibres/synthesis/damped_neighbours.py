@@ -5,8 +5,7 @@ out, A to the left, B to the right. With k to the ground on both sides the chain
 G_d = D + d (s + rho) N = Theta Phi, Phi of degree 2 (n - a). The right end is free, so m_b Phi = k
 B + O(s^2) as s goes to 0, which says
 
-    Phi'(0)/Phi(0) = 1/rho + B'(0)/B(0) = sigma,    or    sigma + sum of 1/z over the roots z of
-    Phi = 0
+    Phi'(0)/Phi(0) = 1/rho + B'(0)/B(0) = sigma,  or  sigma + sum of 1/z over the roots z of Phi = 0
 
 for one of the subsets of the roots of G_d. The product E(d) of that over all subsets, times
 G_d(0)^K with K = C(2n-1, 2(n-a)-1), is a polynomial in d: K subsets hold a given root. Its degree

@@ -2,8 +2,12 @@
 synthesis in ball arithmetic.
 
 The receptance H of a chain with a gap is R + F: the grounded row between the minus ports, the free
-row between the plus ports. 1. every subset of the poles for R (`poles`);  2. every chain
-with receptance R and every chain with F (`methods`); 3. every pair is multiplied out and compared.
+row between the plus ports:
+
+1. every subset of the poles for R (`poles`);
+2. every chain with receptance R and every chain with F (`methods`);
+3. every pair is multiplied out and compared.
+
 Where a ball leaves out a zero that every solution has, a branch is refuted; if all are, no
 solution exists (masses, springs and dampers all non-zero, complex ones included). Too wide balls
 double the precision; what stays undecided at the last one is a special point.

@@ -6,8 +6,7 @@ that P(z) = 0 and P'(z) = d A(z). Far away W' grows like d' s, d' the damper of 
 so that Z tells b + d' and no more, and W' is known but for a multiple of s: its slope is open.
 That costs no unknown. If W = W0 + d s, W0 = P0/A bounded, then at the root z of k
 
-    W0(z) + d z = 0    and    W0'(z) + d = d,    hence    P0'(z) A(z) - P0(z) A'(z) = 0    and    d
-    = -W0(z)/z
+    W0(z) + d z = 0  and  W0'(z) + d = d,  hence  P0'(z) A(z) - P0(z) A'(z) = 0  and  d = -W0(z)/z
 
 4 nu - 2 candidates for z without a test, in place of 2 nu + 1 with one (the leading coefficients
 cancel twice). The slope is known again where the masses behind are free and without dampers, W'(0)

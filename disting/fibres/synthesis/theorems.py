@@ -4,8 +4,8 @@ Let R(x) = sum r_j/(x + l_j), x = s^2, with distinct l_j >= 0 and all r_j > 0 (F
 theorem, Bell System Technical Journal 3, 1924: a driving-point receptance is of this form). Its
 zeros -z_i separate the poles, so
 
-    1/R = m x + c - sum t_i/(x + z_i),      m, t_i > 0,      1/R(0) = c - sum t_i/z_i  (0 for a
-    free row, positive at a wall)
+    1/R = m x + c - sum t_i/(x + z_i),  m, t_i > 0,
+    1/R(0) = c - sum t_i/z_i  (0 for a free row, positive at a wall)
 
 Take any a - 1 of the zeros for the left side. The right side W_R = sum_right t_i x/(z_i (x + z_i))
 is zero at x = 0, as a free end demands, and the left one W_L = 1/R(0) + sum_left t_i x/(z_i (x +

@@ -14,6 +14,7 @@ from disting.fit.judge.structural import with_structure
 from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.candidates import reference
+from disting.fit.search.cost import comparable
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import Indices, fine
 from disting.fit.search.estimate import Estimate, Task
@@ -80,6 +81,11 @@ class Candidate:
         return len(self.practical.names)
 
     @property
+    def order(self) -> tuple[float, int]:
+        """By the cost on test, of equal costs the fewest parameters first."""
+        return comparable(self.j_test), self.n_parameters
+
+    @property
     def standard_errors(self) -> dict[str, float]:
         """Standard error of each fitted parameter, in its unit."""
         return {
@@ -116,7 +122,7 @@ def judge(
         _candidate(e, criteria[e.chain], first[e.chain], task, test_cost, own_scatters)
         for e in each
     ]
-    return sorted(fitted, key=lambda c: c.j_test)
+    return sorted(fitted, key=lambda c: c.order)
 
 
 def explains(estimate: Estimate, task: Task, most: Real) -> bool:

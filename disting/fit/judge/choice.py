@@ -91,7 +91,7 @@ def choice(
     out = _excluded(explaining, task, test, scatters, settings)
     whole = tuple(replace(c, excluded=out.get(c.chain)) for c in fitted)
     chains = {c.chain for c in explaining} - out.keys()
-    left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.j_test))
+    left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.order))
     selected = left[0]
     better = _better(selected, fitted, task, scatters) if rule is Rule.PAPER else ()
     return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)
@@ -149,4 +149,4 @@ def _better(
         for c in lower
         if statistic(own, trained_as(c, task, inside)) > limit(c.n_parameters, inside.freedom)
     ]
-    return tuple(sorted(candidates, key=lambda c: (c.n_parameters, c.j_test)))
+    return tuple(sorted(candidates, key=lambda c: (c.n_parameters, c.order)))

@@ -1,8 +1,8 @@
 """Covariance C of the residuals of a fit: what the lines scatter by, what the model misses beside,
 and how both hang together.
 
-    C_ij = sigma_i sigma_j r^|i-j|    for amplitudes of lines i and j, and likewise for phases;
-    none between both.
+    C_ij = sigma_i sigma_j r^|i-j|  for amplitudes of lines i and j, and likewise for phases; none
+                                    between both.
 
 sigma is the scatter of the lines (`Cost.scatter`), and larger where the residuals near by are
 significantly larger: what a model misses is an error of its parameters too. r is the correlation

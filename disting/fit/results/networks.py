@@ -9,6 +9,7 @@ from disting.files import Format
 from disting.fit.judge.explanation import FEW_CLEAR, Miss
 from disting.fit.judge.practical import NoiseModel
 from disting.fit.noise.scatter import Scatter
+from disting.fit.search.cost import comparable
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.presentation import NotebookTable, summary
@@ -88,7 +89,7 @@ class NetworkSelection(NotebookTable):
     @property
     def selected(self) -> FittedNetwork | None:
         """Of those that are left the one with the fewest determinable values, then the best."""
-        return min(self.left, key=lambda f: (f.rank, f.cost), default=None)
+        return min(self.left, key=lambda f: (f.rank, comparable(f.cost)), default=None)
 
     @property
     def sentence(self) -> str:

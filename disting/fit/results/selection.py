@@ -66,7 +66,7 @@ def sweep(candidates: Sequence[Candidate], criterion: str) -> Sweep:
     """
     if criterion not in CRITERIA:
         raise InputError(f"the criteria are {', '.join(CRITERIA)}, not {short(criterion)}")
-    ordered = sorted(candidates, key=lambda c: c.j_test)
+    ordered = sorted(candidates, key=lambda c: c.order)
     values = np.array([getattr(c.practical, criterion) for c in ordered])
     sizes = np.array([c.n_parameters for c in ordered])
     thresholds = np.geomspace(1.0, 1e4, STEPS)

@@ -15,8 +15,7 @@ but each root of h is a root of c as often, so deg h <= deg c <= k, and deg h <=
 l_1/D_1 + l_2/D_2 itself. Cancelling all common factors gives d = e f_1 f_2 and polynomials x, v, y
 with
 
-    D_1 = e v x f_1,    D_2 = e v y f_2,    v n = l_1' f_2 + l_2' f_1,    l_1 = x l_1',  l_2 = y
-    l_2'.
+    D_1 = e v x f_1,  D_2 = e v y f_2,  v n = l_1' f_2 + l_2' f_1,  l_1 = x l_1',  l_2 = y l_2'.
 
 There are finitely many e, f_1, f_2, and for each of them linear equations for v, l_1', l_2'. If
 none has a solution with v other than 0, then n/d is no limit of the larger kind, and no equivalent

@@ -4,8 +4,7 @@ springs. A complete answer.
 A row of n masses, its left end at the wall or free, its right end free, ports a < b, d = b - a, x
 = s^2:
 
-    H = N/D = A k_a .. k_(b-1) B / D,     A = theta_(a-1),  B = phi_(b+1)   (leading and trailing
-    minors)
+    H = N/D = A k_a .. k_(b-1) B / D,  A = theta_(a-1),  B = phi_(b+1)  (leading, trailing minors)
 
 Let D have n simple real zeros -l_0 > .. > -l_(n-1), l_0 >= 0, none of them a zero of N. The *word*
 of H says how many zeros of N lie in each of the n - 1 gaps between neighbouring poles, from the
@@ -17,8 +16,8 @@ both kinds together where there are two. Mode j has j sign changes (F. Gantmache
 Oscillation Matrices, 1950), of which as many lie left of a as A has zeros before l_j and as many
 right of b as B has (Sturm's theorem), so that 0 <= h_j <= d:
 
-    word in {0,1,2}^(n-1),  sum = n - 1 - d,  0 <= h_j <= d,  number of twos <= min(a - 1, n - b)
-    (upper)
+    word in {0,1,2}^(n-1),  sum = n - 1 - d,  0 <= h_j <= d,
+    number of twos <= min(a - 1, n - b)  (upper)
 
 Sufficient. Share out the poles: a to Theta, n - b + 1 to Phi, one to each of the d - 1 masses
 between the ports, such that the zeros of A separate those of Theta and the zeros of B those of
@@ -32,7 +31,7 @@ polynomial in e, so
 where the factors are coprime: by the implicit function theorem they can be changed by O(e) such
 that D(e) is the given D, which leaves them real and separated for a small e > 0. A factor of all
 masses and springs sets the gain. (Free left end: the piece with the pole 0 takes the place of the
-heaviest, the others hang on it to the left and to the right.)              (lower)
+heaviest, the others hang on it to the left and to the right.)  (lower)
 
 Reversal at the wall. J = M^(-1/2) K M^(-1/2) is a positive definite Jacobi matrix with negative
 off-diagonal entries, and each such J belongs to one row but for a factor: masses s_i^2, s = J^(-1)

@@ -149,10 +149,10 @@ def _global(shown: GlobalIdentifiability) -> str:
 def _response(shown: FrequencyResponse) -> str:
     low, high = readable(shown.frequency[0], 4), readable(shown.frequency[-1], 4)
     size = np.abs(shown.G)
-    unit = response_unit(shown)
+    unit = f" [{response_unit(shown)}]" if response_unit(shown) else ""
     rows = [
         ("lines", f"{len(shown)}, {low} to {high} Hz"),
-        ("shows", f"{shown.sensor} per input" + (f" [{unit}]" if unit else "")),
+        ("shows", f"{shown.sensor} per input{unit}"),
         ("amplitude", f"{readable(float(size.min()))} to {readable(float(size.max()))}"),
         ("input", typeset(str(shown.input))),
         ("output", typeset(str(shown.output))),
@@ -227,9 +227,7 @@ def _candidate(shown: Candidate, chosen: bool) -> tuple[object, ...]:
 def _members(shown: Selection) -> Iterator[str]:
     for member in shown.members:
         same = ", ".join(dict.fromkeys(twin.name for twin in member.twins))
-        yield (
-            f"Not excluded: {member.name}" + (f"; the same response: {same}" if same else "") + "."
-        )
+        yield f"Not excluded: {member.name}{f'; the same response: {same}' if same else ''}."
 
 
 @table_of.register
