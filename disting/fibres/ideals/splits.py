@@ -154,13 +154,14 @@ def splits(structure: Structure, h: int) -> tuple[Split, ...]:
 def _without_rigid_body(structure: Structure, whole: bool = False) -> CoefficientMap:
     """F - c/s^2, or with `whole` R + F - c/s^2: c = N_F(0)/E(0), F = N_F/(s^2 E)."""
     *grounded, free = rows_of(structure)
-    names = tuple(name for row in (*grounded * whole, free) for name in unknowns(row))
+    beside = grounded if whole else []
+    names = tuple(name for row in (*beside, free) for name in unknowns(row))
     ring = symbols(["s", *names])
     num, den = receptance_of_row(free, ring)
     rest = den // ring["s"] ** 2
     at_zero = [rename_symbols(coefficients(p, "s")[0], ring, {}) for p in (num, rest)]
     num, den = (num * at_zero[1] - rest * at_zero[0]) // ring["s"] ** 2, rest * at_zero[1]
-    for row in grounded * whole:
+    for row in beside:
         other_num, other_den = receptance_of_row(row, ring)
         num, den = num * other_den + other_num * den, den * other_den
     return separate(names, num, den)
