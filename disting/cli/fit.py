@@ -46,22 +46,22 @@ def run(options: argparse.Namespace) -> int:
 
         return run_networks(options)
     controller = read_controller(options.controller) if options.controller else None
-    source_data = data(options)
+    measured = data(options)
     left = _left(options)
     if left is None:
         announce(Work.FITS, _counted(options), options.jobs or cores())
-    candidates = _candidates(options, source_data, left.chains if left else ())
+    candidates = _candidates(options, measured, left.chains if left else ())
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
-    home = _as_measured(left.model, source_data) if left else None
-    selection = _selected(options, source_data, candidates, home, controller)
+    home = _as_measured(left.model, measured) if left else None
+    selection = _selected(options, measured, candidates, home, controller)
     if options.json:
         plain = selection_to_dict(selection)
         text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
         emit(options.json, f"{text}\n")
     if options.json != "-":
-        print(printable("\n".join(fit_text(selection, source_data.train))))
+        print(printable("\n".join(fit_text(selection, measured.train))))
     if options.out:
-        _write(selection, source_data.train, source_data.test, options)
+        _write(selection, measured.train, measured.test, options)
         if options.json != "-":
             print("\n".join(_onward(selection, options.out)))
     return 0 if selection.explanation.explains else 1
@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _selected(
     options: argparse.Namespace,
-    source_data: Data,
+    measured: Data,
     candidates: Sequence[Chain],
     home: Chain | None,
     controller: Controller | None,
@@ -77,10 +77,10 @@ def _selected(
     """What is found with these options; `home` names the places of further responses."""
     with engine_for(options) as (engine, pool, progress):
         selection = select(
-            source_data.train,
+            measured.train,
             candidates,
-            test=source_data.test,
-            further=source_data.further,
+            test=measured.test,
+            further=measured.further,
             home=home,
             alike=options.weights == "none",
             thresholds=Thresholds(*options.thresholds),
@@ -130,8 +130,8 @@ def _left(options: argparse.Namespace) -> FitRecord | None:
     return named_by(options.left)
 
 
-def _as_measured(chain: Chain, source_data: Data) -> Chain:
-    return replace(chain, sensor=source_data.train.sensor)
+def _as_measured(chain: Chain, measured: Data) -> Chain:
+    return replace(chain, sensor=measured.train.sensor)
 
 
 def _again(words: Sequence[str]) -> str:
@@ -150,14 +150,14 @@ def _again(words: Sequence[str]) -> str:
 
 
 def _candidates(
-    options: argparse.Namespace, source_data: Data, left: Sequence[Chain] = ()
+    options: argparse.Namespace, measured: Data, left: Sequence[Chain] = ()
 ) -> tuple[Chain, ...]:
     """The structures to fit, or those that an earlier fit left; raises InputError where a parameter
     named by --fix or --bound is in none of them.
     """
-    quantity = source_data.train.sensor
+    quantity = measured.train.sensor
     if left:
-        chains = tuple(_as_measured(chain, source_data) for chain in left)
+        chains = tuple(_as_measured(chain, measured) for chain in left)
     elif options.family:
         chains = whole_family(options.masses, quantity)
     else:
@@ -167,7 +167,7 @@ def _candidates(
     if not left:
         chains = tuple(replace(chain, damped=is_damped(options)) for chain in chains)
     names = {name for chain in chains for name in chain.parameters}
-    names |= {further.setup.delay for further in source_data.further} - {""}
+    names |= {further.setup.delay for further in measured.further} - {""}
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in names]
     if unknown:
         raise InputError(

@@ -107,9 +107,9 @@ def _each(selection: Selection) -> Iterator[str]:
     """What the judged data of each of several responses say, and what says nothing."""
     judging, c = selection.judging, selection.described
     said = explanations(judging, c.residual, c.missed, selection.explanation.scatter)
-    own_explanations = dict(zip((setup.text for setup in judging.setups), said, strict=True))
+    by_setup = dict(zip((setup.text for setup in judging.setups), said, strict=True))
     for name, fit in fits_of(selection, c):
-        explanation = own_explanations.get(name)
+        explanation = by_setup.get(name)
         judged = (
             f"chi2 per line {explanation.chi2:.3g}, its lines scatter by"
             f" {percent(explanation.scatter.typical)}; "

@@ -44,12 +44,12 @@ def run(options: argparse.Namespace) -> int:
             "of networks and models of a file values and formulas are listed, not experiments:"
             " leave --also away"
         )
-    (source_model,) = _named(options.model, options)
+    (asked,) = _named(options.model, options)
     listed = map(of_network, family_of(options.family).networks) if options.family else ()
     named = _named(options.to, options) if options.to else []
-    others = [model for model in (*listed, *named) if model.name != source_model.name]
-    keep_apart(model.name for model in (source_model, *others))
-    if [model.name for model in named] == [source_model.name]:  # which other values does it have
+    others = [model for model in (*listed, *named) if model.name != asked.name]
+    keep_apart(model.name for model in (asked, *others))
+    if [model.name for model in named] == [asked.name]:  # which other values does it have
         others = named
     values = assignments(options.values) if options.values else None
     formulas = options.formulas or options.latex or options.sympy
@@ -57,20 +57,20 @@ def run(options: argparse.Namespace) -> int:
         raise InputError("formulas are for any values: leave --set away, or ask for values alone")
     with engine_for(options) as (engine, _, progress):
         if options.family:
-            recall_of(source_model, options.family, engine)
-        equivalents = model_equivalents(source_model, others, values, engine=engine)
-        written = list(_formulas(source_model, equivalents, options, progress)) if formulas else []
+            recall_of(asked, options.family, engine)
+        equivalents = model_equivalents(asked, others, values, engine=engine)
+        written = list(_formulas(asked, equivalents, options, progress)) if formulas else []
     if options.json:
         whole = {
             "format": Format.NETWORK_EQUIVALENTS.value,
-            "given": source_model.name,
+            "given": asked.name,
             "equivalents": [x.to_dict() for x in equivalents],
         }
         emit(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
         return 0
-    other = "network" if source_model.network else "model"
-    other = other if others == [source_model] else f"other {other}"
-    head = _counted(source_model.name, plural(len(others), other), equivalents)
+    other = "network" if asked.network else "model"
+    other = other if others == [asked] else f"other {other}"
+    head = _counted(asked.name, plural(len(others), other), equivalents)
     print("\n".join([_mark(options) + head, *(written if formulas else _lines(equivalents))]))
     return 0
 

@@ -52,14 +52,14 @@ def chains_of(to: Chain | Family | str, chain: Chain) -> tuple[Chain, ...]:
     )
 
 
-def _named(to: Family | str, source_chain: Chain) -> tuple[Chain, ...]:
+def _named(to: Family | str, like: Chain) -> tuple[Chain, ...]:
     """The chains as their text names them."""
     if isinstance(to, Family):
         return to.models
-    family = Family(source_chain.n_masses, source_chain.damped, source_chain.sensor)
+    family = Family(like.n_masses, like.damped, like.sensor)
     match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
     if match is None:
-        return (chain_of(to, family, masses=source_chain.n_masses),)
+        return (chain_of(to, family, masses=like.n_masses),)
     plain = [extend(chain, match[3]) for chain in with_masses(family, int(match[1])).models]
     return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
 

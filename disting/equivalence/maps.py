@@ -46,8 +46,8 @@ class Map:
     safety: int
 
     def __repr__(self) -> str:
-        source_text = ", ".join(self.given.parameters)
-        return summary(self, f"{', '.join(self.formulas)} from {source_text} ({self.certainty})")
+        parameters = ", ".join(self.given.parameters)
+        return summary(self, f"{', '.join(self.formulas)} from {parameters} ({self.certainty})")
 
     def at(self, values: Mapping[str, Value]) -> dict[str, Any]:
         """Parameters of `other`, exact fractions, at values of the given ones. Raises

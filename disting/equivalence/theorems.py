@@ -94,17 +94,15 @@ def row_from_end(
     return masses, springs
 
 
-def _by_rows(source_chain: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
+def _by_rows(start: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
     """The chain with one or both rows seen from the gap, the other one as it is."""
-    chain = replace(source_chain, act_plus=g + 1, meas_plus=g + 1) if free else source_chain
+    chain = replace(start, act_plus=g + 1, meas_plus=g + 1) if free else start
     chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
 
     def values() -> dict[str, RationalFunction]:
         """Masses and springs in terms of those of the given chain."""
         functions = {
-            name: RationalFunction(p, p**0)
-            for name, p in _ring(source_chain).items()
-            if name != "s"
+            name: RationalFunction(p, p**0) for name, p in _ring(start).items() if name != "s"
         }
         masses, springs = (
             [functions[f"m{i}"] for i in range(1, n + 1)],
@@ -112,12 +110,12 @@ def _by_rows(source_chain: Chain, n: int, g: int, free: bool, grounded: bool) ->
         )
         if free:
             masses[g:], springs[g:] = _seen(
-                source_chain, Ports(0, source_chain.act_plus, 0, source_chain.meas_plus), wall=False
+                start, Ports(0, start.act_plus, 0, start.meas_plus), wall=False
             )
         if grounded:
             inner = _seen(
-                source_chain,
-                Ports(source_chain.act_minus, 0, source_chain.meas_minus, 0),
+                start,
+                Ports(start.act_minus, 0, start.meas_minus, 0),
                 wall=True,
             )
             masses[:g], springs[:g] = inner[0][::-1], inner[1][::-1]

@@ -242,7 +242,7 @@ def _value_of(terms: Terms, point: Sequence[Residue]) -> Residue:
     return total
 
 
-def _size(form: ClosedForm, source_model: AnyModel, other: AnyModel) -> Size:
+def _size(form: ClosedForm, given_model: AnyModel, other: AnyModel) -> Size:
     """Bounds of the polynomials c_S, of what is compared and of all denominators."""
     bounds = dict.fromkeys(form.given, (1.0, 0.0))
     for step in form.steps:
@@ -252,7 +252,7 @@ def _size(form: ClosedForm, source_model: AnyModel, other: AnyModel) -> Size:
         bounds[step.name] = sum(d for d, _ in parts), sum(b for _, b in parts)
     values = {name: _bounds(value, bounds) for name, value in form.values}
     parts = [*bounds.values(), *values.values()]
-    for model, at in ((source_model, bounds), (other, values)):
+    for model, at in ((given_model, bounds), (other, values)):
         for entry in model.entries:
             every = [t for c in (*entry.numerator_terms, *entry.denominator_terms) for t in c]
             powers = [max(e[i] for e, _ in every) for i in range(len(entry.parameters))]

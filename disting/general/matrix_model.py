@@ -104,10 +104,10 @@ class MatrixModel(NotebookTable):
         output. Raises InputError.
         """
         variable = frequency(s)
-        source_rows = rows_of(rows)
+        entries = rows_of(rows)
         unit = polynomial(1, variable)
-        sides = [[(polynomial(entry, variable), unit) for entry in row] for row in source_rows]
-        refuse_namesakes(*(entry for row in source_rows for entry in row), s)
+        sides = [[(polynomial(entry, variable), unit) for entry in row] for row in entries]
+        refuse_namesakes(*(entry for row in entries for entry in row), s)
         parameters = parameters_of((top for row in sides for top, _ in row), variable)
         ring = symbols([variable, *parameters])
         expansion = Expansion(ring, ring[variable] ** 0)

@@ -115,30 +115,30 @@ def of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
     if len(kinds) != 1:
         raise InputError(f"a model is {FORMS}; this one is {' and '.join(kinds) or 'none of them'}")
     names = KINDS[kinds[0]]
-    source_entry = object_of(entry, ("name", *names), f'a model with "{kinds[0]}"')
+    plain = object_of(entry, ("name", *names), f'a model with "{kinds[0]}"')
     match kinds[0]:
         case "A":
-            _refuse_missing(source_entry, ("C",) if "x0" in source_entry else ("B", "C"))
+            _refuse_missing(plain, ("C",) if "x0" in plain else ("B", "C"))
             space = (
-                source_entry["A"],
-                source_entry.get("B"),
-                source_entry["C"],
-                source_entry.get("D", 0),
+                plain["A"],
+                plain.get("B"),
+                plain["C"],
+                plain.get("D", 0),
             )
-            return _single(_of_space(space, source_entry, variable, name))
+            return _single(_of_space(space, plain, variable, name))
         case "num":
             return Model.from_transfer_function(
-                source_entry["num"], source_entry.get("den", 1), s=variable, name=name
+                plain["num"], plain.get("den", 1), s=variable, name=name
             )
         case "G":
-            if isinstance(source_entry["G"], list):
-                return MatrixModel.from_transfer_functions(source_entry["G"], s=variable, name=name)
-            return Model.from_transfer_function(source_entry["G"], s=variable, name=name)
+            if isinstance(plain["G"], list):
+                return MatrixModel.from_transfer_functions(plain["G"], s=variable, name=name)
+            return Model.from_transfer_function(plain["G"], s=variable, name=name)
         case "chain":
-            return _of_chain(source_entry, name)
-    if "x0" in source_entry or "known" in source_entry:
-        return _single(_of_flows(source_entry, variable, name))
-    return of_network(network_of_entry(source_entry, name))
+            return _of_chain(plain, name)
+    if "x0" in plain or "known" in plain:
+        return _single(_of_flows(plain, variable, name))
+    return of_network(network_of_entry(plain, name))
 
 
 def _of_space(space: tuple[Any, ...], entry: Plain, variable: str, name: str) -> MatrixModel:

@@ -199,7 +199,7 @@ def _word(column: Column) -> str:
         if column.role is Role.PHASE:
             return known_unit(column.unit, PHASES) or "phase"
         return level_of(column) if level_of(column) != "1" else "magnitude"
-    return next((word for word, own_column in WORDS.items() if own_column.role is column.role), "-")
+    return next((word for word, meant in WORDS.items() if meant.role is column.role), "-")
 
 
 def _given(table: Table, asked: Sequence[str]) -> list[Column]:

@@ -146,9 +146,9 @@ def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, Respo
         return {name: stored_response}
     parts = value.items() if isinstance(value, dict) else ()
     return {
-        key: this_stored_response
+        key: response
         for field, part in parts
-        for key, this_stored_response in _within(f"{name}.{field}", part, subsystem).items()
+        for key, response in _within(f"{name}.{field}", part, subsystem).items()
     }
 
 

@@ -263,24 +263,24 @@ def _turned(
     for e in of.frame.entries:
         whole = whole * e.value(point) % modulus if e.divides else whole
     sides = [side * whole for side in (num, den)]
-    nmod_polies = [[zero] * of.frame.n_values, [zero] * of.frame.n_values]
-    source_nmod_polies = iter(slopes)
+    gradients = [[zero] * of.frame.n_values, [zero] * of.frame.n_values]
+    derivatives = iter(slopes)
     for e in of.frame.entries:
-        pair = [next(source_nmod_polies) * whole for _ in sides]
+        pair = [next(derivatives) * whole for _ in sides]
         if e.divides and e.place is not None:
             below = pow(point[e.place], -1, modulus)
             pair = [(side - d * below) * below for side, d in zip(sides, pair, strict=True)]
-        by_ratio = [] if e.ratio is None else [next(source_nmod_polies) * whole for _ in sides]
+        by_ratio = [] if e.ratio is None else [next(derivatives) * whole for _ in sides]
         for place, each in ((e.place, pair), (e.ratio, by_ratio)):
             if place is not None:
-                for total, slope in zip(nmod_polies, each, strict=True):
+                for total, slope in zip(gradients, each, strict=True):
                     total[place] += slope
     up = of.gained
     return Sides(
         sides[0].left_shift(up),
         sides[1],
-        tuple(d.left_shift(up) for d in nmod_polies[0]),
-        tuple(nmod_polies[1]),
+        tuple(d.left_shift(up) for d in gradients[0]),
+        tuple(gradients[1]),
     )
 
 

@@ -114,9 +114,9 @@ def _branches(
 def _in(form: str) -> Join:
     """Branches joined in this form; those inside that are of it already are taken apart."""
 
-    def made(source_branches: Iterable[Branch]) -> Branch:
+    def made(groups: Iterable[Branch]) -> Branch:
         """One of them, or all together."""
-        flat = [b for g in source_branches for b in (g.inside if g.form == form else (g,))]
+        flat = [b for g in groups for b in (g.inside if g.form == form else (g,))]
         return flat[0] if len(flat) == 1 else Branch(form, tuple(sorted(flat)))
 
     return made

@@ -153,7 +153,7 @@ def _counted(of: Assembly) -> Counts | None:
     """Those of an assembly whose ratios agree; None of one whose terms are not counted, or where
     both sides share the ratio of a gear.
     """
-    powers, source_assembly = [e.power for e in of.frame.entries], of
+    powers, whole = [e.power for e in of.frame.entries], of
     of = replace(of, frame=of.frame.ungeared, scale=1)
     sides = _digits(of, powers)
     # twice the values that do not divide, once the s of compartments and the ratios
@@ -174,7 +174,7 @@ def _counted(of: Assembly) -> Counts | None:
         if side
     ]
     num, den = sides
-    sizes = sides if of == source_assembly else _digits(source_assembly, powers) or sides
+    sizes = sides if of == whole else _digits(whole, powers) or sides
     directed = any(e.place is None for e in of.frame.entries)
     free = (n - 1 + of.gained, n) if directed else (None, None)
     size, mean = max(map(max, filter(None, sizes))), Fraction(sizes[1][-1], den[-1])

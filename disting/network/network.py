@@ -259,8 +259,8 @@ def _problems_of_ends(network: Network, port: Port, what: str) -> Iterator[str]:
 
 def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]:
     (entering, _), (seeing, _) = names = PORTS[network.sort]
-    for source_ports, (what, example) in zip((network.inputs, network.outputs), names, strict=True):
-        if not source_ports:
+    for side, (what, example) in zip((network.inputs, network.outputs), names, strict=True):
+        if not side:
             yield f"{what} is missing: say where it is, such as {example} in a text"
     if len(ports) > 2 * MOST_PORTS:
         yield f"a network has {MOST_PORTS} inputs and outputs at most"

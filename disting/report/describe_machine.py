@@ -126,7 +126,7 @@ def _depending(c: Catalog) -> dict[int, list[int]]:
     pairs = [way for low, high in c.depending() for way in ((low, high), (high, low))]
     pairs += [(case.given, case.other) for case in one_sided_pairs(c)]
     return {
-        number: sorted(other for source_number, other in pairs if source_number == number)
+        number: sorted(other for first, other in pairs if first == number)
         for number in sorted({p for p, _ in pairs})
     }
 

@@ -79,11 +79,9 @@ def write_family(
     (['list-two-cells.html', 'list-two-cells.csv'], 7)
     """
     engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
-    source_models = of_type(
-        models, Iterable, "the models are a list of models, or what yields them"
-    )
+    listed = of_type(models, Iterable, "the models are a list of models, or what yields them")
     called = of_type(title, str, "the title is a text")
-    made = ModelList(tuple(map(model_of, source_models)), called)
+    made = ModelList(tuple(map(model_of, listed)), called)
     if len(made) < 2:
         raise InputError("there is nothing to compare: a family has two models at least")
     refuse_ports(made.models)

@@ -72,10 +72,9 @@ def describe_network(network: Network) -> str:
     joints = [_in_words(e, network.sort) for e in network.elements if e.kind.ends == 2]
     end = "the ground" if network.sort is Sort.MACHINE else "the outside"
     ports = []
-    for side, source_ports in zip(
-        port_signs(network), (network.inputs, network.outputs), strict=True
-    ):
-        for sign, p in zip(side, source_ports, strict=True):
+    sides = network.inputs, network.outputs
+    for signs, side in zip(port_signs(network), sides, strict=True):
+        for sign, p in zip(signs, side, strict=True):
             other = f" against {p.minus or end}" if p.minus or network.sort is Sort.CIRCUIT else ""
             shown = f" ({list(Sensor)[network.order]})" if sign[0] == "y" else ""
             ports.append(f"{sign}{shown} at {p.plus}{other}")

@@ -127,9 +127,9 @@ def _responses(
 ) -> list[Complex]:
     """Each response at its lines."""
     cost = JointCost(task.cost.parts, tuple(setups))
-    source_task = replace(task, cost=cost)
-    p = np.array([values[name] for name in source_task.names(chain)])
-    return task.cost.by_line(source_task.plant(chain).response(p))
+    under = replace(task, cost=cost)
+    p = np.array([values[name] for name in under.names(chain)])
+    return task.cost.by_line(under.plant(chain).response(p))
 
 
 def _same(values: Complex, other: Complex) -> bool:

@@ -82,8 +82,8 @@ def responses_of(
     values; raises InputError for missing, unknown or negative ones, and where one is zero.
     """
     plant = plant_of(structure, omega)
-    source_values = check_values(structure, values)
-    whole = plant.response(np.array([source_values[name] for name in plant.parameters]))
+    numbers = check_values(structure, values)
+    whole = plant.response(np.array([numbers[name] for name in plant.parameters]))
     if not np.all(whole):
         raise InputError(
             f"{name_of(structure)}: a sensor shows nothing of an input: leave one of both away"
@@ -153,28 +153,24 @@ def _of_networks(
     model: Network, values: Mapping[str, float], rival: Network, cost: AnyCost
 ) -> Search:
     def again(other: AnyCost) -> BestFit:
-        return _better(
-            search_from(other_network_plant, other, starts), other_network_plant, other, own
-        )
+        return _better(search_from(rival_plant, other, starts), rival_plant, other, own)
 
     measured = cost.measured
     n = len(cost.parts)
-    own_network_plant, other_network_plant = (
+    model_plant, rival_plant = (
         network_plant(network, (measured.omega,) * n) for network in (model, rival)
     )
     starts, others = (
         random_starts(plant, measured, STARTS, np.random.default_rng((SEED, i)))
-        for i, plant in ((1, other_network_plant), (0, own_network_plant))
+        for i, plant in ((1, rival_plant), (0, model_plant))
     )
-    usual = dict(
-        zip(other_network_plant.parameters, np.exp(np.log(starts).mean(axis=0)), strict=True)
-    )
+    usual = dict(zip(rival_plant.parameters, np.exp(np.log(starts).mean(axis=0)), strict=True))
     own = np.array([[values.get(name, size) for name, size in usual.items()]])
     return Search(
-        (own_network_plant, other_network_plant),
+        (model_plant, rival_plant),
         again(cost),
         again,
-        search_from(own_network_plant, cost, others).j,
+        search_from(model_plant, cost, others).j,
         usual,
     )
 

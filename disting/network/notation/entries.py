@@ -118,17 +118,13 @@ def _of_elements(entry: Entry, name: str, quantity: Sensor) -> Network:
     return Network(elements, sides[0], sides[1], quantity.order if machine else 0, name)
 
 
-def _element(source_value: object) -> Element:
-    if (
-        not isinstance(source_value, list)
-        or len(source_value) < 2
-        or not isinstance(source_value[0], str)
-    ):
+def _element(entry: object) -> Element:
+    if not isinstance(entry, list) or len(entry) < 2 or not isinstance(entry[0], str):
         raise InputError(
             'an element is a list of a name and its nodes, such as ["k12", 1, 2], not'
-            f" {short(source_value)}"
+            f" {short(entry)}"
         )
-    name, *rest = source_value
+    name, *rest = entry
     kind = KINDS["v"] if name == "v" else kind_of(name)
     more = rest.pop() if len(rest) > kind.ends else ""
     phase = kind.letter == "P"
