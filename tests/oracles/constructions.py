@@ -9,7 +9,13 @@ from scipy.linalg import qr
 from scipy.optimize import least_squares
 
 STARTS = 200
-NEAR, FARTHER = 1.5, 0.03  # logarithms of values from which searches start, and growth of these
+SPREADS = (
+    0.5,
+    1.0,
+    1.5,
+    2.0,
+    3.0,
+)  # of the logarithms of values from which searches start, in turn
 BITS = 256
 STEPS = 12
 CLOSE = 1e-4
@@ -28,7 +34,7 @@ def construct(given, other, draw, starts=STARTS):
         exact = _ratios(_values(rows, list(map(arb, mine))))
         goal = np.array([float(x) for x in exact])
         for k in range(starts):
-            start = _start(there, len(other.parameters), goal, draw, NEAR + k * FARTHER)
+            start = _start(there, len(other.parameters), goal, draw, SPREADS[k % len(SPREADS)])
             found = None if start is None else _polished(there, start, exact)
             if found is not None:
                 return found
@@ -55,20 +61,21 @@ def _start(rows, count, goal, draw, spread):
         return found / goal - 1, by / goal[:, None]
 
     first = np.array([draw.uniform(-spread, spread) for _ in range(count)])
-    tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "max_nfev": 300}
+    tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "max_nfev": 1000}
     found = least_squares(lambda x: both(x)[0], first, lambda x: both(x)[1], **tight)
     if np.max(np.abs(found.fun)) > CLOSE or np.max(np.abs(found.x)) > FARTHEST:
         return None
     table = both(found.x)[1]
-    equations, unknowns = _independent(table.T), _independent(table)
-    return np.exp(found.x), equations, unknowns[: len(equations)]
+    equations = _independent(table.T)
+    return np.exp(found.x), equations, _independent(table[equations], len(equations))
 
 
-def _independent(table):
-    """Columns that span all, as far as rounded numbers tell."""
+def _independent(table, count=None):
+    """So many columns that are independent; all that span the rest, as far as rounded numbers tell."""
     _, upper, order = qr(table, mode="economic", pivoting=True)
     sizes = np.abs(np.diag(upper))
-    return sorted(int(i) for i in order[: int(np.sum(sizes > SMALL * sizes[0]))])
+    rank = int(np.sum(sizes > SMALL * sizes[0])) if count is None else count
+    return sorted(int(i) for i in order[:rank])
 
 
 def _polished(rows, start, exact):

@@ -9,7 +9,8 @@ from scipy.optimize import least_squares
 from disting.general.any_model import of_network
 from tests.oracles.plain_network import equations
 
-STARTS = 60
+STARTS = 200
+SPREADS = (0.5, 1.0, 1.5)  # of the logarithms of values from which searches start, in turn
 FREQUENCIES = (0.31, 0.77, 1.3, 2.9, 7.1)
 CLOSE = 1e-9
 FARTHEST = 30.0  # logarithm of a value: farther away it runs to zero or infinity
@@ -31,10 +32,11 @@ def twin(given, other, draw, starts=STARTS):
     def slopes(logs):
         return _jacobian(there, _values(logs)) / goal[:, None]
 
-    for _ in range(starts):
-        start = np.array([draw.uniform(-1.5, 1.5) for _ in there.parameters])
+    for k in range(starts):
+        far = SPREADS[k % len(SPREADS)]
+        start = np.array([draw.uniform(-far, far) for _ in there.parameters])
         found = least_squares(
-            residual, start, slopes, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=300
+            residual, start, slopes, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=1000
         )
         if np.max(np.abs(found.fun)) < CLOSE / 100 and np.max(np.abs(found.x)) < FARTHEST:
             theirs = list(_values(found.x))
