@@ -2,6 +2,7 @@
 the lines. The scatter is found, the true structure is kept.
 """
 
+import os
 import shlex
 from dataclasses import replace
 
@@ -275,12 +276,15 @@ def test_parameters_are_those_of_the_highest_likelihood():
 @pytest.mark.slow
 @pytest.mark.parametrize("tested", [False, True], ids=["alone", "with test data"])
 @pytest.mark.parametrize("repeats", [1, 2, 10])
-@pytest.mark.parametrize(("n_masses", "least"), [(2, 0.95), (3, 0.95), (4, 0.9)])
-def test_the_true_structure_is_kept_in_95_percent(n_masses, least, repeats, tested):
-    machines = [drive(n_masses, seed) for seed in range(200)]
+@pytest.mark.parametrize(
+    ("n_masses", "drives", "share"), [(2, 20, 0.05), (3, 8, 0.05), (4, 2, 0.1)]
+)
+def test_the_true_structure_is_kept_but_for_a_share(n_masses, drives, share, repeats, tested):
+    """A cell of the table; with DRIVES=200 in the environment a whole one, which takes hours."""
+    machines = [drive(n_masses, seed) for seed in range(int(os.environ.get("DRIVES", drives)))]
     found = [outcome(m, selected(m, repeats, tested)) for m in machines]
     print(n_masses, repeats, tested, table(found))
-    assert np.mean([one.kept for one in found]) >= least
+    assert sum(not one.kept for one in found) <= 1 + share * len(machines)
     assert np.mean([one.smaller_excluded for one in found]) >= 2 / 3
 
 
