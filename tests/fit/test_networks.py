@@ -1,6 +1,7 @@
 """Networks fitted to responses: truths that are kept, published fits, bad input."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -192,6 +193,10 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
     assert [f.network.name for f in found.left] == [truth.name]
     low, high = sorted([found.selected.values["C1"], found.selected.values["C2"]])
     assert (low, high) == pytest.approx((1e-3, 1e-2), rel=0.05)
+    first = found.selected
+    for step, is_first in ((-1e-9, True), (-1e-3, False)):  # rounding selects nothing
+        other = replace(first, residual=first.residual * (1 + step))
+        assert (replace(found, fits=(first, other)).selected is first) == is_first
 
 
 def test_an_exponent_is_found_and_a_capacitor_excluded():

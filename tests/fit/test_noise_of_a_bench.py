@@ -275,16 +275,20 @@ def test_parameters_are_those_of_the_highest_likelihood():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tested", [False, True], ids=["alone", "with test data"])
-@pytest.mark.parametrize("repeats", [1, 2, 10])
 @pytest.mark.parametrize(
-    ("n_masses", "drives", "share"), [(2, 20, 0.05), (3, 8, 0.05), (4, 2, 0.1)]
+    ("n_masses", "drives", "least"), [(2, 20, 0.95), (3, 8, 0.95), (4, 2, 0.9)]
 )
-def test_the_true_structure_is_kept_but_for_a_share(n_masses, drives, share, repeats, tested):
-    """A cell of the table; with DRIVES=200 in the environment a whole one, which takes hours."""
-    machines = [drive(n_masses, seed) for seed in range(int(os.environ.get("DRIVES", drives)))]
-    found = [outcome(m, selected(m, repeats, tested)) for m in machines]
-    print(n_masses, repeats, tested, table(found))
-    assert sum(not one.kept for one in found) <= 1 + share * len(machines)
+def test_the_true_structure_is_kept_in_95_percent(n_masses, drives, least, tested):
+    """Of all drives, however often each is measured; DRIVES=200 in the environment makes the cells
+    of a table of them, in many hours.
+    """
+    found = []
+    for repeats in (1, 2, 10):
+        machines = [drive(n_masses, seed) for seed in range(int(os.environ.get("DRIVES", drives)))]
+        cell = [outcome(m, selected(m, repeats, tested)) for m in machines]
+        print(n_masses, repeats, tested, table(cell))
+        found += cell
+    assert np.mean([one.kept for one in found]) >= least
     assert np.mean([one.smaller_excluded for one in found]) >= 2 / 3
 
 

@@ -3,7 +3,7 @@ complex numbers.
 
 Notation: n1, n2 parameters, c coordinates, V1 and V2 the closures of the images of Phi1 and Phi2.
 Point and prime are random. Of numerators of unequal degrees the missing coordinates are the
-polynomial 0, to which all of the following applies. The relations E are those of `fibre_ideal`;
+polynomial 0, to which all of the following applies. Relations E are those of the last theorem here;
 degrees d_1 >= d_2 >= .. are those of the coordinates, 1 at least.
 
 EMPTY FIBRE. Suppose that generic points of V1 were reached by Phi2. Then {(p, q): Phi1(p) =

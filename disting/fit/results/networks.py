@@ -88,7 +88,9 @@ class NetworkSelection(NotebookTable):
 
     @property
     def selected(self) -> FittedNetwork | None:
-        """Of those that are left the one with the fewest determinable values, then the best."""
+        """Of those that are left the one with the fewest determinable values, then of the least
+        cost, to six digits, then the first that was named.
+        """
         return min(self.left, key=lambda f: (f.rank, comparable(f.cost)), default=None)
 
     @property
