@@ -26,7 +26,7 @@ from disting.conditions.side import AnySide
 from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
-from disting.general.any_model import of_network, without_names
+from disting.general.any_model import without_names
 from disting.general.forms import of_equals
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
@@ -75,7 +75,7 @@ def build_networks(
     """The text of the file of a family, computed; the bytes do not depend on the machine or the
     order of the work, but where what can be determined was not found in time (`reason`).
     """
-    sides = engine.general_subjects([of_network(n) for n in family.networks])
+    sides = engine.general_subjects(family.networks)
     over_complex = engine.decisions(sides, COMPLEX, executor=executor, progress=progress)
     if family.name in IN_BRIEF:
         search_in_brief(engine, sides, over_complex, executor, progress)
@@ -210,7 +210,7 @@ def _known(
     """The networks of a family, and the lines of its file on them and on their pairs; none where
     there is none, or where it has other random points: what is known by these is not what is asked.
     """
-    sides = engine.general_subjects([of_network(n) for n in family_of(family).networks])
+    sides = engine.general_subjects(family_of(family).networks)
     path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
     records = read(path) if path.is_file() else []
     is_asked = records and records[0]["settings"] == engine.settings.to_dict()
@@ -276,7 +276,7 @@ def verify_networks(
 
 
 def _false_evidence(family: NetworkFamily, records: list[Record], engine: Engine) -> list[str]:
-    sides = engine.general_subjects([of_network(n) for n in family.networks])
+    sides = engine.general_subjects(family.networks)
     wrong = []
     for r in records[1 + len(sides) :]:
         left, right = sides[r["left"] - 1], sides[r["right"] - 1]

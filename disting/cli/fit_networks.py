@@ -17,7 +17,7 @@ from disting.fit.results.networks import BAR, FittedNetwork, NetworkSelection
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
 from disting.model.chain import Sensor
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.families import FAMILIES
 from disting.network.network import Network
 from disting.network.notation import network_of

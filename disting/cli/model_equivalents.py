@@ -17,15 +17,14 @@ from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
 from disting.files import Format
 from disting.general.alternatives import Alternatives
-from disting.general.any_model import of_network
+from disting.general.any_model import as_model, of_network
 from disting.general.balls import POSITIVE, Synthesis
 from disting.general.equivalent import spell
 from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
 from disting.general.model_files import read_models
 from disting.general.synthesis import NoFormulas
-from disting.model.names import name_of, read_together
+from disting.model.names import read_together
 from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.families import family_of
@@ -85,7 +84,7 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
     if options.notation or notations_of(text):
         return [of_network(network_of(text, options.notation))]
     (chain,) = read_together([text], damped=options.damped)
-    return [Model.from_chain(chain, name=name_of(chain))]
+    return [as_model(chain)]
 
 
 def _counted(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:

@@ -14,7 +14,7 @@ from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor, text_drawing
 from disting.model.names import NAME, damping_option, read_together
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 

@@ -24,11 +24,10 @@ from disting.cli.workers import engine_for
 from disting.conditions.side import AnySide
 from disting.errors import InputError, enumeration, printable
 from disting.experiments.menu import Costs, Item
-from disting.general.any_model import of_network
 from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import name_of, read, read_together
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine
 from disting.verdict.network_placement import further_networks
@@ -119,7 +118,7 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
         )
     names = [network.name for network in networks]
     with engine_for(options) as (engine, pool, progress):
-        sides = engine.general_subjects(list(map(of_network, networks)), names)
+        sides = engine.general_subjects(networks, names)
         apart = _told_apart(sides, engine)
         if apart:
             print(apart)

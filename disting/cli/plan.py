@@ -30,9 +30,8 @@ from disting.fit.search.starts import Parameters
 from disting.measurement import read
 from disting.measurement.arrays import Real
 from disting.measurement.impedance import as_impedance
-from disting.model.chain import Chain
 from disting.model.names import damping_option
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.write import write_plan
 
@@ -172,7 +171,7 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: Paramete
     if options.lines is not None:
         raise InputError("the lines are those of the measured response: leave --lines away")
     response = read(Path(options.noise))
-    is_machine = isinstance(model, Chain) or model.sort is Sort.MACHINE
+    is_machine = model.sort is Sort.MACHINE
     response = response.to_quantity(sensor_of(model)) if is_machine else as_impedance(response)
     for note in (*response.notes, *response.suspicions):
         complain(f"{response.origin or 'data'}: {note}")

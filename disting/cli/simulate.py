@@ -9,7 +9,7 @@ from disting.cli.arguments import add_damped, add_notation, add_quantity, refuse
 from disting.cli.output import emit, written_file
 from disting.errors import InputError, short
 from disting.model.chain import Chain, Sensor
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.network import Network
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def _response(model: Chain | Network, options: argparse.Namespace) -> str:
     """The quantity of the response: of a circuit or compartments there is none to choose, and what
     they show counts as a position.
     """
-    if isinstance(model, Chain) or model.sort is Sort.MACHINE:
+    if model.sort is Sort.MACHINE:
         return str(options.response or Sensor.ACCELERATION)
     for name in ("quantity", "response"):
         if getattr(options, name):

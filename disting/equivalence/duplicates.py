@@ -12,17 +12,17 @@ from disting.errors import ContradictionError, InputError, enumeration, of_type
 from disting.evidence.general import Explicit
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.general.any_model import of_network, on_one_variable, without_names
+from disting.general.any_model import as_model, on_one_variable, without_names
 from disting.general.closed_form import ClosedForm, confirm
 from disting.general.formulas import fit, of_way
 from disting.general.identifiability import PARAMETERS
-from disting.general.matrix_model import AnyModel, MatrixModel
+from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.synthesis import NoFormulas
 from disting.general.values_of_parts import by_parts
 from disting.general.which_models import way
 from disting.model.chain import Chain
-from disting.model.names import name_of, read_together
+from disting.model.names import read_together
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Domain
 from disting.network.network import Network
@@ -216,12 +216,8 @@ def model_of(model: Given) -> AnyModel:
     """
     if isinstance(model, str):
         model = network_of(model) if notations_of(model) else read_together([model])[0]
-    if isinstance(model, Network):
-        return of_network(model)
-    if isinstance(model, Chain):
-        return Model.from_chain(model, name=name_of(model))
     wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
-    return of_type(model, Model | MatrixModel, wanted)
+    return as_model(of_type(model, Chain | Network | AnyModel, wanted))
 
 
 def duplicate(decided: Decisions, made: Sequence[AnyModel], kept: int, other: int) -> Duplicate:

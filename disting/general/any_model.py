@@ -23,7 +23,7 @@ from disting.general.model import Model, Terms
 from disting.general.powers import Cell, Powers, in_v, out_of_v, separating_weights
 from disting.model.chain import Chain
 from disting.model.question import Settings
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.questions.same.exact import SAFETY, as_finding
 
@@ -56,6 +56,13 @@ def of_network(network: Network) -> AnyModel:
     """The transfer function of a network, or the matrix of all; raises InputError."""
     single = network.shape == (1, 1)
     return Model.from_network(network) if single else MatrixModel.from_network(network)
+
+
+def as_model(source: Chain | Network | AnyModel) -> AnyModel:
+    """The general model of a chain or of a network; a model as it is. Raises InputError."""
+    if isinstance(source, Chain):
+        return Model.from_chain(source)
+    return of_network(source) if isinstance(source, Network) else source
 
 
 def on_one_variable(models: Sequence[M]) -> list[M]:

@@ -23,6 +23,7 @@ from disting.model.structure import (
     Indices,
     Mass,
     Ports,
+    Sort,
     Spring,
     Structure,
     violations,
@@ -192,6 +193,16 @@ class Chain(NotebookPicture):
         return Indices(
             self.n_masses, self.gap, self.act_minus, self.act_plus, self.meas_minus, self.meas_plus
         )
+
+    @property
+    def sort(self) -> Sort:
+        """A machine, as of a network."""
+        return Sort.MACHINE
+
+    @property
+    def order(self) -> int:
+        """How often what the sensor shows is differentiated."""
+        return self.sensor.order
 
     @property
     def premise(self) -> Premise:

@@ -16,6 +16,7 @@ is not listed in a family.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
@@ -23,6 +24,14 @@ from typing import NamedTuple
 from disting.errors import InputError
 
 HIGHEST = 2  # derivative that has Markov parameters and a state space whatever the ports
+
+
+class Sort(StrEnum):
+    """What a model is of; its elements are all of one sort."""
+
+    MACHINE = "machine"
+    CIRCUIT = "circuit"
+    COMPARTMENTS = "compartments"
 
 
 class Indices(NamedTuple):

@@ -2,8 +2,8 @@
 
 from disting.errors import ConstraintViolation, InputError
 from disting.model.chain import Chain, Sensor
-from disting.model.structure import Damper, Mass, Spring, Structure
-from disting.network.element import Element, Port, Sort
+from disting.model.structure import Damper, Mass, Sort, Spring, Structure
+from disting.network.element import Element, Port
 from disting.network.network import Network
 
 

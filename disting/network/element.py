@@ -9,18 +9,10 @@ Node 0 is the ground (a reference node, the outside) and has no row.
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from enum import StrEnum
 from fractions import Fraction
 
 from disting.errors import InputError, short
-
-
-class Sort(StrEnum):
-    """What a network is; its elements are all of one sort."""
-
-    MACHINE = "machine"
-    CIRCUIT = "circuit"
-    COMPARTMENTS = "compartments"
+from disting.model.structure import Sort
 
 
 @dataclass(frozen=True, slots=True)

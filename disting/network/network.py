@@ -14,7 +14,8 @@ from math import lcm
 
 from disting.errors import InputError, short
 from disting.model.presentation import NotebookPicture, plural, summary
-from disting.network.element import Element, Port, Sort
+from disting.model.structure import Sort
+from disting.network.element import Element, Port
 from disting.network.graph import edges, parts, renumber, seen_by_blocks, seen_by_flows
 
 MOST_NODES = 40

@@ -14,7 +14,8 @@ from functools import lru_cache
 from itertools import islice, pairwise, permutations, product
 from typing import Any
 
-from disting.network.element import KINDS, PHASE, Element, Port, Sort
+from disting.model.structure import Sort
+from disting.network.element import KINDS, PHASE, Element, Port
 from disting.network.gears import without_gears
 from disting.network.network import Network
 from disting.network.normal_form import NormalForm, Part, Power, dual, normal_form

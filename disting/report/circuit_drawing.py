@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import accumulate
 
-from disting.network.element import Element, Sort
+from disting.model.structure import Sort
+from disting.network.element import Element
 from disting.network.network import Network
 from disting.report.network_symbols import Track, draw_symbol
 from disting.report.scene import Anchor, Circle, Ink, Layer, Path, Place, Text

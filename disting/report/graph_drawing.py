@@ -11,7 +11,8 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from math import cos, pi, sin
 
-from disting.network.element import Element, Sort
+from disting.model.structure import Sort
+from disting.network.element import Element
 from disting.network.graph import edges
 from disting.network.network import Network
 from disting.report.network_symbols import Sheet, Track, draw_symbol, gear

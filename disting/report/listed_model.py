@@ -11,7 +11,7 @@ from disting.equivalence.duplicates import duplicate
 from disting.general.any_model import measurand
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.report.environment import render
 from disting.report.formulas import (

@@ -8,7 +8,8 @@ from functools import lru_cache
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Sensor
-from disting.network.element import Element, Sort
+from disting.model.structure import Sort
+from disting.network.element import Element
 from disting.network.network import Network
 from disting.report.circuit_drawing import circuit_layers, series_parallel
 from disting.report.drawing import draw

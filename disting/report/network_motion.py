@@ -14,7 +14,8 @@ from math import pi
 from disting.evidence.positive import Share
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Sensor
-from disting.network.element import Element, Sort
+from disting.model.structure import Sort
+from disting.network.element import Element
 from disting.network.gears import unknown_ratios, without_gears
 from disting.network.graph import edges
 from disting.network.network import Network

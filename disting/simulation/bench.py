@@ -17,7 +17,7 @@ from disting.errors import InputError, enumeration
 from disting.measurement import Signal, TimeSeries
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Sensor
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.simulation.excitation import Excitation
 from disting.simulation.mechanics import (

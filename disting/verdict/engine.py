@@ -22,7 +22,7 @@ from disting.behaviour.sample import Representation
 from disting.conditions.side import AnySide
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.machine_side import ComparedMachine
-from disting.general.any_model import of_network, on_one_variable
+from disting.general.any_model import as_model, on_one_variable
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
 from disting.general.network_model import behaviour_of
@@ -91,7 +91,7 @@ class Engine:
             """That of its transfer functions."""
             return self.profile(behaviour_of(model), Representation.TF, 0, self.settings)
 
-        plain = [of_network(m) if isinstance(m, Network) else m for m in models]
+        plain = list(map(as_model, models))
         matched = [normalise(model, profile_of) for model in on_one_variable(plain)]
         named = zip(names or [m.name for m in models], matched, strict=True)
         return [

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from disting.errors import InputError, short
 from disting.general.alternatives import Alternatives, alternatives
-from disting.general.any_model import of_network, on_one_variable
+from disting.general.any_model import as_model, on_one_variable
 from disting.general.balls import Synthesis, positive_sets
 from disting.general.fibre import Extent
 from disting.general.matrix_model import AnyModel
@@ -87,13 +87,13 @@ def model_equivalents(
     >>> found.verdict.relation.value, str(found.values.equivalents[0])
     ('indistinguishable', 'C1 = 2/9, R0 = 3, R1 = 3/2')
     """
-    model = _as_model(source)
+    model = as_model(source)
     engine = Engine() if engine is None else engine
     exponents = model.network.exponents if model.network is not None else ()
     phases = {n: _phase(n, (values or {}).get(n, n)) for n in exponents}
     numbers = None if values is None else {n: x for n, x in values.items() if n not in phases}
     equivalents = []
-    for other in map(_as_model, others):
+    for other in map(as_model, others):
         if other.shape != model.shape:
             continue
         verdict = compare(model, other, query=query, engine=engine)
@@ -133,10 +133,6 @@ def _synthesized(
         return positive_sets(first, dict(rational_values(model, values)), second)
     except NoFormulas:
         return None
-
-
-def _as_model(source: Network | AnyModel) -> AnyModel:
-    return of_network(source) if isinstance(source, Network) else source
 
 
 def _phase(name: str, value: object) -> str:

@@ -28,7 +28,8 @@ from disting.experiments.menu import Costs, Gain
 from disting.general.matrix_model import MatrixModel, of_ratios
 from disting.general.response import network_powers, network_ratios
 from disting.model.kinds import CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS, Kind
-from disting.network.element import Port, Sort
+from disting.model.structure import Sort
+from disting.network.element import Port
 from disting.network.network import Network
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent

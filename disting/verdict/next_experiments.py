@@ -17,7 +17,7 @@ from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
 from disting.model.presentation import NotebookTable, plural, summary
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.placement import place
@@ -66,8 +66,7 @@ class Menu(NotebookTable, Generic[S]):
     @property
     def place(self) -> str:
         """What the places are called: "mass", "node" or "compartment"."""
-        first = self.structures[0]
-        return "mass" if isinstance(first, Chain) else PLACES[first.sort]
+        return PLACES[self.structures[0].sort]
 
     def places(self, structure: int) -> tuple[int, ...]:
         """The masses or nodes of a structure at which something can be done."""

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, short
 from disting.experiments.experiment import Experiment, MeasuredChain
-from disting.general.any_model import as_chain, of_network
+from disting.general.any_model import as_chain, as_model, of_network
 from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import name_of, names_of, read_together
 from disting.network import Network, network_of
@@ -131,7 +130,7 @@ def plain_sides(
     a, b = as_chain(left), as_chain(right)
     if a is not None and b is not None:
         return engine.subject(left_name, a), engine.subject(right_name, b)
-    models = [_model(left), _model(right)]
+    models = [as_model(left), as_model(right)]
     refuse_ports(models)
     first, second = engine.general_subjects(models, (left_name, right_name))
     return first, second
@@ -177,9 +176,3 @@ def refuse_ports(models: Sequence[AnyModel]) -> None:
         raise InputError(
             f"models are compared that have the same outputs and inputs: {' and '.join(sizes)}"
         )
-
-
-def _model(model: Chain | AnyModel) -> AnyModel:
-    if not isinstance(model, Chain):
-        return model
-    return Model.from_chain(model, name=name_of(model))

@@ -8,8 +8,8 @@ from itertools import combinations
 from disting import local_identifiability
 from disting.errors import InputError
 from disting.general.any_model import of_network
+from disting.model.structure import Sort
 from disting.network import Element, Network, Port
-from disting.network.element import Sort
 from disting.network.families import family_of
 
 LETTERS = {Sort.MACHINE: "mkkd", Sort.CIRCUIT: "RLC", Sort.COMPARTMENTS: "a"}

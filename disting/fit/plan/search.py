@@ -55,7 +55,7 @@ def name_of(structure: AnyStructure) -> str:
 
 def sensor_of(structure: AnyStructure) -> Sensor:
     """What it shows; of circuits and compartments what stands for a position."""
-    return structure.sensor if isinstance(structure, Chain) else list(Sensor)[structure.order]
+    return list(Sensor)[structure.order]
 
 
 def shown_as(structure: AnyStructure, sensor: Sensor) -> AnyStructure:

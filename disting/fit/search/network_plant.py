@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
-from disting.network.element import Element, Port, Sort
+from disting.model.structure import Sort
+from disting.network.element import Element, Port
 from disting.network.network import Network
 
 Entries = Mapping[int, Fraction | str | int]

@@ -16,7 +16,8 @@ from typing import Any
 
 from disting.errors import InputError, enumeration, of_type, short
 from disting.model.chain import Sensor, as_sensor
-from disting.network.element import KINDS, Element, Port, Sort, kind_of
+from disting.model.structure import Sort
+from disting.network.element import KINDS, Element, Port, kind_of
 from disting.network.network import Network
 from disting.network.notation import DIALECTS, NOTATIONS, network_of
 from disting.network.notation.compartments import of_flows

@@ -15,7 +15,7 @@ from disting.fit.plan.sample import POWER
 from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.search.candidates import reference
 from disting.model.chain import Chain, text_drawing
-from disting.network.element import Sort
+from disting.model.structure import Sort
 from disting.report.fit.links import next_command, plan_command
 from disting.report.fit.words import percent, readable
 from disting.verdict.result import Relation
@@ -143,7 +143,7 @@ def _answer(plan: Plan) -> str:
 
 def _words(model: AnyStructure) -> tuple[str, str]:
     """What is measured, and by what."""
-    return WORDS[Sort.MACHINE if isinstance(model, Chain) else model.sort]
+    return WORDS[model.sort]
 
 
 def _doubt(rival: Rival) -> str:
