@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.judge.exclusion import basis_of, limit, statistic
+from disting.fit.judge.exclusion import CLEARLY, basis_of, limit, statistic
 from disting.fit.judge.explanation import explain, merge, noises, scatters
 from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
@@ -212,7 +212,7 @@ def _excluding(candidate: FittedNetwork, fits: Sequence[FittedNetwork], scatter:
     """The network that excludes this one, the clearest first; "" if none does."""
     clear = list[tuple[float, str]]()
     for other in fits:
-        if other.cost < candidate.cost:
+        if candidate.cost - other.cost > CLEARLY:
             surplus = max(1, other.rank - candidate.rank)
             size, most = statistic(candidate, other), limit(surplus, scatter.freedom)
             if size > max(most, limit(1, scatter.freedom)):

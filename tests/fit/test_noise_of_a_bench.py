@@ -201,6 +201,26 @@ def test_a_structure_that_misses_is_excluded_by_the_one_that_does_not():
         assert found[1].statistic > found[1].limit == pytest.approx(limit(1, 100.0))
 
 
+@pytest.mark.parametrize(
+    ("left", "excluded"),
+    [(-2.9, False), (-2.0, False), (0.0, True)],
+    ids=["a cost as large", "less than a damper gains by chance", "more"],
+)
+def test_a_structure_that_fits_alike_in_another_place_excludes_none(left, excluded):
+    """Over a long valley the optimum of a larger one lies beyond the tangents: there T is above 8.
+    What counts is what the larger one gains: 0.6, 5 and 9.
+    """
+    chain = Chain(2, damped=True, ground_dampers=(1,))
+    rest, flat = np.random.default_rng(4).normal(size=59), np.empty((60, 0))
+    noise = Noise(np.ones(60))
+    true, other = (
+        Fit(c, np.array([size, *rest]), flat, noise)
+        for c, size in ((chain, 3.0), (replace(chain, ground_dampers=(1, 2)), left))
+    )
+    assert statistic(true, other) > limit(1, np.inf)
+    assert (chain in exclusions([true, other], np.inf, Settings())) == excluded
+
+
 def test_what_contains_what():
     one, two = Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, lag=True)
     both = replace(two, ground_dampers=(1,))

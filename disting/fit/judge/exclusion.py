@@ -6,10 +6,15 @@ hypotheses, 1981):
 
     T = (r'd)^2 / d'C d,    d = r_B - r without its projection on S,
 
-C = covariance of the residuals that the other one leaves (`covariance`). Where the other one
-contains the structure T is the difference of their costs. If the structure is true, T / s is
-distributed as F of s degrees of freedom, what the other one determines beyond it, and those from
-which the scatter is known. It is excluded at the level `LEVEL` by another one that fits better.
+C = covariance of the residuals that the other one leaves (`covariance`). If the structure is true,
+T / s is distributed as F of s degrees of freedom, what the other one determines beyond it, and
+those from which the scatter is known. It is excluded at the level `LEVEL` by another one that fits
+better by `CLEARLY`.
+
+d follows tangents: where responses bend, as over a long valley of parameters that are hardly
+determined, the optimum of the other one lies beyond them, and T is large although both fit alike.
+So T is at most what a larger structure that contains both, and was fitted too, gains in cost: where
+nothing bends it is that, if the other one is the larger one, or less.
 
 What a further mass adds is an element that looks for noise at every line: the level is divided by
 their number. On test data, which the fits have not seen, d is given and s = 1.
@@ -32,6 +37,7 @@ from disting.model.question import Settings
 from disting.questions.identifiability.tangent import proof_tangents
 
 LEVEL = 0.01  # probability of excluding a structure that is true by another one
+CLEARLY = 4.0  # lower cost: e^2 times the likelihood; where T has a power of 95 % it is lower still
 FELT = 0.1  # what a parameter must move, in units of the scatter, when it changes by itself
 REMEMBERED = 1024  # ranks; each pair asks for those of both structures
 
@@ -96,15 +102,26 @@ def basis_of(columns: Real) -> Real:
 
 def statistic(residuals: Residuals, other: Residuals) -> float:
     """T of one structure against another one; 0 where the other one is no step towards the data."""
-
-    def beyond(vector: Real) -> Real:
-        """Less what the parameters make up for."""
-        return np.asarray(vector - residuals.basis @ (residuals.basis.T @ vector))
-
-    d, r = beyond(other.residual - residuals.residual), beyond(residuals.residual)
-    towards = -float(r @ d)
-    size = float(np.linalg.norm(other.noise.seen(d[:, None])) ** 2)
+    d, r = _beyond(residuals, other.residual - residuals.residual), residuals.residual
+    towards, size = -float(_beyond(residuals, r) @ d), _spread(d, other)
     return towards**2 / size if towards > 0 and size > 0 else 0.0
+
+
+def _gain(residuals: Fit, larger: Fit) -> float:
+    """By how much a larger structure fits better, in units of the noise that it leaves."""
+    d = _beyond(residuals, larger.residual - residuals.residual)
+    size = _spread(d, larger)
+    return (residuals.cost - larger.cost) * float(d @ d) / size if size > 0 else 0.0
+
+
+def _beyond(residuals: Residuals, vector: Real) -> Real:
+    """Less what the parameters make up for."""
+    return np.asarray(vector - residuals.basis @ (residuals.basis.T @ vector))
+
+
+def _spread(d: Real, other: Residuals) -> float:
+    """d'C d."""
+    return float(np.linalg.norm(other.noise.seen(d[:, None])) ** 2)
 
 
 def limit(surplus: int, freedom: float, trials: int = 1, level: float = LEVEL) -> float:
@@ -131,8 +148,10 @@ def exclusions(
     """
     exclusions: dict[Chain, Exclusion] = {}
     for candidate in fitted:
+        larger = [f for f in fitted if contains(f.chain, candidate.chain)] if seen else []
+        clearest = 1.0  # T as a multiple of its limit
         for other in fitted:
-            if not other.cost < candidate.cost:
+            if not candidate.cost - other.cost > CLEARLY:
                 continue
             size = statistic(candidate, other)
             if size <= limit(1, freedom):
@@ -142,10 +161,11 @@ def exclusions(
                 trials(candidate.chain, other.chain, len(candidate.residual) // 2) if seen else 1
             )
             most = limit(s, freedom, count)
-            exclusion = exclusions.get(candidate.chain)
-            if size > most and (
-                exclusion is None or size / most > exclusion.statistic / exclusion.limit
-            ):
+            if size > clearest * most:
+                both = [f for f in larger if f is other or contains(f.chain, other.chain)]
+                size = min([size, *(_gain(candidate, f) for f in both)])
+            if size > clearest * most:
+                clearest = size / most
                 exclusions[candidate.chain] = Exclusion(other.chain, size, most)
     return exclusions
 
