@@ -212,9 +212,9 @@ def _excluding(candidate: FittedNetwork, fits: Sequence[FittedNetwork], scatter:
     """The network that excludes this one, the clearest first; "" if none does."""
     clear = list[tuple[float, str]]()
     for other in fits:
-        if candidate.cost - other.cost > CLEARLY:
+        if other.cost < candidate.cost:
             surplus = max(1, other.rank - candidate.rank)
             size, most = statistic(candidate, other), limit(surplus, scatter.freedom)
-            if size > max(most, limit(1, scatter.freedom)):
+            if size > most and candidate.cost - other.cost > CLEARLY * most:
                 clear.append((size / most, other.network.name))
     return max(clear)[1] if clear else ""

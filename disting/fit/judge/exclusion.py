@@ -9,7 +9,7 @@ hypotheses, 1981):
 C = covariance of the residuals that the other one leaves (`covariance`). If the structure is true,
 T / s is distributed as F of s degrees of freedom, what the other one determines beyond it, and
 those from which the scatter is known. It is excluded at the level `LEVEL` by another one that fits
-better by `CLEARLY`.
+better by a share `CLEARLY` of that.
 
 d follows tangents: where responses bend, as over a long valley of parameters that are hardly
 determined, the optimum of the other one lies beyond them, and T is large although both fit alike.
@@ -37,7 +37,7 @@ from disting.model.question import Settings
 from disting.questions.identifiability.tangent import proof_tangents
 
 LEVEL = 0.01  # probability of excluding a structure that is true by another one
-CLEARLY = 4.0  # lower cost: e^2 times the likelihood; where T has a power of 95 % it is lower still
+CLEARLY = 0.6  # of what T may be; where T has a power of 95 % costs differ by more anyway
 FELT = 0.1  # what a parameter must move, in units of the scatter, when it changes by itself
 REMEMBERED = 1024  # ranks; each pair asks for those of both structures
 
@@ -151,7 +151,8 @@ def exclusions(
         larger = [f for f in fitted if contains(f.chain, candidate.chain)] if seen else []
         clearest = 1.0  # T as a multiple of its limit
         for other in fitted:
-            if not candidate.cost - other.cost > CLEARLY:
+            gain = candidate.cost - other.cost
+            if gain <= 0:
                 continue
             size = statistic(candidate, other)
             if size <= limit(1, freedom):
@@ -164,7 +165,7 @@ def exclusions(
             if size > clearest * most:
                 both = [f for f in larger if f is other or contains(f.chain, other.chain)]
                 size = min([size, *(_gain(candidate, f) for f in both)])
-            if size > clearest * most:
+            if size > clearest * most and gain > CLEARLY * most:
                 clearest = size / most
                 exclusions[candidate.chain] = Exclusion(other.chain, size, most)
     return exclusions
