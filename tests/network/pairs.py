@@ -2,6 +2,7 @@
 somebody has damaged: with redundant, parallel, hanging elements, ports turned or elsewhere, gears.
 """
 
+import os
 import random
 from itertools import combinations
 
@@ -12,7 +13,13 @@ from disting.model.structure import Sort
 from disting.network import Element, Network, Port
 from disting.network.families import family_of
 
+SHARE = int(os.environ.get("PAIRS", "10")) / 100  # of the pairs that long tests look at
 LETTERS = {Sort.MACHINE: "mkkd", Sort.CIRCUIT: "RLC", Sort.COMPARTMENTS: "a"}
+
+
+def some(pairs):
+    """How many of so many a long test looks at; PAIRS=100 in the environment makes it all."""
+    return -int(-pairs * SHARE // 1)
 
 
 def alike(models):
