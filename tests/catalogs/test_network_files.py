@@ -44,6 +44,21 @@ def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine()) == []
 
 
+def test_a_theorem_stays_beside_what_a_search_found():
+    """What a renaming proves over complex values it proves over positive ones: so says a comparison
+    of the two alone, and so say the files, made in whatever order.
+    """
+    renamed = [
+        r["positive"]
+        for name in SHIPPED
+        for r in read(shipped_folder() / f"{name_of(name)}.jsonl")
+        if "left" in r and "as" not in r
+        if r["complex"].get("evidence", {}).get("kind") == "renaming"
+    ]
+    assert len(renamed) > 10
+    assert {verdict["evidence"]["kind"] for verdict in renamed} == {"renaming"}
+
+
 @pytest.mark.parametrize(
     "name", [pytest.param("machines-2", marks=pytest.mark.slow), "compartments-2"]
 )
