@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from disting import InputError, Sensor
-from disting.fit.networks import fit_networks
-from disting.fit.noise.covariance import expected_deviation
+from disting.fit.networks import _excluding, fit_networks
+from disting.fit.noise.covariance import Noise, expected_deviation
 from disting.fit.search.network_plant import NetworkPlant, NetworkPlants
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse, read, write_csv
@@ -197,6 +197,27 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
     for step, is_first in ((-1e-9, True), (-1e-3, False)):  # rounding selects nothing
         other = replace(first, residual=first.residual * (1 + step))
         assert (replace(found, fits=(first, other)).selected is first) == is_first
+
+
+@pytest.mark.parametrize(("left", "excluded"), [(-2.9, False), (-2.0, True), (0.0, True)])
+def test_a_network_that_fits_alike_in_another_place_excludes_none(left, excluded):
+    """T is above 8, the cost lower by 0.6, 5 and 9."""
+    omega = np.logspace(0, 4, 30)
+    data = FrequencyResponse(omega, np.full(30, 2 + 0j), np.full(30, 0.02), sensor="position")
+    found = fit_networks(data, [network_of("R1")])
+    rest = np.random.default_rng(4).normal(size=59)
+    true, other = (
+        replace(
+            found.fits[0],
+            network=replace(found.fits[0].network, name=name),
+            residual=np.array([size, *rest]),
+            basis=np.empty((60, 0)),
+            noise=Noise(np.ones(60)),
+        )
+        for name, size in (("true", 3.0), ("other", left))
+    )
+    scatter = replace(found.scatter, freedom=np.inf)
+    assert (_excluding(true, [true, other], scatter) == "other") == excluded
 
 
 def test_an_exponent_is_found_and_a_capacitor_excluded():

@@ -202,23 +202,29 @@ def test_a_structure_that_misses_is_excluded_by_the_one_that_does_not():
 
 
 @pytest.mark.parametrize(
-    ("left", "excluded"),
-    [(-2.9, False), (-2.0, False), (0.0, True)],
-    ids=["a cost as large", "less than a damper gains by chance", "more"],
+    ("dampers", "excluded"),
+    [
+        ({(1, 2): -2.9}, False),  # a larger one gains 0.6
+        ({(1, 2): -2.0}, False),  # 5, less than chance may
+        ({(1, 2): 0.0}, True),
+        ({(2,): -2.9}, False),  # another one is better by 0.6
+        ({(2,): -2.0}, True),
+        ({(2,): -2.0, (1, 2): -1.7}, False),  # by 5, and what contains both by 6
+        ({(2,): -2.0, (1, 2): 0.0}, True),
+    ],
 )
-def test_a_structure_that_fits_alike_in_another_place_excludes_none(left, excluded):
-    """Over a long valley the optimum of a larger one lies beyond the tangents: there T is above 8.
-    What counts is what the larger one gains: 0.6, 5 and 9.
+def test_a_structure_that_fits_alike_in_another_place_excludes_none(dampers, excluded):
+    """Over a long valley the optimum of another one lies beyond the tangents: T is above its limit,
+    whatever is gained.
     """
-    chain = Chain(2, damped=True, ground_dampers=(1,))
+    chain, noise = Chain(2, damped=True, ground_dampers=(1,)), Noise(np.ones(60))
     rest, flat = np.random.default_rng(4).normal(size=59), np.empty((60, 0))
-    noise = Noise(np.ones(60))
-    true, other = (
-        Fit(c, np.array([size, *rest]), flat, noise)
-        for c, size in ((chain, 3.0), (replace(chain, ground_dampers=(1, 2)), left))
+    true, *others = (
+        Fit(replace(chain, ground_dampers=at), np.array([size, *rest]), flat, noise)
+        for at, size in ({(1,): 3.0} | dampers).items()
     )
-    assert statistic(true, other) > limit(1, np.inf)
-    assert (chain in exclusions([true, other], np.inf, Settings())) == excluded
+    assert all(statistic(true, other) > limit(1, np.inf) for other in others)
+    assert (chain in exclusions([true, *others], np.inf, Settings())) == excluded
 
 
 def test_what_contains_what():

@@ -8,16 +8,17 @@ hypotheses, 1981):
 
 C = covariance of the residuals that the other one leaves (`covariance`). If the structure is true,
 T / s is distributed as F of s degrees of freedom, what the other one determines beyond it, and
-those from which the scatter is known. It is excluded at the level `LEVEL` by another one that fits
-better by a share `CLEARLY` of that.
+those from which the scatter is known. It is excluded at the level `LEVEL` by another one whose cost
+is lower by the share `CLEARLY` of what T may be, or more.
 
 d follows tangents: where responses bend, as over a long valley of parameters that are hardly
 determined, the optimum of the other one lies beyond them, and T is large although both fit alike.
-So T is at most what a larger structure that contains both, and was fitted too, gains in cost: where
-nothing bends it is that, if the other one is the larger one, or less.
+So T is at most what a larger structure that contains both, and was fitted to the same data too,
+gains in cost: where nothing bends it is that, if the other one is the larger one, or less.
 
 What a further mass adds is an element that looks for noise at every line: the level is divided by
-their number. On test data, which the fits have not seen, d is given and s = 1.
+their number. On test data, which the fits have not seen, d is given and s = 1; costs there are none
+of optima, so that no larger structure bounds T.
 """
 
 from collections.abc import Sequence
@@ -37,7 +38,7 @@ from disting.model.question import Settings
 from disting.questions.identifiability.tangent import proof_tangents
 
 LEVEL = 0.01  # probability of excluding a structure that is true by another one
-CLEARLY = 0.6  # of what T may be; where T has a power of 95 % costs differ by more anyway
+CLEARLY = 0.6  # of what T may be: for s = 1 the gain where T is just that and its power is 95 %
 FELT = 0.1  # what a parameter must move, in units of the scatter, when it changes by itself
 REMEMBERED = 1024  # ranks; each pair asks for those of both structures
 
@@ -79,7 +80,9 @@ class Fit:
 
 @dataclass(frozen=True, slots=True)
 class Exclusion:
-    """By which structure another one is excluded: T and what it may be by chance."""
+    """By which structure another one is excluded: T, bounded as above, and what it may be by
+    chance; both in units of the squared scatter.
+    """
 
     by: Chain
     statistic: float
@@ -108,7 +111,9 @@ def statistic(residuals: Residuals, other: Residuals) -> float:
 
 
 def _gain(residuals: Fit, larger: Fit) -> float:
-    """By how much a larger structure fits better, in units of the noise that it leaves."""
+    """By how much a structure that contains it fits better, in units of the noise that this leaves:
+    T where nothing bends.
+    """
     d = _beyond(residuals, larger.residual - residuals.residual)
     size = _spread(d, larger)
     return (residuals.cost - larger.cost) * float(d @ d) / size if size > 0 else 0.0

@@ -263,9 +263,7 @@ def _solved(matrix: Complex, side: Complex) -> Complex:
 
 
 def measured_as(network: Network, measured: FrequencyResponse) -> Network:
-    """The network with sensors that show what was measured; circuits and compartments are as they
-    are.
-    """
+    """The network with sensors of the measured quantity; circuits, compartments as they are."""
     is_machine = network.sort is Sort.MACHINE
     return replace(network, order=measured.sensor.order) if is_machine else network
 
