@@ -13,12 +13,14 @@ from disting.model.structure import Sort
 from disting.network import Element, Network, Port
 from disting.network.families import family_of
 
-SHARE = int(os.environ.get("PAIRS", "10")) / 100  # of the pairs that long tests look at
+SHARE = int(os.environ.get("PAIRS", "10")) / 100  # of pairs that take a second or minutes each
 LETTERS = {Sort.MACHINE: "mkkd", Sort.CIRCUIT: "RLC", Sort.COMPARTMENTS: "a"}
 
 
 def some(pairs):
-    """How many of so many a long test looks at; PAIRS=100 in the environment makes it all."""
+    """How many of so many dear pairs a long test looks at; PAIRS=100 in the environment makes it
+    all.
+    """
     return -int(-pairs * SHARE // 1)
 
 

@@ -16,14 +16,14 @@ from tests.network.pairs import damaged, some
 
 VIEWS = (View.EXACT, View.REAL, View.POSITIVE)
 FAMILIES = [
-    ("machines-2", 40, 78),
-    ("machines-2-damped", 20, 78),
+    ("machines-2", some(40), some(78)),
+    ("machines-2-damped", some(20), some(78)),
     ("compartments-2", 40, 66),
     ("compartments-3", 0, 120),
     ("circuits-4", 60, 400),
     ("cells-4", 40, 200),
-    ("machines-3", 20, 80),
-    ("machines-3-damped", 0, 80),
+    ("machines-3", some(20), some(80)),
+    ("machines-3-damped", 0, some(80)),
 ]
 
 
@@ -41,16 +41,12 @@ def test_flows_twice_are_written_and_read_again():
 
 @pytest.mark.parametrize(("name", "changed", "whole"), [("circuits-4", 12, 2)])
 def test_some_verdicts_hold(name, changed, whole):
-    hold(name, changed, whole)
+    test_verdicts_hold(name, changed, whole)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "changed", "whole"), FAMILIES)
 def test_verdicts_hold(name, changed, whole):
-    hold(name, some(changed), some(whole))
-
-
-def hold(name, changed, whole):
     """Of so many pairs of the family, and of those of so many networks that were changed."""
     pairs = list(combinations(family_of(name).networks, 2))
     random.Random(name).shuffle(pairs)
