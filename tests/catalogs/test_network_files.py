@@ -59,6 +59,20 @@ def test_a_theorem_stays_beside_what_a_search_found():
     assert {verdict["evidence"]["kind"] for verdict in renamed} == {"renaming"}
 
 
+def test_a_theorem_is_the_evidence_of_what_is_called_one():
+    """In lines of all files: where the search found something else, the theorem stands beside it."""
+    found = [
+        r
+        for name in SHIPPED
+        for r in read(shipped_folder() / f"{name_of(name)}.jsonl")
+        if "left" in r and "as" not in r and r["positive"].get("certainty") == "theorem"
+    ]
+    assert len(found) > 10
+    for r in found:
+        evidence = r["positive"].get("evidence") or r["finding"].to_dict()["evidence"]
+        assert evidence["kind"] == "theorem", (r["left"], r["right"])
+
+
 @pytest.mark.parametrize(
     "name", [pytest.param("machines-2", marks=pytest.mark.slow), "compartments-2"]
 )
