@@ -7,6 +7,7 @@ import signal
 import subprocess
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
+from threading import Event
 
 import pytest
 
@@ -85,16 +86,29 @@ def test_long_work_of_a_process_can_be_stopped() -> None:
     assert (process.returncode, said) == (130, "") and rest.startswith("disting: interrupted")
 
 
-def test_a_pair_that_takes_long_is_told_while_it_goes_on(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    said = ""
-    with told_if_long("this takes long", 0.0):
-        while not said:
-            said = capsys.readouterr().err
-    with told_if_long("this takes long"):
+class Awaited(io.StringIO):
+    """Where another thread writes; capsys empties its file as it reads, and may lose what comes
+    between.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.line = Event()
+
+    def write(self, text: str) -> int:
+        written = super().write(text)
+        if text.endswith("\n"):
+            self.line.set()
+        return written
+
+
+def test_a_pair_that_takes_long_is_told_while_it_goes_on() -> None:
+    with redirect_stderr(Awaited()) as words, told_if_long("this takes long", 0.0):
+        told = words.line.wait(60)
+    assert told and words.getvalue() == "disting: this takes long\n"
+    with redirect_stderr(Awaited()) as words, told_if_long("this takes long"):
         pass
-    assert said == "disting: this takes long\n" and capsys.readouterr().err == ""
+    assert words.getvalue() == ""
 
 
 @pytest.mark.slow
