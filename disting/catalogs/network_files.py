@@ -22,9 +22,7 @@ from disting.catalogs.files import Record, lines
 from disting.catalogs.network_search import in_order, representatives, same_pairs, search_in_brief
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE
-from disting.conditions.side import AnySide
 from disting.errors import CatalogError
-from disting.evidence.kinds import evidence_from
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import without_names
 from disting.general.forms import of_equals
@@ -73,7 +71,8 @@ def build_networks(
     progress: Progress = silent,
 ) -> str:
     """The text of the file of a family, computed; the bytes do not depend on the machine or the
-    order of the work, but where what can be determined was not found in time (`reason`).
+    order of the work, but for the digits of rounded equivalents, and where what can be determined
+    was not found in time (`reason`).
     """
     sides = engine.general_subjects(family.networks)
     over_complex = engine.decisions(sides, COMPLEX, executor=executor, progress=progress)
@@ -117,8 +116,8 @@ def _pairs(
             "left": i + 1,
             "right": j + 1,
             "complex": _verdict_record(over_complex, i, j),
+            "positive": _verdict_record(over_positive, i, j),
         }
-        record["positive"] = _verdict_record(over_positive, i, j)
         if isinstance(finding, Finding):
             record["finding"] = json.loads(finding.to_json())
             if over_positive.verdict(i, j).evidence == finding.evidence:  # else by a theorem
@@ -249,52 +248,3 @@ def read(path: Path) -> list[Record]:
         return [*records[: 1 + len(names)], *pairs]
     except (OSError, ValueError, LookupError, TypeError) as reason:
         raise CatalogError(f"{path} cannot be read ({reason}); make it with '{COMMAND}'") from None
-
-
-def verify_networks(
-    family: NetworkFamily,
-    folder: Path,
-    engine: Engine,
-    *,
-    executor: Executor | None = None,
-    progress: Progress = silent,
-) -> list[str]:
-    """What is wrong with the file of a family, in sentences: its bytes against those that are
-    computed now, and every evidence on a pair by itself, at fresh points.
-    """
-    path = folder / f"{name_of(family.name)}.jsonl"
-    if not path.is_file():
-        raise CatalogError(f"there is no {path}; make it with '{COMMAND} {family.name}'")
-    stored = read(path)
-    wrong = _false_evidence(family, stored, engine)
-    text = build_networks(family, engine, executor=executor, progress=progress)
-    rows, now = path.read_text(encoding="utf-8").splitlines(), text.splitlines()
-    for number, (a, b) in enumerate(zip(rows, now, strict=False), 1):
-        if a != b:
-            return [*wrong, f"{path.name}, line {number} is not what is computed now"]
-    return wrong if len(rows) == len(now) else [*wrong, f"{path.name} has other pairs"]
-
-
-def _false_evidence(family: NetworkFamily, records: list[Record], engine: Engine) -> list[str]:
-    sides = engine.general_subjects(family.networks)
-    wrong = []
-    for r in records[1 + len(sides) :]:
-        left, right = sides[r["left"] - 1], sides[r["right"] - 1]
-        a, b = left.chain, right.chain
-        pair: tuple[AnySide, AnySide] = (left, right)
-        if a is not None and b is not None:
-            pair = engine.subject(left.name, a), engine.subject(right.name, b)
-        origin = r.get("as")
-        if origin and not all(
-            replaceable(s.subject, sides[at - 1].subject)
-            for s, at in zip((left, right), origin, strict=True)
-        ):
-            wrong.append(f"{left.name} and {right.name}: not the same as {origin}")
-        for verdict in (r["complex"],) if origin else (r["complex"], r["positive"]):
-            data = verdict.get("evidence")
-            evidence = evidence_from(data) if data else None
-            if "evidence" not in verdict:
-                evidence = r["finding"].evidence
-            if evidence and not pair[0].confirms(pair[1], evidence, verdict["representation"]):
-                wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
-    return wrong

@@ -7,14 +7,21 @@ from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
 
+from disting.catalogs import network_files
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily, damper_family, damper_name, read, text_of
-from disting.catalogs.files import append, lines, name_of, read_findings
+from disting.catalogs.files import Record, append, lines, name_of, read_findings
 from disting.conditions.finding import Finding, Outcome
+from disting.conditions.side import AnySide
+from disting.errors import CatalogError
+from disting.evidence.general import without_digits
+from disting.evidence.kinds import evidence_from
+from disting.general.replacement import replaceable
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
+from disting.network.families import NetworkFamily
 from disting.questions.same.evidence_check import Witness, finding_holds
 from disting.questions.same.low_cost import patient_finding
 from disting.verdict.chain_side import ComparedChain
@@ -153,6 +160,59 @@ def false_findings(
         if classes.relation(left, right) is not DECIDES.get(finding.outcome):
             yield f"{pair}: settled, but not in the file"
         progress("settled evidence", done, len(asked))
+
+
+def verify_networks(
+    family: NetworkFamily,
+    folder: Path,
+    engine: Engine,
+    *,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> list[str]:
+    """What is wrong with the file of a family, in sentences: its bytes against those that are
+    computed now, and every evidence on a pair by itself, at fresh points.
+
+    Digits of rounded equivalents are looked at with the evidence (see `without_digits`).
+    """
+    path = folder / f"{network_files.name_of(family.name)}.jsonl"
+    if not path.is_file():
+        raise CatalogError(
+            f"there is no {path}; make it with '{network_files.COMMAND} {family.name}'"
+        )
+    stored = network_files.read(path)
+    wrong = _false_of_networks(family, stored, engine)
+    text = network_files.build_networks(family, engine, executor=executor, progress=progress)
+    rows, now = path.read_text(encoding="utf-8").splitlines(), text.splitlines()
+    for number, (a, b) in enumerate(zip(rows, now, strict=False), 1):
+        if without_digits(a) != without_digits(b):
+            return [*wrong, f"{path.name}, line {number} is not what is computed now"]
+    return wrong if len(rows) == len(now) else [*wrong, f"{path.name} has other pairs"]
+
+
+def _false_of_networks(family: NetworkFamily, records: list[Record], engine: Engine) -> list[str]:
+    sides = engine.general_subjects(family.networks)
+    wrong = []
+    for r in records[1 + len(sides) :]:
+        left, right = sides[r["left"] - 1], sides[r["right"] - 1]
+        a, b = left.chain, right.chain
+        pair: tuple[AnySide, AnySide] = (left, right)
+        if a is not None and b is not None:
+            pair = engine.subject(left.name, a), engine.subject(right.name, b)
+        origin = r.get("as")
+        if origin and not all(
+            replaceable(s.subject, sides[at - 1].subject)
+            for s, at in zip((left, right), origin, strict=True)
+        ):
+            wrong.append(f"{left.name} and {right.name}: not the same as {origin}")
+        for verdict in (r["complex"],) if origin else (r["complex"], r["positive"]):
+            data = verdict.get("evidence")
+            evidence = evidence_from(data) if data else None
+            if "evidence" not in verdict:
+                evidence = r["finding"].evidence
+            if evidence and not pair[0].confirms(pair[1], evidence, verdict["representation"]):
+                wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
+    return wrong
 
 
 def settle_dampers(

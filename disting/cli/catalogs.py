@@ -8,7 +8,7 @@ from pathlib import Path
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.files import shipped_folder
-from disting.catalogs.network_files import SHIPPED, build_networks, verify_networks
+from disting.catalogs.network_files import SHIPPED, build_networks
 from disting.cli.arguments import add_masses, add_out, add_work, size_or_family
 from disting.cli.workers import announce, engine_for, pairs_by_size, pairs_work
 from disting.network.families import family_of
@@ -164,6 +164,7 @@ def verify(options: argparse.Namespace) -> int:
     """Verify catalogues; status 1 if something is wrong."""
     from disting.catalogs.files import SHIPPED_SIZES as CATALOGUED
     from disting.catalogs.sizes_build import verify_sizes
+    from disting.catalogs.verify import verify_networks
 
     wrong: list[str] = []
     sizes = [n for n in options.masses if isinstance(n, int)]

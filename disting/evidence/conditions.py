@@ -118,11 +118,11 @@ class Ranks(Kind):
         return f"rank ∂({what})/∂p = {self.left} ≠ {self.right}"
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Both ranks once more, of rows that there are."""
+        """Both ranks once more, of rows that there are, of all if it says so."""
         labels = set[str]().union(*(s.labels(representation, self.rows) for s in pair.sides))
+        known = set(self.rows) == labels if self.all_rows else set(self.rows) <= labels
         ranks = tuple(side.rank(representation, self.rows) for side in pair.sides)
-        stated = (self.left, self.right)
-        return set(self.rows) <= labels and ranks == stated and self.left != self.right
+        return known and ranks == (self.left, self.right) and self.left != self.right
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,12 +154,14 @@ class Renaming(Kind):
         return ", ".join(f"{a} → {b}" for a, b in self.pairs)
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Whether it names every parameter once on either side, and one model is the other after
-        it.
+        """Whether it names every parameter once on either side, one model is the other after it,
+        and symmetries that are named give it.
         """
         named = [sorted(p for p, _ in self.pairs), sorted(q for _, q in self.pairs)]
         whole = named == [sorted(side.parameters) for side in pair.sides]
-        return whole and pair.renames(dict(self.pairs))
+        renaming = dict(self.pairs)
+        given = not self.symmetries or pair.by_symmetry() == (renaming, self.symmetries)
+        return whole and given and pair.renames(renaming)
 
     def without_exception(self, domain: Domain) -> bool:
         """It carries all parameters over."""

@@ -2,6 +2,7 @@
 and without one; constants.
 """
 
+import re
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
@@ -17,6 +18,18 @@ fractions): the first root from the one to the other, or one where those polynom
 SHOWN, LONGEST = 3, 160  # contradictions that are told, characters of each
 ZERO = "0"  # the value of what is to be small
 BOTH = (True, False)  # ways from one model to the other
+MANY, UNCOUNTED = -1, -2  # solutions: infinitely many, and where they were not counted
+_EQUIVALENT = re.compile(r'"equivalent": ?\[\[.*?\]\]')
+
+
+def without_digits(text: str) -> str:
+    """JSON of evidence without rounded equivalents of points: where there is a curve of them, a
+    search in rounded numbers ends at another one on another processor.
+
+    >>> without_digits('{"kind": "witnesses", "equivalent": [["k", "1.5"]], "solutions": 2}')
+    '{"kind": "witnesses", , "solutions": 2}'
+    """
+    return _EQUIVALENT.sub("", text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +181,7 @@ class Witnesses(OverDomain):
 
     The same is true of all parameters near each point. `with_left_given`, `without_left_given`:
     the point is of the left model and the right one was searched. `solutions`: how many complex
-    ones there are at the point without, -1 for infinitely many, -2 where they were not counted.
+    ones there are at the point without, MANY or UNCOUNTED.
     """
 
     kind: ClassVar[str] = "witnesses"
@@ -185,7 +198,7 @@ class Witnesses(OverDomain):
         """Both points in words."""
         source, searched = (left, right) if self.with_left_given else (right, left)
         without, nowhere = (left, right) if self.without_left_given else (right, left)
-        many = {-1: " (infinitely many complex)", -2: ""}.get(
+        many = {MANY: " (infinitely many complex)", UNCOUNTED: ""}.get(
             self.solutions, f" ({self.solutions} complex)"
         )
         return (

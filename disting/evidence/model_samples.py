@@ -51,7 +51,7 @@ class SampledPair:
     """Both models: whether a renaming `renames` the left one to the right one, and evidence is
     `found_again` by the method that finds such. Of chains and networks also the `numberings` of
     the nodes of a part, which the left one is or the right one, in the whole; of chains the model
-    with the elements of both.
+    with the elements of both, and the renaming that symmetries give, with their names.
     """
 
     left: ModelSamples
@@ -60,6 +60,7 @@ class SampledPair:
     found_again: Callable[[Any], bool]
     numberings: Callable[[bool], Iterable[dict[int, int]]] = lambda left_is_part: ()
     united: Callable[[], ModelSamples | None] = lambda: None
+    by_symmetry: Callable[[], tuple[dict[str, str], Labels] | None] = lambda: None
 
     @property
     def sides(self) -> tuple[ModelSamples, ModelSamples]:

@@ -126,7 +126,7 @@ def are_one_ports(left: AnyModel, right: AnyModel) -> bool:
 def _never(ways: Ways, at: int, domain: Domain) -> Finding:
     """No generic parameters have an equivalent, as the way at this place shows."""
     this_way = ways[at]
-    closed = tuple(dict.fromkeys(this_way.parted.search.closed)) if this_way else ()
+    closed = this_way.closed if this_way else ()
     evidence = NoEquivalent(domain.value, at == 0, closed)
     return Finding(ADMISSIBLE, Outcome.FAILS, Certainty.PROVEN, evidence=evidence)
 

@@ -12,7 +12,7 @@ from disting.general.expression import names as symbols_of, polynomial_text, tex
 from disting.general.intermediate_value import End, Path
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model, Terms
-from disting.general.orthant import THOROUGH, Effort
+from disting.general.orthant import BRIEF, THOROUGH, Effort
 from disting.general.sections import Section
 from disting.general.which_models import Way, ways_by_all
 from disting.model.question import Domain
@@ -62,31 +62,31 @@ def of_boundary(left_given: bool, other: AnyModel, boundary: Boundary) -> Iterat
 
 
 def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
-    """Whether every formula gives the same transfer function, and the ways found anew cover all
-    parameters.
+    """Whether every formula gives the same transfer function, and those of either side are all that
+    a way found anew gives every generic parameter an equivalent by.
     """
-    sides = {True: (left, right), False: (right, left)}
-    return fit(evidence, left, right) and all(
-        _covers({evidence.small(f) for f in evidence.formulas if f[0] is side}, evidence, *pair)
-        for side, pair in sides.items()
+    pairs = {True: (left, right), False: (right, left)}
+    stated = {side: tuple(f for f in evidence.formulas if f[0] is side) for side in pairs}
+    if not all(stated.values()) or not fit(evidence, left, right):
+        return False
+    return all(
+        formulas
+        in _found_anew(side, evidence.small(formulas[0]), Domain(evidence.domain), *pairs[side])
+        for side, formulas in stated.items()
     )
 
 
-def _covers(
-    small: set[tuple[str, ...]], evidence: Explicit, model: AnyModel, other: AnyModel
-) -> bool:
-    """Whether the way found anew gives all generic parameters an equivalent, near the boundary
-    where the same unknowns are small in all formulas.
-    """
-    if len(small) != 1:
-        return False
-    (zero,) = small
+def _found_anew(
+    side: bool, zero: tuple[str, ...], domain: Domain, model: AnyModel, other: AnyModel
+) -> Iterator[tuple[Formula, ...]]:
+    """Yield the formulas of ways by all efforts, near the boundary where unknowns are small."""
     if not zero:
-        ways = ways_by_all(model, other, Domain(evidence.domain))
-        return any(way.covering or way.path() for way in ways)
-    if not (isinstance(model, Model) and isinstance(other, Model)):
-        return False
-    return bool(equivalents_without(model, other, zero))
+        yield from (tuple(of_way(side, way)) for way in ways_by_all(model, other, domain))
+    elif isinstance(model, Model) and isinstance(other, Model):
+        for effort in (BRIEF, THOROUGH):
+            near = equivalents_without(model, other, zero, effort)
+            if near:
+                yield tuple(of_boundary(side, other, Boundary(zero, near)))
 
 
 def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
@@ -96,9 +96,10 @@ def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
 
 
 def is_without(evidence: NoEquivalent, left: AnyModel, right: AnyModel) -> bool:
-    """Whether the cases found anew are all closed."""
+    """Whether the cases found anew are all closed, by these contradictions."""
     model, other = (left, right) if evidence.left_given else (right, left)
-    return any(way.never for way in ways_by_all(model, other, Domain(evidence.domain)))
+    ways = ways_by_all(model, other, Domain(evidence.domain))
+    return any(way.never and way.closed == evidence.contradictions for way in ways)
 
 
 def _of_section(left_given: bool, way: Way, section: Section) -> Formula:

@@ -2,13 +2,22 @@
 what it shows.
 """
 
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
+from math import isclose
 
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
 from disting.evidence.decision import Theorem
-from disting.evidence.general import Constants, Explicit, Inequality, NoEquivalent, Witnesses
+from disting.evidence.general import (
+    UNCOUNTED,
+    Constants,
+    Explicit,
+    Inequality,
+    NoEquivalent,
+    Witnesses,
+)
 from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.kind import Kind
 from disting.evidence.kinds import Evidence
@@ -26,9 +35,13 @@ from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
 from disting.general.target import Values
 from disting.general.which_models import ways_by_all
+from disting.general.witnesses import solutions_at
 from disting.model.question import Domain, Settings
 from disting.questions.same.exact import by_labels
 
+ROUNDED = (
+    1e-2  # relative: values of 6 digits that are found again where a curve nearly meets itself
+)
 AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradiction found again
 
 
@@ -97,7 +110,7 @@ def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
 
 def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
     """Whether both points are what they are said to be, and all parameters near them: the search
-    is done anew.
+    is done anew; and whether the equivalent and the number of solutions are those of these points.
 
     Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
     """
@@ -118,24 +131,36 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
         (evidence.point_without, second[0]),
         (evidence.equivalent, first[1]),
     )
-    if any(p and {name for name, _ in p} != {*model.parameters} for p, model in points):
+    if any({name for name, _ in p} != {*model.parameters} for p, model in points):
         return False
-    near = tuple(float(Fraction(x)) for _, x in evidence.equivalent)
-    return _has(*first, with_, near, domain) and _has_none(*second, without, domain)
+    near = {name: float(Fraction(x)) for name, x in evidence.equivalent}
+    stated = tuple(near[name] for name in first[1].parameters)
+    return (
+        evidence.solutions in (UNCOUNTED, solutions_at(*second, evidence.point_without))
+        and _has(*first, with_, stated, domain)
+        and _has_none(*second, without, domain)
+    )
 
 
 def _has(
-    model: AnyModel,
-    other: AnyModel,
-    values: Values,
-    near: tuple[float, ...],
-    domain: Domain,
+    model: AnyModel, other: AnyModel, values: Values, stated: tuple[float, ...], domain: Domain
 ) -> bool:
-    if domain is Domain.POSITIVE and newton.find_equivalent(model, values, other, near):
-        return True
-    if domain is Domain.POSITIVE and fibre_lists.find_equivalent(model, values, other):
-        return True
-    return any(way.having(values) for way in ways_by_all(model, other, domain))
+    """Whether what is stated is the equivalent (rounded) of a point around which all have some."""
+    return any(
+        found and all(isclose(x, y, rel_tol=ROUNDED) for x, y in zip(found, stated, strict=True))
+        for found in _equivalents(model, other, values, stated, domain)
+    )
+
+
+def _equivalents(
+    model: AnyModel, other: AnyModel, values: Values, near: tuple[float, ...], domain: Domain
+) -> Iterator[tuple[float, ...] | None]:
+    """Yield what each search finds: first what is near values stated."""
+    if domain is Domain.POSITIVE:
+        yield newton.find_equivalent(model, values, other, near)
+        yield fibre_lists.find_equivalent(model, values, other)
+    for way in ways_by_all(model, other, domain):
+        yield way.having(values)
 
 
 def _has_none(model: AnyModel, other: AnyModel, values: Values, domain: Domain) -> bool:

@@ -47,6 +47,11 @@ class Way:
         """Whether no case is left."""
         return not self.parted.sections and not self.parted.others
 
+    @property
+    def closed(self) -> tuple[str, ...]:
+        """What would have to hold in cases that are closed, each once."""
+        return tuple(dict.fromkeys(self.parted.search.closed))
+
     def path(self) -> Path | None:
         """A root that gives an equivalent for every generic p, if one that is tried does before
         a polynomial is too large.

@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from disting.algebra.certainty import residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
-from disting.evidence.general import Inequality, Witnesses
+from disting.evidence.general import MANY, UNCOUNTED, Inequality, Witnesses
 from disting.evidence.kind import PointText
 from disting.general import fibre_lists, newton
 from disting.general.combination import excludes, is_tried
@@ -24,7 +24,7 @@ from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.search import STARTS, common_points
-from disting.general.target import Values, fibre_equations, rational_values, target
+from disting.general.target import Values, fibre_equations
 from disting.model.question import Domain
 
 SPREADS = (9, 30, 3)  # numerators and denominators: values within a factor of about 9, 30, 3 of 1
@@ -146,21 +146,23 @@ def witnesses_of(
 ) -> Witnesses:
     """Both points as evidence, and how many complex equivalents the one without has."""
     sides = (left, right) if lacking[0] else (right, left)
-    return Witnesses(domain.value, *having, *lacking[:2], _count(*sides, lacking[1]))
+    return Witnesses(domain.value, *having, *lacking[:2], solutions_at(*sides, lacking[1]))
 
 
-def _count(model: AnyModel, other: AnyModel, point: PointText) -> int:
-    """How many complex equivalents there are, -1 for infinitely many, -2 where that is not seen
-    at once.
-    """
+def solutions_at(model: AnyModel, other: AnyModel, point: PointText) -> int:
+    """How many complex equivalents there are, MANY or UNCOUNTED where that is not seen at once."""
     if not (isinstance(model, Model) and isinstance(other, Model)):
-        return -2
-    goal = target(model, rational_values(model, dict(point)))
+        return UNCOUNTED
+    goal = fibre_lists.goal_of(model, {name: Fraction(x) for name, x in point})
+    if goal is None:
+        return UNCOUNTED
     try:
         fibre = solve(fibre_equations(goal, other), other.parameters, "count", Bounds())
     except TooLarge:
-        return -2
-    return {Extent.FAMILY: -1, Extent.UNKNOWN: -2}.get(fibre.extent, len(fibre.equivalents))
+        return UNCOUNTED
+    return {Extent.FAMILY: MANY, Extent.UNKNOWN: UNCOUNTED}.get(
+        fibre.extent, len(fibre.equivalents)
+    )
 
 
 def example(

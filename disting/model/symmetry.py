@@ -66,6 +66,25 @@ def canonical(chain: Chain) -> Form:
     return Form(moved[best], best, _renaming(chain, best))
 
 
+def between(left: Chain, right: Chain) -> tuple[dict[str, str], tuple[str, ...]] | None:
+    """The renaming {left parameter: right parameter} to the common canonical form and back, and the
+    names of the symmetries behind it; None where there is no such form.
+
+    >>> renaming, symmetries = between(*(Chain(2, 0, 0, i, 0, i, damped=False) for i in (1, 2)))
+    >>> renaming["m1"], symmetries
+    ('m2', ('reflection of the free part',))
+    """
+    there, here = canonical(left), canonical(right)
+    if there.chain != here.chain:
+        return None
+    back = {new: old for old, new in here.renaming.items()}
+    used = set(there.symmetries) ^ set(here.symmetries)
+    return (
+        {name: back[there.renaming[name]] for name in left.parameters},
+        tuple(sorted(symmetry.value for symmetry in used)),
+    )
+
+
 def _choices() -> Iterator[tuple[Symmetry, ...]]:
     for chosen in product((False, True), repeat=3):
         yield tuple(s for s, on in zip(Symmetry, chosen, strict=True) if on)

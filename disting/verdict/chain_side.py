@@ -20,7 +20,7 @@ from disting.model.chain import Chain, Premise
 from disting.model.minors import embeddings
 from disting.model.question import Domain, Question
 from disting.model.structure import Structure
-from disting.model.symmetry import Form, canonical
+from disting.model.symmetry import Form, between, canonical
 from disting.questions.identifiability.analysis import IDENTIFIABILITY
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.inclusion.confirmation import confirms as confirms_inclusion
@@ -97,13 +97,9 @@ class ComparedChain(Side[Chain]):
         return canonical(self.chain)
 
     def symmetry_with(self, other: "ComparedChain") -> Renaming | None:
-        """Left to the common canonical form, then back to the right model."""
-        if self.canonical.chain != other.canonical.chain:
-            return None
-        back = {new: old for old, new in other.canonical.renaming.items()}
-        pairs = tuple((p, back[self.canonical.renaming[p]]) for p in self.chain.parameters)
-        used = set(self.canonical.symmetries) ^ set(other.canonical.symmetries)
-        return Renaming(pairs, tuple(sorted(symmetry.value for symmetry in used)))
+        """By the common canonical form, if there is one."""
+        found = between(self.chain, other.chain)
+        return found and Renaming(tuple(found[0].items()), found[1])
 
     def is_renamed(self, other: "ComparedChain", renaming: dict[str, str]) -> bool:
         """Whether renaming the parameters turns this transfer function into the other: exact."""

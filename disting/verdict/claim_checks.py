@@ -4,6 +4,7 @@ Evidence that is true can have been chosen, and then bounds nothing: so certaint
 are compared with those that the settings give, found again with evidence of this kind.
 """
 
+import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -12,6 +13,7 @@ from disting.conditions.finding import Finding
 from disting.conditions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import AnySide, notes_of
+from disting.evidence.general import without_digits
 from disting.evidence.kinds import Evidence
 from disting.evidence.real import BothWays
 from disting.verdict.cascade import decide, follows, over_domain
@@ -69,7 +71,7 @@ def _ungraded(claim: Claim) -> Iterator[str]:
     again = _again(claim, v.evidence)
     if again is None or again[:2] != (v.certainty, v.safety):
         yield f"{claim.where}the certainty is not that of the evidence"
-    elif again[2] != v.evidence:
+    elif again[2] is None or _text(again[2]) != _text(v.evidence):
         yield f"{claim.where}the evidence is not the one that the settings give"
 
 
@@ -86,6 +88,11 @@ def _again(claim: Claim, evidence: Evidence) -> Claimed | None:
         else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
     )
     return None if finding is None else _told(finding)
+
+
+def _text(evidence: Evidence) -> str:
+    """All of it but what differs from processor to processor and is looked at by itself."""
+    return without_digits(json.dumps(evidence.to_dict()))
 
 
 def _condition_again(claim: Claim) -> Claimed:

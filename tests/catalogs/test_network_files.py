@@ -15,8 +15,8 @@ from disting.catalogs.network_files import (
     read,
     recall,
     recall_of,
-    verify_networks,
 )
+from disting.catalogs.verify import verify_networks
 from disting.cli.run import main
 from disting.errors import CatalogError
 from disting.evidence.kinds import evidence_from
@@ -249,16 +249,39 @@ def test_a_lie_is_found(tmp_path):
         assert verify_networks(family, tmp_path, engine), change
 
 
+def first_witnesses(lines):
+    """Where the first points with and without an equivalent are, and the record."""
+    return next(
+        (at, r)
+        for at, line in enumerate(lines)
+        if (r := json.loads(line)).get("finding") and r["finding"][4]["kind"] == "witnesses"
+    )
+
+
+@pytest.mark.parametrize(("digits", "told"), [("{:.5g}", False), ("{:.1e}", True), ("", True)])
+def test_digits_of_an_equivalent_are_checked_by_themselves(digits, told, tmp_path):
+    """Where it lies on a curve a search in rounded numbers ends at others on another processor."""
+    path = tmp_path / f"{name_of('compartments-2')}.jsonl"
+    lines = (shipped_folder() / path.name).read_text(encoding="utf-8").splitlines()
+    at, record = first_witnesses(lines)
+    record["finding"][4]["equivalent"] = [
+        [name, digits.format(float(x)) or f"{2 * float(x)}"]
+        for name, x in record["finding"][4]["equivalent"]
+    ]
+    assert json.loads(lines[at]) != record
+    lines[at] = json.dumps(record, separators=(",", ":"))
+    path.write_text("\n".join([*lines, ""]), encoding="utf-8")
+    wrong = verify_networks(family_of("compartments-2"), tmp_path, Engine())
+    assert any("the evidence does not hold" in sentence for sentence in wrong) is told
+    assert bool(wrong) is told
+
+
 def test_evidence_that_is_false_is_found_by_itself(tmp_path):
     name = "compartments-2"
     path = tmp_path / f"{name_of(name)}.jsonl"
     text = (shipped_folder() / path.name).read_text(encoding="utf-8")
     lines = text.splitlines()
-    at, record = next(
-        (at, r)
-        for at, line in enumerate(lines)
-        if (r := json.loads(line)).get("finding") and r["finding"][4]["kind"] == "witnesses"
-    )
+    at, record = first_witnesses(lines)
     twin = next(
         r
         for line in lines

@@ -57,8 +57,12 @@ def test_the_published_rates_are_a_witness_and_others_are_not(left, right):
     rates = (("k01", "1/10"), ("k02", "1"), ("k12", "1"))
     fast = (("k01", "5"), ("k02", "1"), ("k12", "1"))
     given = left is IRREVERSIBLE
-    evidence = Witnesses("positive", given, fast, (), given, rates, 2)
+    equivalent = (("k01", "1.26795"), ("k12", "1"), ("k21", "4.73205"))  # 3 - √3, 1, 3 + √3
+    evidence = Witnesses("positive", given, fast, equivalent, given, rates, 2)
     assert confirms(evidence, left, right)
+    for near in ((), equivalent[1:], (("k01", "1.5"), *equivalent[1:])):
+        assert not confirms(replace(evidence, equivalent=near), left, right)
+    assert not confirms(replace(evidence, solutions=4), left, right)
     assert not confirms(replace(evidence, point_without=fast), left, right)
     assert not confirms(replace(evidence, point_with=rates), left, right)
     assert not confirms(

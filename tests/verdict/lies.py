@@ -84,3 +84,31 @@ def missed(data: dict[str, Any], *free: str) -> list[tuple[Any, ...]]:
 def told_again(data: dict[str, Any], **lies: Any) -> dict[str, Any]:
     """A liar who writes all that is derived anew, sentences included."""
     return json.loads(json.dumps(as_file(read_file(data | lies))))  # type: ignore[no-any-return]
+
+
+def believed(data: dict[str, Any], *free: str) -> list[tuple[Any, ...]]:
+    """Leaves of the evidence, and lists of it without their last, that may be altered by a liar who
+    writes all that is derived anew.
+    """
+    evidence = data["evidence"]
+    lies = [(path, lie) for path in leaves(evidence) for lie in altered(evidence, path)]
+    lies += [(path, put(evidence, path, some[:-1])) for path, some in _lists(evidence)]
+    found = []
+    for path, lie in lies:
+        if set(free).intersection(path):
+            continue
+        try:
+            again = told_again(data, evidence=lie)
+        except (InputError, ValueError, KeyError, TypeError):  # it cannot be told at all
+            continue
+        found += [path] if not found_out(again) else []
+    return found
+
+
+def _lists(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], list[Any]]]:
+    parts = data.items() if isinstance(data, dict) else enumerate(data)
+    for name, value in parts:
+        if isinstance(value, dict | list):
+            yield from _lists(value, (*path, name))
+        if isinstance(value, list) and value:
+            yield (*path, name), value

@@ -1,7 +1,10 @@
 """Verdicts under further experiments and on general models are checked from their files alone."""
 
 import json
+from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +23,13 @@ from disting import (
 )
 from disting.errors import NotSeenError
 from disting.general import model_evidence
+from disting.general.any_model import of_network
+from disting.general.newton import find_equivalent
+from disting.network import network_of
+from disting.verdict.verdict_file import read_file
 from disting.verdict.verification import Status
 from tests.cli.process import called
-from tests.verdict.lies import ENGINE, found_out, missed, plain, put, told_again
+from tests.verdict.lies import ENGINE, believed, found_out, missed, plain, put, told_again
 
 A, U = Family(3, damped=True), Family(3, damped=False)
 FIRST = Experiment()
@@ -169,6 +176,73 @@ def test_models_that_change_places_with_their_names_are_found_out(name: str) -> 
 def test_every_altered_leaf_is_found(name: str) -> None:
     """Another model or experiment may be one of which the verdict is as true."""
     assert not missed(told(name), "num", "den", "G", "elements", "experiments", "rounded")
+
+
+@pytest.mark.parametrize(
+    ("name", "free"),
+    [
+        ("measured: fibre", "left_given"),  # a symmetric pair
+        ("measured: renaming", ""),
+        ("general: refuted", "degree"),  # a contradiction is one in larger degrees too
+        ("general: solved", ""),
+        ("general: no equivalent", ""),
+        ("general: explicit", ""),
+        ("general: witnesses", "equivalent"),  # looked at to a part in a hundred
+    ],
+)
+def test_who_alters_evidence_and_writes_all_that_is_derived_anew_is_found_out(
+    name: str, free: str
+) -> None:
+    assert not believed(told(name), free)
+
+
+ALTERED: dict[str, tuple[Case, Callable[[Any], Any]]] = {
+    "all rows": (
+        (Family(4, damped=False)[5], Family(4, damped=False)[10], {}),
+        lambda e: replace(e, rows=e.rows[:-1]),
+    ),
+    "symmetries": (("3:2", "3:5", {"view": View.EXACT}), lambda e: replace(e, symmetries=("x",))),
+    "solutions": (("3:1", "3:6", {}), lambda e: replace(e, solutions=1)),
+    "contradictions": (GENERAL["no equivalent"], lambda e: replace(e, contradictions=("p0",))),
+    "a condition": (
+        GENERAL["explicit"],
+        lambda e: replace(
+            e, formulas=tuple((side, ("x",), values, root) for side, _, values, root in e.formulas)
+        ),
+    ),
+    "a scale": (
+        ("R1-p(R2,C1)", "p(R1,R2-C1)", {"view": View.EXACT, "query": few()}),
+        lambda e: replace(e, solutions=tuple((*q[:-1], q[-1] + 1) for q in e.solutions)),
+    ),
+}
+
+
+@pytest.mark.parametrize("what", ALTERED)
+def test_evidence_is_looked_at_wholly_without_the_rest_of_the_file(what: str) -> None:
+    """Catalogues and lists show it too."""
+    case, altered = ALTERED[what]
+    stored = read_file(plain(*case[:2], **case[2]))
+    sides, verdict = stored.sides(ENGINE), stored.verdict
+    evidence, representation = verdict.evidence, verdict.representation
+    assert sides.left.confirms(sides.right, evidence, representation)
+    assert not sides.left.confirms(sides.right, altered(evidence), representation)
+
+
+def test_another_processor_ends_at_another_equivalent_of_a_curve() -> None:
+    """A search in rounded numbers does, where six unknowns have five equations."""
+    pair = "1>0, 1>2, 1>3, 2>0, 2>3, 3>1; in 1; out 2", "1>0, 1>2, 1>3, 2>1, 2>3, 3>2; in 1; out 2"
+    data = plain(*pair)
+    evidence, (one, other) = data["evidence"], map(of_network, map(network_of, pair))
+    assert (evidence["kind"], evidence["with_left_given"]) == ("witnesses", True)
+    point = {name: Fraction(x) for name, x in evidence["point_with"]}
+    start = [1.02 * float(x) for _, x in evidence["equivalent"]]
+    found = find_equivalent(one, point, other, start)
+    assert found is not None
+    for values, holds in ((found, True), ([2 * found[0], *found[1:]], False)):
+        texts = [[name, f"{x:.6g}"] for name, x in zip(other.parameters, values, strict=True)]
+        assert texts != evidence["equivalent"]
+        again = told_again(data, evidence=put(evidence, ("equivalent",), texts))
+        assert found_out(again) is not holds
 
 
 @pytest.mark.slow

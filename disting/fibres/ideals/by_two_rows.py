@@ -36,7 +36,7 @@ from disting.fibres.ideals.splits import (
     relative_degree,
     splits,
 )
-from disting.fibres.ideals.system import CoefficientMap
+from disting.fibres.ideals.system import CoefficientMap, match_maps
 from disting.model.question import Membership
 from disting.model.structure import Structure
 
@@ -217,4 +217,4 @@ def _confirms(shown: FibreEvidence, wanted: CoefficientMap, reached: Coefficient
         return shown.index > 0 and _refutes(shown.index, wanted, reached)
     ranks = _ranks(wanted, reached, "rank:verify")
     in_order = ranks[0] == ranks[1] or (ranks[0] < ranks[1] and shown.left_given)
-    return in_order and confirms(shown, wanted, reached)
+    return in_order and confirms(shown, *match_maps(wanted, reached))

@@ -14,14 +14,12 @@ common zeros.
 from collections.abc import Iterable, Sequence
 from math import comb
 
-from flint import fmpz_mpoly, nmod_poly
-
 from disting.algebra.groebner.modular import Sparse, matrix as modular_matrix
 from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, draw_point, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
-from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, match_maps
+from disting.fibres.ideals.system import PolynomialMap
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
@@ -76,21 +74,18 @@ def find_again(
     right: PolynomialMap,
     limits: Limits = AGAIN,
 ) -> bool:
-    """Whether solutions fit, and contradictions are found again: by plain elimination, or, where
-    that is too large, by the fast one at one fresh point, in the direction of the evidence.
+    """Whether solutions fit, and contradictions are found again, for maps whose coordinates can be
+    compared: by plain elimination, or, where that is too large, by the fast one at one fresh point,
+    in the direction of the evidence.
 
     A contradiction of some degree is one of any larger degree too. Raises NotSeenError where none
     is found within the limits.
     """
     if isinstance(evidence, Refutation) and evidence.degree < 0:
         return False
-    by_maps = isinstance(left, CoefficientMap) and isinstance(right, CoefficientMap)
-    check = confirms if by_maps else confirms_matched
     unknowns = max(len(left.parameters), len(right.parameters))
     if isinstance(evidence, Solutions) or _is_small(evidence.degree, unknowns):
-        return check(evidence, left, right)  # type: ignore[arg-type]
-    if by_maps:
-        left, right = match_maps(left, right)  # type: ignore[arg-type]
+        return confirms(evidence, left, right)
     return refuted_at(labels_of("verify", left, right, 1), evidence, left, right, limits)
 
 
@@ -115,24 +110,12 @@ def _is_small(degree: int, unknowns: int) -> bool:
     return degree <= PLAIN_MONOMIALS and comb(unknowns + degree, degree) <= PLAIN_MONOMIALS
 
 
-def confirms(evidence: Solutions | Refutation, left: CoefficientMap, right: CoefficientMap) -> bool:
-    """Whether the evidence holds for these models, seen anew.
+def confirms(evidence: Solutions | Refutation, left: PolynomialMap, right: PolynomialMap) -> bool:
+    """Whether the evidence holds for these maps, whose coordinates can be compared, seen anew.
 
-    A solution is put into both transfer functions. A refutation is found again by plain Macaulay
-    matrices, which takes long and much memory for many unknowns and high degrees (10 unknowns,
-    degree 5: minutes).
+    A solution is put into both. A refutation is found again by plain Macaulay matrices, which takes
+    long and much memory for many unknowns and high degrees (10 unknowns, degree 5: minutes).
     """
-    if isinstance(evidence, Refutation):
-        return bool(evidence.labels) and confirms_matched(evidence, *match_maps(left, right))
-    model, other = (left, right) if evidence.left_given else (right, left)
-    runs = zip(evidence.labels, evidence.solutions, strict=True)
-    return bool(evidence.labels) and all(_agree(model, other, label, q) for label, q in runs)
-
-
-def confirms_matched(
-    evidence: Solutions | Refutation, left: PolynomialMap, right: PolynomialMap
-) -> bool:
-    """The same for maps whose coordinates can be compared, of whatever they are."""
     model, other = (left, right) if evidence.left_given else (right, left)
     if isinstance(evidence, Solutions):
         runs = zip(evidence.labels, evidence.solutions, strict=True)
@@ -167,25 +150,3 @@ def safety_of(
     if not evidence.tangent:
         return 0
     return safety_of_empty(model, other, True, bits_of(model, other, True)) * count - 1
-
-
-def _agree(
-    model: CoefficientMap, other: CoefficientMap, label: str, solution: Sequence[int]
-) -> bool:
-    if not len(other.parameters) <= len(solution) <= len(other.parameters) + 1:
-        return False
-    modulus, point = draw_point(model, label)
-    num1, den1 = _at(model, point, modulus)
-    num2, den2 = _at(other, solution[: len(other.parameters)], modulus)
-    return den2.degree() == den1.degree() >= 0 and num1 * den2 == num2 * den1
-
-
-def _at(model: CoefficientMap, point: Sequence[int], modulus: int) -> tuple[nmod_poly, nmod_poly]:
-    def value(polynomial: fmpz_mpoly) -> int:
-        """Its value at the point, modulo the prime."""
-        return int(polynomial(*point)) % modulus
-
-    num, den = (
-        [value(p) for p in polynomials] for polynomials in (model.numerator, model.denominator)
-    )
-    return nmod_poly(num, modulus), nmod_poly(den, modulus)

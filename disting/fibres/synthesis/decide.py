@@ -88,6 +88,11 @@ class Exact:
         raise TypeError("a finding is not true or false; look at its membership")
 
     @property
+    def is_exact(self) -> bool:
+        """Whether it is known of the point itself, and not within balls only."""
+        return self.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION)
+
+    @property
     def evidence(self) -> FibreAt:
         """What can be checked again."""
         return FibreAt(
@@ -103,7 +108,7 @@ class Exact:
         """What is proven of generic models but for an error bound of so many bits; UNKNOWN where
         solutions are known within balls only.
         """
-        if self.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION):
+        if self.is_exact:
             return Decision(self.membership, safety, self.evidence)
         return Decision(Membership.UNKNOWN, reason=self.reason)
 
@@ -125,14 +130,21 @@ def member(
 ) -> Exact:
     """Finding for one direction: for chains of unequal rank it tells one-sided inclusion."""
     chain, other = (left, right) if way is Direction.LEFT_IN_RIGHT else (right, left)
-    _refuse(chain, other)
     for draw in range(DRAWS):
         point = rational_point(
             chain, about(f"synthesis:{seed}:{draw}", chain, other), point_bits(other)
         )
-        whole = fibre(other, target(chain.structure, point), confirm=not is_untested(other))
-        if whole.status is not Status.DEGENERATE:
+        found = member_at(left, right, way, point)
+        if found.status is not Status.DEGENERATE:
             break
+    return found
+
+
+def member_at(left: Chain, right: Chain, way: Direction, point: dict[str, fmpq]) -> Exact:
+    """The same at a given point of the one chain."""
+    chain, other = (left, right) if way is Direction.LEFT_IN_RIGHT else (right, left)
+    _refuse(chain, other)
+    whole = fibre(other, target(chain.structure, point), confirm=not is_untested(other))
     return _finding(whole, way, point, _grounds(chain, other, point, whole))
 
 

@@ -19,7 +19,14 @@ from math import ceil, log2
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.behaviour.chain_model import powers
 from disting.evidence.ideals import Refutation, Solutions
-from disting.fibres.ideals import Decision, Limits, coefficient_map, confirms, decide
+from disting.fibres.ideals import (
+    Decision,
+    Limits,
+    coefficient_map,
+    confirms,
+    decide,
+    match_maps,
+)
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
@@ -135,7 +142,9 @@ def _decided(target: Structure, result: Structure, seed: str) -> Decision[Soluti
 
 def _holds(target: Structure, result: Structure, solved: Solutions) -> bool:
     is_solved = tells(solved, target, result, "verify") and not solved.is_normalised
-    return is_solved and confirms(solved, coefficient_map(target), coefficient_map(result))
+    return is_solved and confirms(
+        solved, *match_maps(coefficient_map(target), coefficient_map(result))
+    )
 
 
 def tells(solved: Solutions, target: Structure, result: Structure, seed: str) -> bool:

@@ -24,14 +24,13 @@ from disting.fibres.ideals import (
     same_by_full_rows,
     tell_chains_apart,
 )
-from disting.fibres.synthesis.decide import Grounds
-from disting.fibres.synthesis.fibre import fibre
-from disting.fibres.synthesis.task import Status, fraction, target
+from disting.fibres.synthesis.decide import Direction, member_at
+from disting.fibres.synthesis.task import fraction
 from disting.model.chain import Chain
 from disting.model.minors import embeddings
 from disting.model.question import Settings
 from disting.model.structure import Structure
-from disting.model.symmetry import canonical
+from disting.model.symmetry import between, canonical
 from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import confirms_real, proves
 from disting.questions.same.exact import rational_part, recheck, theorem
@@ -55,6 +54,7 @@ class Witness:
             found_again=partial(_found_again, left=left, right=right),
             numberings=lambda left_is_part: embeddings(*((a, b) if left_is_part else (b, a))),
             united=lambda: self._united(a, b),
+            by_symmetry=partial(between, left, right),
         )
         return evidence.holds(pair, representation)
 
@@ -86,9 +86,8 @@ def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
             return _shares(evidence, a, b)
         case Solutions() | Refutation():
             coordinates = normalise if evidence.is_normalised else coefficient_map
-            return find_again(
-                evidence, coordinates(rational_part(a)), coordinates(rational_part(b))
-            )
+            maps = match_maps(coordinates(rational_part(a)), coordinates(rational_part(b)))
+            return find_again(evidence, *maps)
         case BothWays():
             return _both_ways(evidence, a, b)
         case OddFibres():
@@ -103,17 +102,16 @@ def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
 def _fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
     """The fibre over the stored point once more."""
     a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
-    chain, searched = (a, b) if evidence.left_given else (b, a)
+    way = Direction.LEFT_IN_RIGHT if evidence.left_given else Direction.RIGHT_IN_LEFT
+    chain = a if evidence.left_given else b
     if sorted(name for name, _ in evidence.point) != sorted(chain.structure.parameters):
         return False  # it speaks of another model
     try:
         point = {name: fraction(value) for name, value in evidence.point}
     except (ValueError, ZeroDivisionError):
         return False  # no numbers
-    solutions = fibre(searched, target(chain.structure, point))
-    if evidence.grounds == Grounds.REFUTED:
-        return solutions.status is Status.EMPTY
-    return len(solutions.solutions) == evidence.solutions > 0
+    found = member_at(a, b, way, point)
+    return found.is_exact and found.evidence == evidence
 
 
 def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
