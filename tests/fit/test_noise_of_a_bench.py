@@ -195,8 +195,8 @@ def test_a_structure_that_misses_is_excluded_by_the_one_that_does_not():
         Fit(chain, data - basis @ (basis.T @ data), basis, Noise(np.ones(60)))
         for chain, basis in zip(chains, (basis_of(columns[:, :3]), basis_of(columns)), strict=True)
     ]
-    for seen in (True, False):
-        (found,) = exclusions(fits, 100.0, Settings(), seen=seen).items()
+    for again in (None, lambda fit: fit):
+        (found,) = exclusions(fits, 100.0, Settings(), again).items()
         assert found[0] == chains[0] and found[1].by == chains[1]
         assert found[1].statistic > found[1].limit == pytest.approx(limit(1, 100.0))
 
@@ -225,6 +225,25 @@ def test_a_structure_that_fits_alike_in_another_place_excludes_none(dampers, exc
     )
     assert all(statistic(true, other) > limit(1, np.inf) for other in others)
     assert (chain in exclusions([true, *others], np.inf, Settings())) == excluded
+
+
+@pytest.mark.parametrize(("left", "excluded"), [(2.9, True), (2.0, False)])
+def test_on_test_data_a_second_fit_takes_away_what_bends(left, excluded):
+    """What tangents leave of a residual counts no more than what a fit to these data leaves."""
+    noise, rest = Noise(np.ones(60)), np.random.default_rng(4).normal(size=59)
+    chains = [Chain(2, damped=True, ground_dampers=at) for at in ((1,), (2,))]
+    true, other = (
+        Fit(chain, np.array([size, *rest]), np.empty((60, 0)), noise)
+        for chain, size in zip(chains, (4.0, 0.0), strict=True)
+    )
+
+    def again(fit):
+        assert fit is true
+        return replace(fit, residual=np.array([left, *rest]))
+
+    assert exclusions([true, other], np.inf, Settings(), lambda fit: fit).keys() == {chains[0]}
+    found = exclusions([true, other], np.inf, Settings(), again)
+    assert found.keys() == ({chains[0]} if excluded else set())
 
 
 def test_what_contains_what():

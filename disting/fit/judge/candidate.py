@@ -40,8 +40,7 @@ class Candidate:
     that on the test data, shape (n_y,), whitened, and `missed` what it is expected to be.
 
     `chi2` per line, see `explain`; `noise` = covariance of the residuals on the training data,
-    from which all standard errors follow; `trained` = its whitened residual there; `excluded`: by
-    which other candidate, if by any.
+    from which all standard errors follow; `excluded`: by which other candidate, if by any.
     """
 
     chain: Chain
@@ -53,7 +52,6 @@ class Candidate:
     residual: Real = field(repr=False, compare=False)
     missed: Real = field(repr=False, compare=False)
     noise: NoiseModel = field(repr=False, compare=False)
-    trained: Real = field(repr=False, compare=False)
     reasons: tuple[str, ...] = ()
     akaike_weight: float = 0.0
     excluded: Exclusion | None = None
@@ -117,9 +115,9 @@ def judge(
     """What each estimate is worth by the scatter of the data, in the order of the cost on test."""
     each = list(estimates)
     first = {e.chain: _criteria(e, task, own_scatters[0]) for e in each}
-    criteria = with_structure({c: seen for c, (seen, *_) in first.items()}, task, settings)
+    criteria = with_structure({c: seen for c, (seen, _) in first.items()}, task, settings)
     fitted = [
-        _candidate(e, criteria[e.chain], first[e.chain], task, test_cost, own_scatters)
+        _candidate(e, criteria[e.chain], first[e.chain][1], task, test_cost, own_scatters)
         for e in each
     ]
     return sorted(fitted, key=lambda c: c.order)
@@ -160,11 +158,7 @@ def _response(estimate: Estimate, task: Task) -> Complex:
     return task.plant(estimate.chain).response(values_of(estimate, task))
 
 
-Criteria = tuple[Practical, NoiseModel, Real]
-"""Criteria of an estimate, noise of its residuals, and these whitened."""
-
-
-def _criteria(estimate: Estimate, task: Task, scatter: Scatter) -> Criteria:
+def _criteria(estimate: Estimate, task: Task, scatter: Scatter) -> tuple[Practical, NoiseModel]:
     """The criteria at the optimum, of the parameters that are free, and what the residuals
     there are like.
     """
@@ -174,19 +168,14 @@ def _criteria(estimate: Estimate, task: Task, scatter: Scatter) -> Criteria:
     residual, columns = task.cost.of(task.plant(chain), p)
     sigma = task.cost.scatter(scatter)
     noise = noises(task.cost, residual, sigma, expected_deviation(columns[:, free], sigma))
-    return (
-        practical(
-            columns[:, free], [n for n, chosen in zip(names, free, strict=True) if chosen], noise
-        ),
-        noise,
-        WhitenedCost(task.cost, scatter).residual(task.plant(chain).response(p)),
-    )
+    chosen = [n for n, is_free in zip(names, free, strict=True) if is_free]
+    return practical(columns[:, free], chosen, noise), noise
 
 
 def _candidate(
     estimate: Estimate,
     criteria: Practical,
-    first: Criteria,
+    noise: NoiseModel,
     task: Task,
     test: AnyCost | None,
     own_scatters: Scatters,
@@ -211,7 +200,7 @@ def _candidate(
         at_bound,
         whitened,
         missed,
-        *first[1:],
+        noise,
     )
 
 

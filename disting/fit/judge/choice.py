@@ -19,6 +19,7 @@ from disting.fit.judge.explanation import Explanation, explain, largest_cost, no
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
+from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
 from disting.measurement.arrays import Real
@@ -117,22 +118,28 @@ def _excluded(
             [trained_as(c, task, inside) for c in candidates], inside.freedom, settings
         )
     other_task = replace(task, cost=test)
-    tested = [_fitted(c, c.residual, other_task, outside) for c in candidates]
-    return exclusions(tested, outside.freedom, settings, seen=False)
+    values = {c.chain: values_of(c.estimate, task) for c in candidates}
+
+    def again(fit: Fit) -> Fit:
+        """The structure fitted to the test data, from where it was."""
+        plant, box = other_task.plant(fit.chain), task.box(task.names(fit.chain))
+        p, _ = fine(plant, WhitenedCost(test, outside), box, values[fit.chain])
+        return _fit_at(fit.chain, p, other_task, outside)
+
+    tested = [_fit_at(chain, p, other_task, outside) for chain, p in values.items()]
+    return exclusions(tested, outside.freedom, settings, again)
 
 
 def trained_as(candidate: Candidate, task: Task, scatter: Scatter) -> Fit:
     """What the test of exclusion asks of a candidate on the data of its fit."""
-    return _fitted(candidate, candidate.trained, task, scatter)
+    return _fit_at(candidate.chain, values_of(candidate.estimate, task), task, scatter)
 
 
-def _fitted(candidate: Candidate, residual: Real, task: Task, scatter: Scatter) -> Fit:
-    whitened = WhitenedCost(task.cost, scatter)
-    p = values_of(candidate.estimate, task)
-    columns = whitened.of(task.plant(candidate.chain), p)[1]
-    free = task.box(task.names(candidate.chain)).free
+def _fit_at(chain: Chain, p: Real, task: Task, scatter: Scatter) -> Fit:
+    residual, columns = WhitenedCost(task.cost, scatter).of(task.plant(chain), p)
+    free = task.box(task.names(chain)).free
     noise = noises(task.cost, residual, np.ones(residual.size))
-    return Fit(candidate.chain, residual, basis_of(columns[:, free]), noise)
+    return Fit(chain, residual, basis_of(columns[:, free]), noise)
 
 
 def _better(
