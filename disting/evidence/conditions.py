@@ -119,9 +119,11 @@ class Ranks(Kind):
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
         """Both ranks once more, of rows that there are, of all if it says so."""
-        labels = set[str]().union(*(s.labels(representation, self.rows) for s in pair.sides))
-        known = set(self.rows) == labels if self.all_rows else set(self.rows) <= labels
-        ranks = tuple(side.rank(representation, self.rows) for side in pair.sides)
+        labels = [side.labels(representation, self.rows) for side in pair.sides]
+        every, rows = set[str]().union(*labels), set(self.rows)
+        known = rows in labels if self.all_rows else rows <= every
+        asked = tuple(every) if self.all_rows else self.rows
+        ranks = tuple(side.rank(representation, asked) for side in pair.sides)
         return known and ranks == (self.left, self.right) and self.left != self.right
 
 
@@ -160,8 +162,8 @@ class Renaming(Kind):
         named = [sorted(p for p, _ in self.pairs), sorted(q for _, q in self.pairs)]
         whole = named == [sorted(side.parameters) for side in pair.sides]
         renaming = dict(self.pairs)
-        given = not self.symmetries or pair.by_symmetry() == (renaming, self.symmetries)
-        return whole and given and pair.renames(renaming)
+        is_why = not self.symmetries or pair.by_symmetry() == (renaming, self.symmetries)
+        return whole and is_why and pair.renames(renaming)
 
     def without_exception(self, domain: Domain) -> bool:
         """It carries all parameters over."""

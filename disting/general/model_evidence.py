@@ -27,6 +27,7 @@ from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
 from disting.general.any_model import is_renamed, maps_of
 from disting.general.combination import excludes
+from disting.general.equivalent import spell
 from disting.general.formulas import is_explicit, is_without
 from disting.general.inequalities import excludes_around, is_contradiction
 from disting.general.matrix_model import AnyModel
@@ -39,9 +40,9 @@ from disting.general.witnesses import solutions_at
 from disting.model.question import Domain, Settings
 from disting.questions.same.exact import by_labels
 
-ROUNDED = (
-    1e-2  # relative: values of 6 digits that are found again where a curve nearly meets itself
-)
+# relative: so far from values of 6 digits are those found again on some curves, half of it in
+# families that are shipped
+ROUNDED = 1e-2
 AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradiction found again
 
 
@@ -115,31 +116,34 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
     Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
     """
     domain = Domain(evidence.domain)
-    with_, without = (
-        {name: Fraction(x) for name, x in p} for p in (evidence.point_with, evidence.point_without)
-    )
-    if any(
-        x == 0 or (x < 0 and domain is Domain.POSITIVE)
-        for p in (with_, without)
-        for x in p.values()
-    ):
-        return False
     sides = {True: (left, right), False: (right, left)}
     first, second = sides[evidence.with_left_given], sides[evidence.without_left_given]
-    points = (
-        (evidence.point_with, first[0]),
-        (evidence.point_without, second[0]),
-        (evidence.equivalent, first[1]),
-    )
-    if any({name for name, _ in p} != {*model.parameters} for p, model in points):
+    points = (evidence.point_with, evidence.point_without, evidence.equivalent)
+    names = [tuple(name for name, _ in point) for point in points]
+    if [*map(sorted, names[:2])] != [sorted(first[0].parameters), sorted(second[0].parameters)]:
         return False
-    near = {name: float(Fraction(x)) for name, x in evidence.equivalent}
-    stated = tuple(near[name] for name in first[1].parameters)
+    if names[2] != first[1].parameters or not all(map(_is_rounded, evidence.equivalent)):
+        return False
+    try:
+        with_, without, near = ({name: Fraction(x) for name, x in point} for point in points)
+    except (ValueError, ZeroDivisionError):
+        return False  # no numbers
+    values = [x for point in (with_, without, near) for x in point.values()]
+    if 0 in values or (domain is Domain.POSITIVE and min(values) < 0):
+        return False
     return (
         evidence.solutions in (UNCOUNTED, solutions_at(*second, evidence.point_without))
-        and _has(*first, with_, stated, domain)
+        and _has(*first, with_, tuple(map(float, near.values())), domain)
         and _has_none(*second, without, domain)
     )
+
+
+def _is_rounded(value: tuple[str, str]) -> bool:
+    """Whether a value is written as `spell` writes it."""
+    try:
+        return spell(float(value[1])) == value[1]
+    except ValueError:
+        return False
 
 
 def _has(
@@ -147,8 +151,8 @@ def _has(
 ) -> bool:
     """Whether what is stated is the equivalent (rounded) of a point around which all have some."""
     return any(
-        found and all(isclose(x, y, rel_tol=ROUNDED) for x, y in zip(found, stated, strict=True))
-        for found in _equivalents(model, other, values, stated, domain)
+        seen and all(isclose(x, y, rel_tol=ROUNDED) for x, y in zip(seen, stated, strict=True))
+        for seen in _equivalents(model, other, values, stated, domain)
     )
 
 

@@ -98,8 +98,8 @@ class ComparedChain(Side[Chain]):
 
     def symmetry_with(self, other: "ComparedChain") -> Renaming | None:
         """By the common canonical form, if there is one."""
-        found = between(self.chain, other.chain)
-        return found and Renaming(tuple(found[0].items()), found[1])
+        way = between(self.chain, other.chain)
+        return way and Renaming(tuple(way[0].items()), way[1])
 
     def is_renamed(self, other: "ComparedChain", renaming: dict[str, str]) -> bool:
         """Whether renaming the parameters turns this transfer function into the other: exact."""

@@ -246,6 +246,12 @@ def test_on_test_data_a_second_fit_takes_away_what_bends(left, excluded):
     assert found.keys() == ({chains[0]} if excluded else set())
 
 
+def test_a_truth_over_a_long_valley_is_kept_on_test_data():
+    """Fitted to one record it lies on the far side, and tangents do not reach the near one."""
+    machine = drive(3, 0)
+    assert outcome(machine, selected(machine, 1, tested=True)).kept
+
+
 def test_what_contains_what():
     one, two = Chain(2, damped=True, ground_dampers=(1,)), Chain(2, damped=True, lag=True)
     both = replace(two, ground_dampers=(1,))

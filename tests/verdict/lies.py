@@ -93,7 +93,7 @@ def believed(data: dict[str, Any], *free: str) -> list[tuple[Any, ...]]:
     evidence = data["evidence"]
     lies = [(path, lie) for path in leaves(evidence) for lie in altered(evidence, path)]
     lies += [(path, put(evidence, path, some[:-1])) for path, some in _lists(evidence)]
-    found = []
+    believed_ones = []
     for path, lie in lies:
         if set(free).intersection(path):
             continue
@@ -101,8 +101,8 @@ def believed(data: dict[str, Any], *free: str) -> list[tuple[Any, ...]]:
             again = told_again(data, evidence=lie)
         except (InputError, ValueError, KeyError, TypeError):  # it cannot be told at all
             continue
-        found += [path] if not found_out(again) else []
-    return found
+        believed_ones += [path] if not found_out(again) else []
+    return believed_ones
 
 
 def _lists(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], list[Any]]]:

@@ -22,6 +22,7 @@ from disting import (
     verify,
 )
 from disting.errors import NotSeenError
+from disting.evidence.kinds import evidence_from
 from disting.general import model_evidence
 from disting.general.any_model import of_network
 from disting.general.newton import find_equivalent
@@ -193,7 +194,44 @@ def test_every_altered_leaf_is_found(name: str) -> None:
 def test_who_alters_evidence_and_writes_all_that_is_derived_anew_is_found_out(
     name: str, free: str
 ) -> None:
-    assert not believed(told(name), free)
+    assert not believed(told(name), *free.split())
+
+
+@pytest.mark.parametrize(
+    "lie",
+    [
+        lambda points: [["k01", "99"], *points],
+        lambda points: points * 2,
+        lambda points: points[::-1],
+        lambda points: points[:-1],
+        *(
+            lambda points, text=text: [[points[0][0], text.format(points[0][1])], *points[1:]]
+            for text in ("\n{}", "{}0", "{}1234567", "1{}", "0", "-1", "1e400", "abc", "")
+        ),
+    ],
+)
+def test_an_equivalent_is_written_as_it_is_rounded_each_value_once(lie: Callable[..., Any]) -> None:
+    data = told("general: witnesses")
+    evidence = data["evidence"]
+    altered = put(evidence, ("equivalent",), lie(evidence["equivalent"]))
+    assert found_out(told_again(data, evidence=altered))
+    sides = read_file(data).sides(ENGINE)
+    assert not sides.left.confirms(sides.right, evidence_from(altered), "parameters")
+
+
+@pytest.mark.parametrize(
+    ("pair", "asked"),
+    [
+        (("1=2; F1; S2", "1=2; F1; S1"), Query(View.TF, ("4",))),
+        (("2:1", "3:1"), Query(View.TF, ("4",))),
+        (("2:1", "3:1+delay"), Query(View.POSITIVE, ("1", "2", "4"))),
+        (("3:1", "3:1+delay"), Query(View.POSITIVE, ("1", "2", "4"))),
+    ],
+)
+def test_ranks_of_all_rows_are_those_of_either_model(pair: tuple[str, str], asked: Query) -> None:
+    """The rows that are named are those of the left one: the right one may have others."""
+    for left, right in (pair, pair[::-1]):
+        assert verify(plain(left, right, query=asked)).sentence == "holds"
 
 
 ALTERED: dict[str, tuple[Case, Callable[[Any], Any]]] = {

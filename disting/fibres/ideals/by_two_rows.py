@@ -217,4 +217,5 @@ def _confirms(shown: FibreEvidence, wanted: CoefficientMap, reached: Coefficient
         return shown.index > 0 and _refutes(shown.index, wanted, reached)
     ranks = _ranks(wanted, reached, "rank:verify")
     in_order = ranks[0] == ranks[1] or (ranks[0] < ranks[1] and shown.left_given)
-    return in_order and confirms(shown, *match_maps(wanted, reached))
+    alike = wanted.degrees[1] == reached.degrees[1]
+    return in_order and alike and confirms(shown, *match_maps(wanted, reached))

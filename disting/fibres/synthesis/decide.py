@@ -134,10 +134,10 @@ def member(
         point = rational_point(
             chain, about(f"synthesis:{seed}:{draw}", chain, other), point_bits(other)
         )
-        found = member_at(left, right, way, point)
-        if found.status is not Status.DEGENERATE:
+        finding = member_at(left, right, way, point)
+        if finding.status is not Status.DEGENERATE:
             break
-    return found
+    return finding
 
 
 def member_at(left: Chain, right: Chain, way: Direction, point: dict[str, fmpq]) -> Exact:

@@ -141,10 +141,10 @@ def _decided(target: Structure, result: Structure, seed: str) -> Decision[Soluti
 
 
 def _holds(target: Structure, result: Structure, solved: Solutions) -> bool:
-    is_solved = tells(solved, target, result, "verify") and not solved.is_normalised
-    return is_solved and confirms(
-        solved, *match_maps(coefficient_map(target), coefficient_map(result))
-    )
+    if solved.is_normalised or not tells(solved, target, result, "verify"):
+        return False
+    maps = coefficient_map(target), coefficient_map(result)
+    return maps[0].degrees[1] == maps[1].degrees[1] and confirms(solved, *match_maps(*maps))
 
 
 def tells(solved: Solutions, target: Structure, result: Structure, seed: str) -> bool:

@@ -86,8 +86,9 @@ def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
             return _shares(evidence, a, b)
         case Solutions() | Refutation():
             coordinates = normalise if evidence.is_normalised else coefficient_map
-            maps = match_maps(coordinates(rational_part(a)), coordinates(rational_part(b)))
-            return find_again(evidence, *maps)
+            one, other = coordinates(rational_part(a)), coordinates(rational_part(b))
+            alike = one.degrees[1] == other.degrees[1]
+            return alike and find_again(evidence, *match_maps(one, other))
         case BothWays():
             return _both_ways(evidence, a, b)
         case OddFibres():
@@ -104,14 +105,16 @@ def _fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
     a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
     way = Direction.LEFT_IN_RIGHT if evidence.left_given else Direction.RIGHT_IN_LEFT
     chain = a if evidence.left_given else b
-    if sorted(name for name, _ in evidence.point) != sorted(chain.structure.parameters):
-        return False  # it speaks of another model
+    names = sorted(name for name, _ in evidence.point)
+    comparable = (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
+    if names != sorted(chain.structure.parameters) or not comparable:
+        return False  # it speaks of other models
     try:
         point = {name: fraction(value) for name, value in evidence.point}
     except (ValueError, ZeroDivisionError):
         return False  # no numbers
-    found = member_at(a, b, way, point)
-    return found.is_exact and found.evidence == evidence
+    finding = member_at(a, b, way, point)
+    return finding.is_exact and finding.evidence == evidence
 
 
 def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
