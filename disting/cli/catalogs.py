@@ -175,7 +175,7 @@ def verify(options: argparse.Namespace) -> int:
             texts = verify_networks(
                 family, options.catalog, Engine(), executor=pool, progress=progress
             )
-            wrong += _told(name, texts)
+            wrong += _told(name, texts, "all is as it is computed now, and every evidence holds")
         for n, damped in product(sizes, (False, True)):
             texts = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
             wrong += _told(f"{n} masses, {_kind(damped)}", texts)
@@ -220,7 +220,9 @@ def _kind(damped: bool) -> str:
     return "damped" if damped else "undamped"
 
 
-def _told(what: str, texts: list[str]) -> list[str]:
-    """Say what was found wrong; returns it."""
-    print(f"{what}: {'; '.join(texts) or 'every byte and every evidence holds'}")
+def _told(
+    what: str, texts: list[str], otherwise: str = "every byte and every evidence holds"
+) -> list[str]:
+    """Say what was found wrong, or what holds if nothing was; returns it."""
+    print(f"{what}: {'; '.join(texts) or otherwise}")
     return texts

@@ -15,6 +15,7 @@ from disting.fibres.ideals.by_two_rows import (
 from disting.fibres.ideals.confirm import (
     confirms as confirms,
     find_again as find_again,
+    holds_for as holds_for,
     refuted_at as refuted_at,
     safety_of as safety_of,
 )

@@ -21,7 +21,7 @@ from flint import fmpz_mpoly
 
 from disting.evidence.ideals import ByRows, FibreEvidence, RowStep, Solutions, Vanishing
 from disting.evidence.kinds import Decision
-from disting.fibres.ideals.confirm import confirms
+from disting.fibres.ideals.confirm import holds_for
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.membership import Limits, decide
 from disting.fibres.ideals.splits import (
@@ -36,7 +36,7 @@ from disting.fibres.ideals.splits import (
     relative_degree,
     splits,
 )
-from disting.fibres.ideals.system import CoefficientMap, match_maps
+from disting.fibres.ideals.system import CoefficientMap
 from disting.model.question import Membership
 from disting.model.structure import Structure
 
@@ -217,5 +217,4 @@ def _confirms(shown: FibreEvidence, wanted: CoefficientMap, reached: Coefficient
         return shown.index > 0 and _refutes(shown.index, wanted, reached)
     ranks = _ranks(wanted, reached, "rank:verify")
     in_order = ranks[0] == ranks[1] or (ranks[0] < ranks[1] and shown.left_given)
-    alike = wanted.degrees[1] == reached.degrees[1]
-    return in_order and alike and confirms(shown, *match_maps(wanted, reached))
+    return in_order and holds_for(shown, wanted, reached)

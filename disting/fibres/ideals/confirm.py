@@ -19,7 +19,7 @@ from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals.bounds import bits_of, safety_of_empty, safety_of_member
 from disting.fibres.ideals.fibre_ideal import agree, draw_point, fibre_ideal
 from disting.fibres.ideals.membership import SPARE, Limits, is_empty, labels_of
-from disting.fibres.ideals.system import PolynomialMap
+from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, match_maps
 
 PLAIN_MONOMIALS = 3000  # that plain elimination can bear
 AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction that is found again
@@ -87,6 +87,14 @@ def find_again(
     if isinstance(evidence, Solutions) or _is_small(evidence.degree, unknowns):
         return confirms(evidence, left, right)
     return refuted_at(labels_of("verify", left, right, 1), evidence, left, right, limits)
+
+
+def holds_for(
+    evidence: Solutions | Refutation, left: CoefficientMap, right: CoefficientMap
+) -> bool:
+    """The same for the maps of any two models: of unequally many poles nothing is shown."""
+    alike = left.degrees[1] == right.degrees[1]
+    return alike and find_again(evidence, *match_maps(left, right))
 
 
 def refuted_at(

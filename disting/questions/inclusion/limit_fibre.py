@@ -19,14 +19,7 @@ from math import ceil, log2
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.behaviour.chain_model import powers
 from disting.evidence.ideals import Refutation, Solutions
-from disting.fibres.ideals import (
-    Decision,
-    Limits,
-    coefficient_map,
-    confirms,
-    decide,
-    match_maps,
-)
+from disting.fibres.ideals import Decision, Limits, coefficient_map, decide, holds_for
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
@@ -141,10 +134,8 @@ def _decided(target: Structure, result: Structure, seed: str) -> Decision[Soluti
 
 
 def _holds(target: Structure, result: Structure, solved: Solutions) -> bool:
-    if solved.is_normalised or not tells(solved, target, result, "verify"):
-        return False
-    maps = coefficient_map(target), coefficient_map(result)
-    return maps[0].degrees[1] == maps[1].degrees[1] and confirms(solved, *match_maps(*maps))
+    is_solved = tells(solved, target, result, "verify") and not solved.is_normalised
+    return is_solved and holds_for(solved, coefficient_map(target), coefficient_map(result))
 
 
 def tells(solved: Solutions, target: Structure, result: Structure, seed: str) -> bool:

@@ -17,7 +17,7 @@ from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesse
 from disting.fibres.ideals import (
     MOST,
     coefficient_map,
-    find_again,
+    holds_for,
     match_maps,
     normalise,
     refuted_at,
@@ -86,9 +86,8 @@ def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
             return _shares(evidence, a, b)
         case Solutions() | Refutation():
             coordinates = normalise if evidence.is_normalised else coefficient_map
-            one, other = coordinates(rational_part(a)), coordinates(rational_part(b))
-            alike = one.degrees[1] == other.degrees[1]
-            return alike and find_again(evidence, *match_maps(one, other))
+            maps = coordinates(rational_part(a)), coordinates(rational_part(b))
+            return holds_for(evidence, *maps)
         case BothWays():
             return _both_ways(evidence, a, b)
         case OddFibres():
