@@ -8,14 +8,16 @@ discrete Fourier transforms of period p, at every excited line
     deviation = sqrt( sum_p |Y_p/U_p - mean(Y_p/U_p)|^2 / (P - 1) / P )
     coherence = |sum_p Y_p conj(U_p)|^2 / (sum_p |U_p|^2 sum_p |Y_p|^2).
 
-Noise that does not repeat averages out; the deviation is that of the mean of P periods.
+Noise that does not repeat averages out; the deviation is that of the mean of P periods. Trends of
+input and output are removed before (`trend`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real, real
@@ -23,6 +25,7 @@ from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import distortion
 from disting.measurement.repeats import leave_out
 from disting.measurement.response import FrequencyResponse
+from disting.measurement.trend import Trend, trend_between_periods, trend_of_one_period
 from disting.model.presentation import plural
 
 WEAKEST = 0.01  # share of the largest amplitude below which no line counts as excited
@@ -32,6 +35,8 @@ FALLEN = 0.5  # a correlation has to fall below this before it can rise again to
 # a shorter period may raise the share of noise, 1 - correlation, by this much of itself
 EXCESS = 0.5
 ROUNDING = 1e-9  # of a correlation computed by fast Fourier transforms
+Detrend = tuple[Callable[[Trend], str], Callable[[Trend], str]]
+"""Sentences on a trend that was removed from the input and from the output."""
 OFF_GRID = 1e-3  # of the line spacing, by which a given frequency may miss its line
 
 
@@ -45,10 +50,11 @@ def estimate(
     band: tuple[float, float] | None,
     excitation: Real,
     outliers: str = "keep",
+    detrend: Detrend | None = None,
 ) -> FrequencyResponse:
     """Response at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz];
     `excitation` = u or a reference; `outliers` among the periods as in
-    `repeats.mean_of`.
+    `repeats.mean_of`; `detrend`: describes a trend of input or output, None to keep trends.
 
     Means over periods forget the noise that a controller feeds back, so G holds in closed loop as
     well.
@@ -56,9 +62,10 @@ def estimate(
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     detected = f"period of {length} samples ({length / rate:g} s) detected in the input"
     notes = [detected] if period is None else []
-    inputs, outputs, exciting = (
-        _spectra(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation)
+    u, y, excitation = (
+        _whole_periods(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation)
     )
+    exciting = _spectra(excitation, length)
     spacing = rate / length
     if lines is None:
         chosen = excited_lines(np.abs(exciting.mean(axis=0)))
@@ -70,7 +77,11 @@ def estimate(
             )
         notes.append(f"{len(chosen)} excited lines detected in the input")
     else:
-        chosen = _given(lines, spacing, inputs.shape[1])
+        chosen = _given(lines, spacing, exciting.shape[1])
+    if detrend:
+        u, y, removed = _without_trends(u, y, length, chosen, detrend)
+        notes += removed
+    inputs, outputs = _spectra(u, length), _spectra(y, length)
     between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
     notes += [said] if said else []
     if band is not None:
@@ -138,8 +149,21 @@ def _autocorrelation(u: Real) -> Real:
     return np.asarray(products / np.sqrt(np.where(power > 0, power, np.inf)))
 
 
-def _spectra(x: Real, period: int, transient: int) -> Complex:
-    """Fourier transforms of the whole periods after the transient, shape (P, period // 2 + 1)."""
+def _without_trends(
+    u: Real, y: Real, period: int, excited: NDArray[np.intp], detrend: Detrend
+) -> tuple[Real, Real, list[str]]:
+    """Input and output without their trends, and a note on each."""
+    signals, notes = [], list[str]()
+    for x, describe in zip((u, y), detrend, strict=True):
+        several = len(x) >= 2 * period
+        trend = trend_between_periods(x, period) if several else trend_of_one_period(x, excited)
+        signals.append(x - trend.samples(len(x)) if trend else x)
+        notes += [describe(trend)] if trend else []
+    return signals[0], signals[1], notes
+
+
+def _whole_periods(x: Real, period: int, transient: int) -> Real:
+    """Samples of the whole periods after the transient."""
     count = len(x) // period - transient
     if count < 1:
         raise InputError(
@@ -148,7 +172,12 @@ def _spectra(x: Real, period: int, transient: int) -> Complex:
             " --read transient=0 keeps all, if the first one is no transient"
         )
     start = transient * period
-    return np.asarray(np.fft.rfft(x[start : start + count * period].reshape(count, period), axis=1))
+    return x[start : start + count * period]
+
+
+def _spectra(x: Real, period: int) -> Complex:
+    """Fourier transforms of the periods, shape (P, period // 2 + 1)."""
+    return np.asarray(np.fft.rfft(x.reshape(-1, period), axis=1))
 
 
 def _given(lines: Any, spacing: float, count: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:

@@ -17,6 +17,13 @@ from disting.errors import InputError, short
 from disting.measurement import periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
+from disting.measurement.trend import (
+    Trend,
+    TrendOption,
+    as_trend_option,
+    describe,
+    undo_difference,
+)
 from disting.measurement.units import motion
 from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import plural, summary
@@ -29,6 +36,7 @@ DEVIATIONS = 8.0  # by which a correlation is none of chance
 # leaves less
 SHARE = 0.4
 TOO_SHORT = 500  # samples
+MOVING = 0.1  # share of the scatter of the speed from which on its mean is reported
 ASSUMED_POSITION = (
     "output taken as a position; if not, give --quantity velocity or --quantity acceleration"
 )
@@ -151,6 +159,7 @@ class TimeSeries:
         segment: int | None = None,
         least_coherence: float | None = None,
         outliers: str = "keep",
+        trend: str = "remove",
     ) -> FrequencyResponse:
         """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default:
         that of the record).
@@ -160,23 +169,24 @@ class TimeSeries:
         detected where not given; `outliers` among the periods as in `mean_of`. Any other
         excitation: `segment` [samples] of Welch's method (module `welch`), which is used exactly
         where `segment` is given; lines of a coherence below `least_coherence` are left out then
-        (default: what chance gives). A reference makes both methods hold in closed loop. `band` =
-        (low, high) [Hz]. Raises InputError where no period is found, periods are missing, too few
-        lines are left, or `segment` is given with `period` or `outliers`.
+        (default: what chance gives). `trend`: "remove" the constant speed of a drive or the drift
+        of a sensor (module `trend`), or "keep" it. A reference makes both methods hold in closed
+        loop. `band` = (low, high) [Hz]. Raises InputError where no period is found, periods are
+        missing, too few lines are left, or `segment` is given with `period` or `outliers`.
         """
         parts = (self.u, self.y, self.sampling_rate)
         _check_method(segment, period, lines, least_coherence, outliers)
+        removes = as_trend_option(trend) is TrendOption.REMOVE
         # what is not finite then is refused below
         with np.errstate(over="ignore", invalid="ignore"):
             if segment is None:
                 excitation = self.u if self.reference is None else self.reference
+                detrend = (self._describe_input, self._describe_output) if removes else None
                 the_response = periodic.estimate(
-                    *parts, period, transient, lines, band, excitation, outliers
+                    *parts, period, transient, lines, band, excitation, outliers, detrend
                 )
             else:
-                the_response = welch.estimate(
-                    *parts, segment, band, self.reference, least_coherence, self.sensor.order
-                )
+                the_response = self._by_welch(segment, band, least_coherence, removes)
         in_doubt = segment is not None and self.reference is None
         doubt = follows_output(self.u, self.y) if in_doubt else None
         closed = "" if self.reference is None else ", with a reference, which holds in closed loop"
@@ -191,6 +201,37 @@ class TimeSeries:
             + (self.left_out and f"; {self.left_out}"),
         )
         return response if sensor is None else response.to_quantity(sensor)
+
+    def _by_welch(
+        self,
+        segment: int,
+        band: tuple[float, float] | None,
+        least_coherence: float | None,
+        removes_trends: bool,
+    ) -> FrequencyResponse:
+        """Response by Welch's method; of a position by its differences where trends are removed."""
+
+        def estimate(y: Real, order: int) -> FrequencyResponse:
+            return welch.estimate(
+                self.u, y, self.sampling_rate, segment, band, self.reference, least_coherence, order
+            )
+
+        if self.sensor.order or not removes_trends:
+            return estimate(self.y, self.sensor.order)
+        steps = np.diff(self.y)
+        speed = Trend(float(steps.mean()))
+        # a Hann window gives the first sample no weight: its difference is unknown and free
+        response = estimate(np.concatenate([[speed.slope], steps]), 1)
+        is_moving = abs(speed.slope) > MOVING * float(steps.std())
+        return undo_difference(response, self.sampling_rate).noted(
+            self._describe_output(speed) if is_moving else None
+        )
+
+    def _describe_input(self, trend: Trend) -> str:
+        return describe(trend, self.sampling_rate, None, "input", self.input)
+
+    def _describe_output(self, trend: Trend) -> str:
+        return describe(trend, self.sampling_rate, self.sensor.order, "output", self.output)
 
 
 def said(sensor: Sensor | str | None, unit: str = "") -> tuple[Sensor, tuple[str, ...]]:

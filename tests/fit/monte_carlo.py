@@ -106,7 +106,9 @@ def recorded(machine: Drive, repeats: int, again: int = 0) -> TimeSeries:
     return simulate(machine.chain, machine.values, excitation, noisy)
 
 
-def measured(machine: Drive, repeats: int, again: int = 0) -> FrequencyResponse:
+def measured(
+    machine: Drive, repeats: int, again: int = 0, trend: str = "remove"
+) -> FrequencyResponse:
     """The acceleration response of what was recorded, by the reader of the package."""
     series = recorded(machine, repeats, again)
     if machine.kind == "random":
@@ -117,6 +119,7 @@ def measured(machine: Drive, repeats: int, again: int = 0) -> FrequencyResponse:
         period=BENCH.samples,
         transient=0,
         lines=lines * BENCH.sampling_rate / BENCH.samples,
+        trend=trend,
     )
 
 

@@ -19,9 +19,11 @@ SIDES = [("theta_mx", 1, "ReG_mot"), ("theta_my", -1, "ReG_load")]
 def test_the_records_give_the_published_responses(experiment, lines, angle, sign, header):
     record = measured_data(f"fditools_motorbench_{experiment}.mat")
     derived = read(measured_data(f"fditools_motorbench_frf_{experiment}.csv"), column=header)
-    found = read(
-        record, input="iq_adx", output=angle, sign=sign, sensor="position", to="acceleration"
-    )
+    signals = {"input": "iq_adx", "output": angle, "sign": sign, "sensor": "position"}
+    found = read(record, **signals, to="acceleration", trend="keep")
+    still = read(record, **signals, to="acceleration")  # the angle creeps by 1 mrad in 20 s
+    assert np.max(np.abs(still.G - found.G) / found.deviation) < 0.02
+    assert 0.9 < np.min(still.deviation / found.deviation) < 1
     assert found.sensor == derived.sensor == Sensor.ACCELERATION and found.suspicions == ()
     assert len(found) == {"A": 240, "B": 60}[experiment] and (
         lines is None or np.allclose(found.frequency, lines)
