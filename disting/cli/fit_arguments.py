@@ -38,6 +38,7 @@ what was measured
   --column HEADER         which of several responses in the file
   --torque-constant K     Nm per A, where the input is a current
   --band 10..200          use only these frequencies, in Hz
+  --hold 125e-6           a digital drive that holds its input so long, in s
 
 candidates
   --masses 1-3            how many masses (default: 1-4)
@@ -157,6 +158,11 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
         metavar="N",
         help="use only so many lines, evenly spaced on a logarithmic scale",
     )
+    text = (
+        "time for which a digital drive holds its input, in s, such as 125e-6; record: the sampling"
+        " time of a record (default: the input is not held)"
+    )
+    group.add_argument("--hold", metavar="T", help=text)
     text = (
         "sign of the sensor: +, - or auto, what fits better among small and large candidates; of"
         " several --sign=+,- (default: +)"

@@ -80,11 +80,11 @@ def _check(options: argparse.Namespace) -> None:
             "a file with measured data is needed, such as disting fit bench.csv; --demo shows a fit"
             " of simulated data"
         )
-    own = options.test or options.read or options.column or options.quantity
+    own = options.test or options.read or options.column or options.quantity or options.hold
     if options.demo and (own or several):
         raise InputError(
-            "--demo brings its own data: leave --test, --read, --column, --quantity, --experiment"
-            " and several sensors away"
+            "--demo brings its own data: leave --test, --read, --column, --quantity, --hold,"
+            " --experiment and several sensors away"
         )
     if options.family and several:
         raise InputError("--family moves the sensor: leave it away where several are fitted")
@@ -149,6 +149,7 @@ def read_mean(
     settings = dict(options.read) | ({"column": options.column} if options.column else {})
     settings |= {f"{name}_unit": units[name] for name in OF_READER if name in units}
     settings |= {"sensor": options.quantity} if options.quantity else {}
+    settings |= {"hold": options.hold} if options.hold else {}
     settings |= {"outliers": "drop"} if options.outliers == "drop" and len(files) == 1 else {}
     if count > 1:
         settings = _of_one(settings, which, count)

@@ -113,6 +113,11 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
     """The networks with sensors that show what was measured; raises InputError."""
     if not networks or not data:
         raise InputError("name at least one network to fit, and a measured response")
+    if any(response.hold for response in data):
+        raise InputError(
+            "networks are fitted without a hold; leave --hold out, and lines above a tenth of the"
+            " sampling rate too (--band)"
+        )
     asked = [measured_as(network, data[0]) for network in networks]
     for network in asked:
         outputs, inputs = network.shape

@@ -100,8 +100,10 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     With `input` and `output` the file is read as a time series (`read_time_series`), likewise a
     file of a clock without frequencies, whose input and output are then told by their names. Its
     options and those of `TimeSeries.response` (`period`, `transient`, `lines`, `band`, `segment`,
-    `least_coherence`) are then accepted; `sensor` is the quantity of the recorded output, `to` the
-    quantity wanted. Raises InputError for a file or an option that cannot be understood.
+    `least_coherence`, `trend`) are then accepted; `sensor` is the quantity of the recorded output,
+    `to` the quantity wanted. `hold`, of every file: the time for which a digital drive holds its
+    input [s] (`FrequencyResponse.held`), of a time series also "record". Raises InputError for a
+    file or an option that cannot be understood.
 
     >>> from tempfile import TemporaryDirectory
     >>> lines = ["frequency [Hz],re,im", *(f"{f},1,{f}" for f in range(1, 20))]
@@ -117,7 +119,9 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
         file_format.records and file_format.records.held(file, options)
     ):
         return _through_time(file, _records(file, file_format), options)
-    return file_format.response(file, options)
+    hold = options.pop("hold", None)
+    response = file_format.response(file, options)
+    return response if hold is None else response.held(hold)
 
 
 def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[int, ...] | None:

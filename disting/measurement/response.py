@@ -22,6 +22,7 @@ from disting.measurement.arrays import (
     spread,
 )
 from disting.measurement.distortion import Distortion
+from disting.measurement.hold import Hold, as_period
 from disting.measurement.units import agree, unit_as
 from disting.measurement.window import Window
 from disting.model.chain import Sensor, as_sensor
@@ -67,8 +68,9 @@ class FrequencyResponse(NotebookTable):
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
     are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
-    in any unit, shape (n_f,), or None. Frequencies out of order are sorted, with a note. Raises
-    InputError for what is no frequency response (module `checks`).
+    in any unit, shape (n_f,), or None; `hold` = how the input is held between samples, or None: the
+    lines show G through it then, and a fit compares models so. Frequencies out of order are sorted,
+    with a note. Raises InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -91,6 +93,7 @@ class FrequencyResponse(NotebookTable):
     freedom: float | None = None
     window: Window | None = None
     drive: Real | None = None
+    hold: Hold | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -262,6 +265,19 @@ class FrequencyResponse(NotebookTable):
             deviation=apply(lambda d: d * share, self.deviation),
             window=Window(window.duration, window.order),
         )
+
+    def held(self, period: float | str, order: int = 0) -> "FrequencyResponse":
+        """The same lines as a digital drive shows them that holds its input for `period` [s] and
+        samples a motion of this `order` (0: position); `reading` says so. Raises InputError.
+
+        >>> import numpy as np
+        >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
+        >>> mass.held(1e-3).reading
+        'input held for 0.001 s (zero-order hold), as models are compared'
+        """
+        hold = Hold(as_period(period), order)
+        words = f"input held for {hold.period:g} s (zero-order hold), as models are compared"
+        return replace(self, hold=hold, reading="; ".join(filter(None, [self.reading, words])))
 
     def sign_reversed(self) -> "FrequencyResponse":
         """-G: the response of a sensor that counts the other way round."""

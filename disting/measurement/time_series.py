@@ -160,6 +160,7 @@ class TimeSeries:
         least_coherence: float | None = None,
         outliers: str = "keep",
         trend: str = "remove",
+        hold: float | str | None = None,
     ) -> FrequencyResponse:
         """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default:
         that of the record).
@@ -170,9 +171,11 @@ class TimeSeries:
         excitation: `segment` [samples] of Welch's method (module `welch`), which is used exactly
         where `segment` is given; lines of a coherence below `least_coherence` are left out then
         (default: what chance gives). `trend`: "remove" the constant speed of a drive or the drift
-        of a sensor (module `trend`), or "keep" it. A reference makes both methods hold in closed
-        loop. `band` = (low, high) [Hz]. Raises InputError where no period is found, periods are
-        missing, too few lines are left, or `segment` is given with `period` or `outliers`.
+        of a sensor (module `trend`), or "keep" it. `hold` = time for which a digital drive holds
+        its input [s], "record" for the sampling time of the record (module `hold`). A reference
+        makes both methods hold in closed loop. `band` = (low, high) [Hz]. Raises InputError where
+        no period is found, periods are missing, too few lines are left, or `segment` is given with
+        `period` or `outliers`.
         """
         parts = (self.u, self.y, self.sampling_rate)
         _check_method(segment, period, lines, least_coherence, outliers)
@@ -200,6 +203,9 @@ class TimeSeries:
             reading=f"record in time, input {self.input}, output {self.output}{closed}"
             + (self.left_out and f"; {self.left_out}"),
         )
+        if hold is not None:
+            held = 1 / self.sampling_rate if hold == "record" else hold
+            response = response.held(held, self.sensor.order)
         return response if sensor is None else response.to_quantity(sensor)
 
     def _by_welch(

@@ -82,7 +82,7 @@ def test_derivatives_of_what_a_line_shows_are_those_of_differences():
         moved[i] = value * (1 + 1e-6)
         slope = np.log(plant.response(moved) / response) / (1e-6 * value)
         np.testing.assert_allclose(gradient[i], slope, atol=1e-4 * np.abs(gradient[i]).max())
-    assert Cost(data).window is None
+    assert Cost(data).observation is None
     both = JointCost((Cost(data), Cost(data)), (Setup(), Setup(sensor="1"))).windowed()
     together = both.plant(CHAIN.structure, 1)
     np.testing.assert_allclose(together.response(VALUES), np.tile(response, 2), rtol=1e-12)

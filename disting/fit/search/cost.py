@@ -26,7 +26,7 @@ from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real, spread
-from disting.measurement.window import Window
+from disting.measurement.observation import Observation
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.structure import Structure
@@ -163,10 +163,13 @@ class Cost(SquaredCost):
         return replace(self, measured=self.measured.windowed())
 
     @property
-    def window(self) -> Window | None:
-        """Under which the lines show a response; None where they show it as it is."""
-        own = self.measured.window
-        return own if own is not None and own.ratio is None else None
+    def observation(self) -> Observation | None:
+        """How lines show a response; None where they show it as it is."""
+        window, hold = self.measured.window, self.measured.hold
+        segment: tuple[float, int] | None = None
+        if window is not None and window.ratio is None:
+            segment = window.duration, window.order
+        return Observation(segment, hold) if segment or hold else None
 
     @property
     def leading(self) -> "Cost":
@@ -199,7 +202,7 @@ class Cost(SquaredCost):
 
     def plant(self, structure: Structure, sign: int) -> Plant:
         """The structure at the lines of the data."""
-        return Plant(structure, self.measured.omega, sign, window=self.window)
+        return Plant(structure, self.measured.omega, sign, observation=self.observation)
 
     def on(self, chain: Chain) -> "Cost":
         """Of the responses that a chain has: every chain has this one."""

@@ -211,7 +211,7 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
         full_text(chain),
         *(part.measured.sensor.value for part in cost.parts),
         *(
-            full_text((setup, len(p.measured)))
+            full_text((setup, len(p.measured), p.observation))
             for setup, p in zip(cost.setups_of(chain.structure), cost.parts, strict=True)
         ),
         full_text((first.case, first.weights, task.sign, task.seed, task.divided, cost.delays)),

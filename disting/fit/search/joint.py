@@ -92,7 +92,7 @@ class JointPlant:
         answers = []
         for part, at in zip(self.parts, self._places, strict=True):
             force = part.structure.ports[:2]
-            lines = part.omega.tobytes(), part.window and part.window.duration
+            lines = part.omega.tobytes(), part.observation and part.observation.grid
             state, own = (force, part.still, part.added, *lines), p[..., at]
             if state not in units:
                 units[state] = part.motion(own)
@@ -190,7 +190,7 @@ class JointCost(SquaredCost):
                 sign * setup.sign,
                 setup.still(n),
                 setup.added(n),
-                part.window,
+                part.observation,
             )
             for part, setup in zip(self.parts, setups, strict=True)
         ]

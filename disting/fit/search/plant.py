@@ -27,7 +27,7 @@ from scipy.sparse import csr_array
 
 from disting.errors import InputError
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.window import Window, line_weights
+from disting.measurement.observation import Observation
 from disting.model.structure import Ports, Structure
 
 Rows = slice | NDArray[np.intp]
@@ -49,8 +49,8 @@ class Plant:
     """A chain's structure at angular frequencies `omega` [rad/s], shape (n_f,); `sign` = -1 for
     a reversed sensor.
 
-    `still`: masses that are locked; `added`: (mass, power of s, size) of what is known. `window`:
-    under which a line is seen, from n complex frequencies s (`measurement.window`).
+    `still`: masses that are locked; `added`: (mass, power of s, size) of what is known.
+    `observation`: how lines show the response.
 
     >>> from disting import Chain
     >>> plant = Plant(Chain(1, damped=False).structure, np.array([1.0, 2.0]))
@@ -63,7 +63,7 @@ class Plant:
     sign: int = 1
     still: tuple[int, ...] = ()
     added: tuple[tuple[int, int, float], ...] = ()
-    window: Window | None = None
+    observation: Observation | None = None
 
     def __post_init__(self) -> None:
         if self.sign not in (1, -1):
@@ -123,14 +123,14 @@ class Plant:
 
     def _shown(self, response: Complex) -> Complex:
         """What lines show, shape (..., n_f), of responses, shape (..., n)."""
-        if self.window is None:
+        if self.observation is None:
             return response
         rows = response.reshape(-1, response.shape[-1])
         return np.asarray((self._seen[1] @ rows.T).T.reshape(*response.shape[:-1], -1))
 
     def _shown_with(self, response: Complex, gradient: Complex) -> tuple[Complex, Complex]:
         """The same with d ln G / d p, shape (..., n_p, n)."""
-        if self.window is None:
+        if self.observation is None:
             return response, gradient
         whole = self._shown(response)
         slope = self._shown(response[..., None, :] * gradient)
@@ -176,13 +176,13 @@ class Plant:
 
     @cached_property
     def _s(self) -> Complex:
-        omega = self.omega if self.window is None else self._seen[0]
+        omega = self.omega if self.observation is None else self._seen[0]
         return np.asarray(1j * omega, dtype=np.complex128)
 
     @cached_property
     def _seen(self) -> tuple[Complex, csr_array]:
-        assert self.window is not None
-        return line_weights(self.window, self.omega, self.structure.sensor_order)
+        assert self.observation is not None
+        return self.observation.weights(self.omega, self.structure.sensor_order)
 
     @cached_property
     def _s2(self) -> Complex:
