@@ -3,7 +3,6 @@ the same positive models.
 """
 
 import argparse
-import json
 import shlex
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -15,7 +14,7 @@ from disting.cli.fit_text import fit_text
 from disting.cli.output import emit
 from disting.cli.workers import Work, announce, cores, engine_for
 from disting.errors import InputError, enumeration, printable
-from disting.files import write_whole
+from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.practical import Thresholds
 from disting.fit.plan.fit_file import FitRecord, named_by
@@ -56,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
     selection = _selected(options, measured, candidates, home, controller)
     if options.json:
         plain = selection_to_dict(selection)
-        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
+        text = json_text(plain, indent=1)
         emit(options.json, f"{text}\n")
     if options.json != "-":
         print(printable("\n".join(fit_text(selection, measured.train))))

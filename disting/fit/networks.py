@@ -18,7 +18,7 @@ from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.cost import Case, Cost, comparable
-from disting.fit.search.data import WhitenedCost
+from disting.fit.search.data import WhitenedCost, check_units
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
@@ -113,6 +113,8 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
     """The networks with sensors that show what was measured; raises InputError."""
     if not networks or not data:
         raise InputError("name at least one network to fit, and a measured response")
+    for response in data:
+        check_units(response)
     asked = [measured_as(network, data[0]) for network in networks]
     for network in asked:
         outputs, inputs = network.shape
