@@ -97,6 +97,7 @@ def _bench(p: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate, estimate the response, write it."""
     from disting.measurement import csv_text
+    from disting.measurement.impedance import as_impedance
     from disting.simulation import Bench, Excitation, Friction
     from disting.simulation.excitation import read_spectrum
 
@@ -121,7 +122,8 @@ def run(options: argparse.Namespace) -> int:
         response = series.response(
             quantity, period=options.samples, lines=lines if spectrum else None
         )
-        emit(name, csv_text(response))
+        is_circuit = model.sort is Sort.CIRCUIT
+        emit(name, csv_text(as_impedance(response) if is_circuit else response))
         if name != "-":
             low, high = response.frequency[0], response.frequency[-1]
             print(f"{len(response)} lines from {low:g} to {high:g} Hz in {name}")

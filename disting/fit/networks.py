@@ -32,6 +32,8 @@ from disting.fit.search.network_plant import (
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
+from disting.measurement.response import NO_MOTION
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
@@ -115,6 +117,8 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
         raise InputError("name at least one network to fit, and a measured response")
     for response in data:
         check_units(response)
+        if response.is_impedance and any(n.sort is not Sort.CIRCUIT for n in networks):
+            raise InputError(f"{response.origin or 'data'}: {NO_MOTION}")
     asked = [measured_as(network, data[0]) for network in networks]
     for network in asked:
         outputs, inputs = network.shape

@@ -267,12 +267,17 @@ def _of(columns: Sequence[Column], role: Role) -> list[int]:
     return [i for i, column in enumerate(columns) if column.role is role]
 
 
+def stated_quantities(table: Table) -> list[Sensor]:
+    """The quantities of which the headers and comments of a table speak."""
+    text = " ".join((*table.headers, *table.comments)).lower()
+    return [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
+
+
 def quantity_of(table: Table, sensor: Sensor | str | None, unit: str, notes: list[str]) -> Sensor:
     """The quantity that is asked for, or that words or the unit of the output say."""
     if sensor is not None:
         return as_sensor(sensor)
-    text = " ".join((*table.headers, *table.comments)).lower()
-    sensors = [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
+    sensors = stated_quantities(table)
     if len(sensors) == 1:
         return sensors[0]
     own = motion(unit)

@@ -43,6 +43,8 @@ def read_in_words(measured: FrequencyResponse) -> str:
     """
     origin = f"{measured.origin}: " if measured.origin else ""
     reading = f"{measured.reading}; " if measured.reading else ""
+    if measured.is_impedance:
+        return f"{origin}{reading}{measured.quantity}"
     quantity = assumed_quantity(measured)
     phrase = "" if quantity is None else " (assumed)"
     if quantity is not None and quantity is not measured.sensor:

@@ -23,6 +23,7 @@ from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.measurement.arrays import Complex, Real
+from disting.measurement.response import NO_MOTION
 from disting.model.chain import Chain
 
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
@@ -86,6 +87,10 @@ def check(
     if not candidates:
         raise InputError("a selection needs at least one candidate")
     _check_pair(train, test)
+    every = (train, test, *(data for extra in further for data in (extra.measured, extra.test)))
+    for data in filter(None, every):
+        if data.is_impedance:
+            raise InputError(f"{data.origin or 'data'}: {NO_MOTION}")
     other = {c.sensor for c in candidates} - {train.sensor}
     if other:
         raise InputError(
