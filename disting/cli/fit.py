@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
         _write(selection, measured.train, measured.test, options)
         if options.json != "-":
             print("\n".join(_onward(selection, options.out)))
-    return 0 if selection.explanation.explains else 1
+    return 0 if selection.explanation.explains and not selection.question else 1
 
 
 def _no_drive(options: argparse.Namespace, measured: Data) -> int:

@@ -162,10 +162,12 @@ def write_fit_report(
     does not exist; other files in it stay as they are. Raises InputError for the name of a
     parameter that the described candidate does not have.
     """
-    candidate = selection.described
-    the_profiles = [profile(candidate, selection.task, n) for n in profiles]
-    results = physical(candidate, selection.task)
-    figures = fit_figures(selection, results, train, test, the_profiles)
+    candidate, results = selection.described, list[Result]()
+    figures = list[FigureFiles]()
+    if not selection.question:  # else there is no model to show
+        the_profiles = [profile(candidate, selection.task, n) for n in profiles]
+        results = [*physical(candidate, selection.task)]
+        figures = fit_figures(selection, results, train, test, the_profiles)
     folder.mkdir(parents=True, exist_ok=True)
     page = fit_page(
         selection, results, figures, train, test, Site(site or folders_near(folder), folder)
