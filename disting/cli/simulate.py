@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from disting.cli.arguments import add_damped, add_notation, add_quantity, refuse
+from disting.cli.arguments import add_damped, add_notation, add_quantity, quantity_word, refuse
 from disting.cli.output import emit, written_file
 from disting.errors import InputError, short
 from disting.model.chain import Chain, Sensor
@@ -69,7 +69,7 @@ def _drive(p: argparse.ArgumentParser) -> None:
     add_quantity(p, Sensor.POSITION)
     p.set_defaults(quantity=None)
     text = "quantity of the response that is written (default: acceleration)"
-    p.add_argument("--response", choices=QUANTITIES, help=text)
+    p.add_argument("--response", type=quantity_word, choices=QUANTITIES, help=text)
     refuse(p, "--to", "the quantity of the response is --response, such as --response position")
 
 

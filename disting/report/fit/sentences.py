@@ -92,7 +92,7 @@ def _other_quantities(selection: Selection) -> Iterator[str]:
     for reading in selection.quantities[1:]:
         wanted, assumed = reading.quantity.value, selection.quantities[0].quantity.value
         yield (
-            f"{reading.sentence}: that the sensor shows {assumed} is assumed; give"
+            f"read {reading.sentence}: that it is {assumed} is assumed; give"
             f" --quantity {wanted}, or --quantity {assumed}"
         )
 
