@@ -5,6 +5,7 @@ A unit stands in brackets behind the name, behind a stroke, a comma or "in", or 
 """
 
 import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -32,6 +33,7 @@ class Role(StrEnum):
     COHERENCE = "coherence"
     DEVIATION = "standard deviation"
     SIGNAL = "level of a signal"
+    SPECTRUM = "power spectrum"
     OTHER = "not used"
 
 
@@ -71,6 +73,12 @@ CIRCULAR = {"w", "omega", "ω"}
 # of a file without units in its names: what stands for role and unit
 SHORT = {"hz": Role.FREQUENCY, "khz": Role.FREQUENCY, "db": Role.GAIN, "deg": Role.PHASE}
 WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[Ωωφϕ]")
+# a power spectrum or the root of one, by its name or its unit
+SPECTRAL = re.compile(
+    r"(?<![a-z])(?:psd|asd)(?![a-z])|power[ _-]?spectr|auto[ _-]?spectr|spectral[ _-]density|"
+    r"leistungsdichte|leistungsspektr|(?:\^2|\*\*2|²)\)?\s*/\s*hz|/\s*(?:√|sqrt|rt)\s*\(?\s*hz",
+    re.IGNORECASE,
+)
 # Z' and Z'' with the signs that keyboards and instruments have for them
 PRIMED = re.compile(r"(?<!\w)Z\s*(''|\"+|″|’’|′′|'|’|′)(?!['\"’′″])")
 # what is called an impedance: Re(Z), |Z|, Z', Zreal, Z_im, Re Z, impedance
@@ -111,6 +119,8 @@ def meaning(header: str) -> Column:
     >>> meaning("f [Furlong]").unknown, meaning("Amplitude (Vpp)").role.value
     ('Furlong', 'level of a signal')
     """
+    if SPECTRAL.search(header):
+        return Column(Role.SPECTRUM)
     name, stated = split_unit(header)
     role = _role(name) or _role_of_unit(stated or header)
     if LOGARITHM.search(header) and Role.FREQUENCY in (role, _role(stated or "")):
@@ -159,6 +169,31 @@ def split_unit(header: str) -> tuple[str, str | None]:
     if stroke and not is_name and len(stroke[2]) > 1:
         return stroke[1], stroke[2]
     return text, None
+
+
+def matching(names: Sequence[str], asked: str) -> list[int]:
+    """Places of the names that are meant by a text: those that are the same; else those that are
+    the same where one of both has no unit; else these two with capitals alike. Several: the text
+    is ambiguous.
+
+    >>> matching(["t [s]", "excitation [Nm]", "Speed"], "excitation")
+    [1]
+    >>> matching(["t [s]", "excitation [Nm]", "Speed"], "speed [rpm]"), matching(["a", "A"], "A")
+    ([2], [1])
+    """
+    wanted = asked.strip()
+    for fold in (str, str.casefold):
+        same = [i for i, name in enumerate(names) if name and fold(name) == fold(wanted)]
+        alike = [i for i, name in enumerate(names) if name and _is_same(name, wanted, fold)]
+        if same or alike:
+            return same or alike
+    return []
+
+
+def _is_same(name: str, asked: str, fold: Callable[[str], str]) -> bool:
+    """Return True for names that are the same but for a unit that one of them lacks."""
+    (own, unit), (other, wanted) = split_unit(name), split_unit(asked)
+    return bool(own) and fold(own) == fold(other) and not (unit and wanted)
 
 
 def is_called_impedance(header: str) -> bool:

@@ -94,6 +94,7 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
         key=lambda group: group.first,
     )
     if not the_groups:
+        _refuse_spectra(table, columns)
         raise misread(
             table,
             columns,
@@ -112,6 +113,17 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
     return the_groups
 
 
+def _refuse_spectra(table: Table, columns: Sequence[Column]) -> None:
+    """Raise InputError where columns are power spectra."""
+    names = enumeration(table.named(i) for i in _of(columns, Role.SPECTRUM))
+    if names:
+        raise InputError(
+            f"{table.origin}: {names}: a power spectrum is no frequency response, it has neither a"
+            " phase nor an input; record the force, torque or current together with the motion, and"
+            " read both: --read input=NAME --read output=NAME"
+        )
+
+
 def choose(
     table: Table, columns: list[Column], the_groups: Sequence[Group], asked: str | int | None
 ) -> Group:
@@ -121,6 +133,8 @@ def choose(
     if asked is None:
         return the_groups[0]
     at = table.at(asked)
+    if columns[at].role is Role.SPECTRUM:
+        _refuse_spectra(table, columns)
     own = next((group for group in the_groups if at in group.columns.values()), None)
     phases = [i for i, column in enumerate(columns) if column.role is Role.PHASE]
     if own is None and phases and columns[at].role not in (Role.FREQUENCY, Role.PHASE, *BESIDE):

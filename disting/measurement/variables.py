@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
-from disting.measurement.column_words import is_called_impedance
+from disting.measurement.column_words import is_called_impedance, matching
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     ASSUMED_IMPEDANCE,
@@ -172,9 +172,12 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
                 f" {_listed(arrays)}"
             )
         return variable
-    if asked not in arrays:
-        raise InputError(f"{origin} has no variable {short(asked)}; variables: {_listed(arrays)}")
-    return asked
+    names = list(arrays)
+    found = matching(names, asked)
+    if len(found) != 1:
+        count = f"{len(found)} variables like" if found else "no variable"
+        raise InputError(f"{origin} has {count} {short(asked)}; variables: {_listed(arrays)}")
+    return names[found[0]]
 
 
 def _optional(
