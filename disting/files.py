@@ -1,9 +1,10 @@
 """Files: the data that the package ships, read whole; files that a user names, never read without
 a bound; and files that are written whole or not at all, with the same bytes on every system.
 
-All JSON that is written says at "format" which format it has. A field that is added leaves its
-number as it is; one that goes, or means something else, raises it. Of each there is a JSON Schema;
-definitions that several share stand in one file.
+All JSON that is written comes from `json_text`, where a number that is not finite is null, and says
+at "format" which format it has. A field that is added leaves its number as it is; one that goes, or
+means something else, raises it. Of each there is a JSON Schema; definitions that several share
+stand in one file.
 """
 
 import contextlib
@@ -16,6 +17,7 @@ import warnings
 from collections.abc import Iterable, Iterator
 from enum import StrEnum
 from hashlib import sha256
+from math import isfinite
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -106,6 +108,50 @@ def read_json(path: Path, wanted: str) -> Any:
         raise InputError(f"{printable(str(path))}: {reason}") from None
     except (ValueError, RecursionError):  # the second: brackets by the thousand
         raise InputError(f"{printable(str(path))} holds no JSON; name {wanted}") from None
+
+
+def json_text(
+    plain: object,
+    *,
+    indent: int | None = None,
+    spaced: bool = False,
+    ascii_only: bool = False,
+    sort_keys: bool = False,
+) -> str:
+    """JSON text of plain data, compact unless it is to be indented or `spaced`. Every JSON that the
+    package writes to a file, to standard output or into a page comes from here.
+
+    JSON has no infinity and no NaN (RFC 8259, section 6): both are written as null, which says
+    that there is no number. `ascii_only`: other characters are escaped.
+
+    >>> json_text({"error": float("inf"), "J": 0.5})
+    '{"error":null,"J":0.5}'
+    """
+
+    def written(data: object) -> str:
+        separators = (",", ":") if indent is None and not spaced else None
+        return json.dumps(
+            data,
+            indent=indent,
+            separators=separators,
+            ensure_ascii=ascii_only,
+            sort_keys=sort_keys,
+            allow_nan=False,
+        )
+
+    try:
+        return written(plain)
+    except ValueError:  # rare, and a copy of a large catalogue takes long
+        return written(_with_nulls(plain))
+
+
+def _with_nulls(plain: object) -> object:
+    """The same plain data, None in place of each number that is not finite."""
+    if isinstance(plain, dict):
+        return {key: _with_nulls(value) for key, value in plain.items()}
+    if isinstance(plain, list | tuple):
+        return [_with_nulls(value) for value in plain]
+    return None if isinstance(plain, float) and not isfinite(plain) else plain
 
 
 def unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

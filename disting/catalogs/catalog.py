@@ -25,7 +25,7 @@ from disting.catalogs.files import (
 from disting.catalogs.pairs import INDEX_NAMES, ModelRow as ModelRow, StoredPair, model_row
 from disting.conditions.rule import RULES
 from disting.errors import CatalogError, ContradictionError, InputError, of_type
-from disting.files import Format
+from disting.files import Format, json_text
 from disting.model.chain import Premise
 from disting.model.family import Family
 from disting.model.presentation import NotebookTable, plural, summary
@@ -208,7 +208,6 @@ class Catalog(NotebookTable):
 
     def to_json(self, view: View = View.POSITIVE) -> str:
         """All verdicts with evidence and sentences as JSON text."""
-        written = partial(json.dumps, ensure_ascii=False, separators=(",", ":"))
         plain = {
             "format": Format.CATALOGUE.value,
             "header": self.record(0),
@@ -217,7 +216,7 @@ class Catalog(NotebookTable):
         }
         # one after the other: together they take more memory than their text
         verdicts = (v.to_dict() | {"left": i, "right": j} for i, j, v in self.pairs(view))
-        return f"{written(plain).removesuffix(']}')}{','.join(map(written, verdicts))}]}}\n"
+        return f"{json_text(plain).removesuffix(']}')}{','.join(map(json_text, verdicts))}]}}\n"
 
     @cached_property
     def _known(self) -> dict[object, Any]:

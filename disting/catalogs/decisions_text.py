@@ -1,13 +1,11 @@
 """All pairs of a list of models as CSV and JSON, as `export` writes those of a catalogue."""
 
-import json
 from collections.abc import Sequence
-from functools import partial
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.export import cell, csv_text, inclusion_text, premise_text, share_text
 from disting.conditions.inclusion import Sense
-from disting.files import Format
+from disting.files import Format, json_text
 from disting.model.question import Domain
 from disting.verdict.decisions import Decisions
 from disting.verdict.joint import family_safety
@@ -68,7 +66,6 @@ def decisions_json(decided: Decisions) -> str:
     size = len(decided.subjects)
     pairs = ((i, j) for i in range(size) for j in range(i + 1, size))
     names = _names(decided)
-    written = partial(json.dumps, ensure_ascii=False, separators=(",", ":"))
     # one after the other: together they take more memory than their text
     verdicts = (
         decided.verdict(i, j).to_dict() | {"left": names[i], "right": names[j]} for i, j in pairs
@@ -76,4 +73,4 @@ def decisions_json(decided: Decisions) -> str:
     safety = family_safety(decided)
     bound = error_bound(Certainty.BOUNDED if safety else Certainty.PROVEN, safety)
     plain = {"format": Format.VERDICTS.value, "joint_error_bound": bound, "verdicts": []}
-    return f"{written(plain).removesuffix(']}')}{','.join(map(written, verdicts))}]}}\n"
+    return f"{json_text(plain).removesuffix(']}')}{','.join(map(json_text, verdicts))}]}}\n"

@@ -33,6 +33,7 @@ from disting.files import (
     PROVENANCE as PROVENANCE,
     __version__,
     intact_text,
+    json_text,
     shipped_folder as shipped_folder,
     write_whole,
 )
@@ -70,7 +71,7 @@ def append(folder: Path, first: Chain, second: Chain, finding: Finding) -> None:
         "finding": json.loads(finding.to_json()),
     }
     with (folder / SETTLED).open("a", encoding="utf-8", newline="\n") as file:
-        file.write(json.dumps(record, separators=(",", ":")) + "\n")
+        file.write(line(record) + "\n")
 
 
 def name_of(n_masses: int, damped: bool) -> str:
@@ -80,7 +81,7 @@ def name_of(n_masses: int, damped: bool) -> str:
 
 def line(record: Record) -> str:
     """A line of a catalogue file."""
-    return json.dumps(record, separators=(",", ":"), ensure_ascii=True)
+    return json_text(record, ascii_only=True)
 
 
 def lines(records: Iterable[Record]) -> str:
@@ -165,7 +166,8 @@ def provenance_of(folder: Path) -> Record:
 def write_provenance(folder: Path) -> Path:
     """Write it anew, after the files of the folder; returns its path."""
     return write_whole(
-        folder / PROVENANCE, [json.dumps(provenance_of(folder), indent=1, sort_keys=True), "\n"]
+        folder / PROVENANCE,
+        [json_text(provenance_of(folder), indent=1, ascii_only=True, sort_keys=True), "\n"],
     )
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from disting.cli.output import written_file, written_folder
 from disting.conditions.rule import RULES
 from disting.errors import InputError, short
-from disting.model.chain import Sensor
+from disting.model.chain import Sensor, as_sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
@@ -167,10 +167,19 @@ def is_damped(options: argparse.Namespace) -> bool:
     return DAMPED if options.damped is None else bool(options.damped)
 
 
+def quantity_word(text: str) -> str:
+    """The name of a sensor quantity, of its usual words; raises ArgumentTypeError."""
+    try:
+        return as_sensor(text).value
+    except InputError as reason:
+        raise argparse.ArgumentTypeError(str(reason)) from None
+
+
 def add_quantity(parser: argparse.ArgumentParser, default: Sensor = Sensor.ACCELERATION) -> None:
     """--quantity: what the sensor shows; --sensor is everywhere the mass at which it sits."""
     parser.add_argument(
         "--quantity",
+        type=quantity_word,
         choices=[s.value for s in Sensor],
         default=default.value,
         help=f"what the sensor shows (default: {default})",

@@ -3,7 +3,6 @@ decided, proven, under experiments, within ranges, as a file.
 """
 
 import argparse
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,6 +17,7 @@ from disting.errors import InputError, enumeration
 from disting.evidence.positive import PositiveFinding
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.places import Places, move, parse_experiment
+from disting.files import json_text
 from disting.general.any_model import measurand
 from disting.general.matrix_model import AnyModel
 from disting.general.special_values import SpecialValues, special_values
@@ -110,7 +110,7 @@ def file_of(judgement: Judgement, asked: Query, options: argparse.Namespace) -> 
 
 
 def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
-    emit(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
+    emit(options.json, json_text(whole, indent=1) + "\n")
 
 
 def _told(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:

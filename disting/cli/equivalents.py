@@ -3,7 +3,6 @@ printed.
 """
 
 import argparse
-import json
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
@@ -24,6 +23,7 @@ from disting.equivalence import (
     explicit_map,
 )
 from disting.errors import InputError
+from disting.files import json_text
 from disting.model.chain import Chain, text_drawing
 from disting.model.kinds import EXAMPLES
 from disting.model.names import name_of, read_together
@@ -109,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
     values = assignments(options.values)
     equivalents = find(options.model, values, options.to, damped=options.damped, also=options.also)
     if options.json:
-        emit(options.json, json.dumps(equivalents.to_dict(), indent=1, ensure_ascii=False) + "\n")
+        emit(options.json, json_text(equivalents.to_dict(), indent=1) + "\n")
     else:
         print("\n".join(_lines(equivalents)))
     return 0

@@ -3,8 +3,8 @@ the same positive models.
 """
 
 import argparse
-import json
 import shlex
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,9 +15,10 @@ from disting.cli.fit_text import fit_text
 from disting.cli.output import emit
 from disting.cli.workers import Work, announce, cores, engine_for
 from disting.errors import InputError, enumeration, printable
-from disting.files import write_whole
+from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.practical import Thresholds
+from disting.fit.judge.reading import read_in_words
 from disting.fit.plan.fit_file import FitRecord, named_by
 from disting.fit.results.export import control_script, write_mat
 from disting.fit.results.loop import Controller, read_controller
@@ -27,6 +28,7 @@ from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.search.swarm import by_swarm
 from disting.fit.select import MOST_LINES, select
 from disting.measurement import FrequencyResponse
+from disting.measurement.response import NO_MOTION
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report.fit.selection_json import selection_to_dict
@@ -36,6 +38,7 @@ SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
 # options that name candidates, and where results go, with the number of words that follow
 CANDIDATES = {"--masses": 1, "--actuator": 1, "--gap": 1, "--family": 0}
 OUTPUTS = {"--out": 1, "--json": 1, "--site": 1, "--profiles": 0, "--left": 1, "--demo": 0}
+CIRCUIT = "R0-p(R1,C1)"  # the simplest with a capacitor
 FEW = 30  # candidates that are fitted sooner than workers start
 
 
@@ -47,6 +50,8 @@ def run(options: argparse.Namespace) -> int:
         return run_networks(options)
     controller = read_controller(options.controller) if options.controller else None
     measured = data(options)
+    if any(response.is_impedance for response in measured.every):
+        return _no_drive(options, measured)
     left = _left(options)
     if left is None:
         announce(Work.FITS, _counted(options), options.jobs or cores())
@@ -56,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     selection = _selected(options, measured, candidates, home, controller)
     if options.json:
         plain = selection_to_dict(selection)
-        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False)
+        text = json_text(plain, indent=1)
         emit(options.json, f"{text}\n")
     if options.json != "-":
         print(printable("\n".join(fit_text(selection, measured.train))))
@@ -64,7 +69,19 @@ def run(options: argparse.Namespace) -> int:
         _write(selection, measured.train, measured.test, options)
         if options.json != "-":
             print("\n".join(_onward(selection, options.out)))
-    return 0 if selection.explanation.explains else 1
+    return 0 if selection.explanation.explains and not selection.question else 1
+
+
+def _no_drive(options: argparse.Namespace, measured: Data) -> int:
+    """Print what was read of an impedance and the command that fits it; return the status."""
+    words = list[str]()
+    for response in (r for r in measured.every if r.is_impedance):
+        low, high = response.frequency[0], response.frequency[-1]
+        words += [read_in_words(response), f"{len(response)} lines, {low:.4g} to {high:.4g} Hz"]
+    command = shlex.join(["disting", "fit", *map(str, options.train[:1]), "--models", CIRCUIT])
+    words += ["", f"{NO_MOTION.partition(';')[0]}; fit circuits instead:", f"  {command}"]
+    print(printable("\n".join(words)), file=sys.stderr if options.json == "-" else sys.stdout)
+    return 1
 
 
 def _selected(

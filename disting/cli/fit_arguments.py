@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from disting.cli.arguments import add_damped, add_json, add_work, frequency_range
+from disting.cli.arguments import add_damped, add_json, add_work, frequency_range, quantity_word
 from disting.cli.fit_values import (
     bound,
     known_value,
@@ -129,7 +129,9 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
         "what the sensor shows (default: what the file says, else acceleration; of a record in time"
         " position)"
     )
-    group.add_argument("--quantity", choices=[s.value for s in Sensor], help=text)
+    group.add_argument(
+        "--quantity", type=quantity_word, choices=[s.value for s in Sensor], help=text
+    )
     text = (
         "unit of frequency, phase, magnitude, input or output, such as frequency=rad/s,"
         " magnitude=dB, input=A, output=deg;"

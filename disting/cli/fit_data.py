@@ -37,6 +37,12 @@ class Data:
     test: FrequencyResponse | None
     further: tuple[FurtherResponse, ...]
 
+    @property
+    def every(self) -> list[FrequencyResponse]:
+        """All responses, each with its test data behind it."""
+        pairs = [(self.train, self.test), *((f.measured, f.test) for f in self.further)]
+        return [response for pair in pairs for response in pair if response is not None]
+
 
 def data(options: argparse.Namespace) -> Data:
     """All responses, masked; what the readers noticed goes to standard error."""
@@ -56,10 +62,7 @@ def data(options: argparse.Namespace) -> Data:
     the_data = _each(
         the_data, lambda this_response: this_response.thinned(options.lines or MOST_LINES)
     )
-    both = [(the_data.train, the_data.test), *((f.measured, f.test) for f in the_data.further)]
-    for response in (
-        this_response for pair in both for this_response in pair if this_response is not None
-    ):
+    for response in the_data.every:
         for note in (*response.notes, *response.suspicions):
             complain(f"{response.origin or 'data'}: {note}")
     return the_data

@@ -1,7 +1,6 @@
 """disting fit --models: networks fitted to a measured response: circuits to an impedance."""
 
 import argparse
-import json
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import isfinite
@@ -12,6 +11,7 @@ from disting.cli.output import complain, emit, keep_apart
 from disting.cli.verdicts import listed_models
 from disting.cli.workers import engine_for
 from disting.errors import InputError, enumeration
+from disting.files import json_text
 from disting.fit.networks import fit_networks
 from disting.fit.results.networks import BAR, FittedNetwork, NetworkSelection
 from disting.measurement import FrequencyResponse
@@ -48,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
     with engine_for(options) as (engine, _, progress):
         selection = fit_networks(measured, networks, engine=engine, progress=progress)
     if options.json:
-        emit(options.json, json.dumps(selection.to_dict(), indent=1, ensure_ascii=False) + "\n")
+        emit(options.json, json_text(selection.to_dict(), indent=1) + "\n")
     if options.json != "-":
         print("\n".join(_told(selection, first)))
     return 0 if selection.left else 1

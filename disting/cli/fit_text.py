@@ -19,7 +19,13 @@ from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
 from disting.report.fit.links import commands, new_names
 from disting.report.fit.responses import fits_of
-from disting.report.fit.sentences import first_lines, suspicions, uninformative, which_mass
+from disting.report.fit.sentences import (
+    first_lines,
+    quantity_rows,
+    suspicions,
+    uninformative,
+    which_mass,
+)
 from disting.report.fit.words import (
     cost_in_words,
     fit_in_words,
@@ -45,6 +51,9 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield ""
     yield from first_lines(selection)
     yield ""
+    if selection.question:
+        yield from _side_by_side(selection)
+        return
     left, more = [m.candidate for m in selection.members], len(selection.containing)
     beside = f" ({more} more contain{'s' if more == 1 else ''} one of these)" if more else ""
     yield (
@@ -76,6 +85,19 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
         if commands(selection)
         else []
     )
+
+
+def _side_by_side(selection: Selection) -> Iterator[str]:
+    """The readings of data that do not settle the quantity, and the commands that do."""
+    rows = quantity_rows(selection)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(f"{cell:{n}}" for cell, n in zip(row, widths, strict=True)).rstrip()
+    yield ""
+    yield "no values are given: those of a wrong quantity are wrong by powers of the frequency"
+    rest = [said for said in suspicions(selection) if said not in first_lines(selection)]
+    yield from (f"suspicious: {said}" for said in rest)
+    yield from ("", "next:", *(f"  {command}" for command in commands(selection)))
 
 
 def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:

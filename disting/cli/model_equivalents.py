@@ -3,7 +3,6 @@ which values.
 """
 
 import argparse
-import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from disting.conditions.finding import Outcome
 from disting.equivalence import assignments
 from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
-from disting.files import Format
+from disting.files import Format, json_text
 from disting.general.alternatives import Alternatives
 from disting.general.any_model import as_model, of_network
 from disting.general.balls import POSITIVE, Synthesis
@@ -65,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
             "given": asked.name,
             "equivalents": [x.to_dict() for x in equivalents],
         }
-        emit(options.json, json.dumps(whole, indent=1, ensure_ascii=False) + "\n")
+        emit(options.json, json_text(whole, indent=1) + "\n")
         return 0
     other = "network" if asked.network else "model"
     other = other if others == [asked] else f"other {other}"

@@ -3,7 +3,6 @@
 import argparse
 import csv
 import io
-import json
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 
@@ -24,6 +23,7 @@ from disting.cli.workers import engine_for
 from disting.conditions.side import AnySide
 from disting.errors import InputError, enumeration, printable
 from disting.experiments.menu import Costs, Item
+from disting.files import json_text
 from disting.model.chain import LEGEND, Chain, text_drawing
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import name_of, read, read_together
@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
     return _written(
         options,
         _of_all([advice]),
-        json.dumps(to_dict(advice), indent=1),
+        json_text(to_dict(advice), indent=1),
         menu_text(advice),
     )
 
@@ -128,7 +128,7 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
     return _written(
         options,
         _of_all([advice]),
-        json.dumps(to_dict(advice), indent=1),
+        json_text(to_dict(advice), indent=1),
         menu_text(advice),
     )
 
@@ -160,12 +160,12 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
         networks = network_advice(options, costs, engine, pool, progress)
         if networks:
             text = "\n\n".join([*networks.sentences, *map(menu_text, networks.groups)])
-            written = json.dumps(networks.to_dict(), indent=1)
+            written = json_text(networks.to_dict(), indent=1)
             return _written(options, _of_all(networks.groups), written, text)
         lead = chain_advice(options, costs, engine, pool, progress)
     menus = [line for group in lead.groups for line in ("", *_told(group, brief=True))]
     domain = ["", DOMAIN.format(place="mass"), BRIEF] if lead.groups else []
-    written = json.dumps(plain(lead), indent=1, ensure_ascii=False, allow_nan=False)
+    written = json_text(plain(lead), indent=1)
     return _written(options, table(lead), written, in_text(lead, [*domain, *menus]))
 
 

@@ -1,7 +1,6 @@
 """disting plan: how much measuring tells two structures apart."""
 
 import argparse
-import json
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -14,7 +13,7 @@ from disting.cli.model_names import structures, values_of
 from disting.cli.output import complain, emit
 from disting.cli.workers import engine_for
 from disting.errors import InputError, printable
-from disting.files import Format
+from disting.files import Format, json_text
 from disting.fit.noise.scatter import scatter
 from disting.fit.plan.design import Design, design, designed_to_dict
 from disting.fit.plan.fit_file import (
@@ -129,7 +128,7 @@ def _reverse(the_plan: Plan | None) -> dict[str, Any]:
 
 def _emit(options: argparse.Namespace, plain: dict[str, Any]) -> None:
     if options.json:
-        text = json.dumps(plain, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+        text = json_text(plain, indent=1) + "\n"
         emit(options.json, text)
 
 

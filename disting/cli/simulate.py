@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from disting.cli.arguments import add_damped, add_notation, add_quantity, refuse
+from disting.cli.arguments import add_damped, add_notation, add_quantity, quantity_word, refuse
 from disting.cli.output import emit, written_file
 from disting.errors import InputError, short
 from disting.model.chain import Chain, Sensor
@@ -69,7 +69,7 @@ def _drive(p: argparse.ArgumentParser) -> None:
     add_quantity(p, Sensor.POSITION)
     p.set_defaults(quantity=None)
     text = "quantity of the response that is written (default: acceleration)"
-    p.add_argument("--response", choices=QUANTITIES, help=text)
+    p.add_argument("--response", type=quantity_word, choices=QUANTITIES, help=text)
     refuse(p, "--to", "the quantity of the response is --response, such as --response position")
 
 
@@ -97,6 +97,7 @@ def _bench(p: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate, estimate the response, write it."""
     from disting.measurement import csv_text
+    from disting.measurement.impedance import as_impedance
     from disting.simulation import Bench, Excitation, Friction
     from disting.simulation.excitation import read_spectrum
 
@@ -121,7 +122,8 @@ def run(options: argparse.Namespace) -> int:
         response = series.response(
             quantity, period=options.samples, lines=lines if spectrum else None
         )
-        emit(name, csv_text(response))
+        is_circuit = model.sort is Sort.CIRCUIT
+        emit(name, csv_text(as_impedance(response) if is_circuit else response))
         if name != "-":
             low, high = response.frequency[0], response.frequency[-1]
             print(f"{len(response)} lines from {low:g} to {high:g} Hz in {name}")

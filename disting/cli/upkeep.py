@@ -1,10 +1,9 @@
 """disting schema, cache and doctor: what is in the files, what is stored, what is installed."""
 
 import argparse
-import json
 
 from disting.cli.output import emit
-from disting.files import Format, __version__, schema
+from disting.files import Format, __version__, json_text, schema
 from disting.store import Store
 
 NAMES = {known.short: known for known in Format}
@@ -19,7 +18,7 @@ def add_schema_arguments(parser: argparse.ArgumentParser) -> None:
 def print_schema(options: argparse.Namespace) -> int:
     """Print a schema, or what there is."""
     if options.name:
-        emit("-", json.dumps(schema(NAMES[options.name]), indent=1, ensure_ascii=False) + "\n")
+        emit("-", json_text(schema(NAMES[options.name]), indent=1) + "\n")
         return 0
     for name, file_format in NAMES.items():
         print(f"{name}: {file_format.description}")

@@ -18,7 +18,7 @@ from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.cost import Case, Cost, comparable
-from disting.fit.search.data import WhitenedCost
+from disting.fit.search.data import WhitenedCost, check_units
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
@@ -32,6 +32,8 @@ from disting.fit.search.network_plant import (
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
+from disting.measurement.response import NO_MOTION
+from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
@@ -118,6 +120,10 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
             "networks are fitted without a hold; leave --hold out, and lines above a tenth of the"
             " sampling rate too (--band)"
         )
+    for response in data:
+        check_units(response)
+        if response.is_impedance and any(n.sort is not Sort.CIRCUIT for n in networks):
+            raise InputError(f"{response.origin or 'data'}: {NO_MOTION}")
     asked = [measured_as(network, data[0]) for network in networks]
     for network in asked:
         outputs, inputs = network.shape

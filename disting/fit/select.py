@@ -29,7 +29,7 @@ from disting.fit.judge.joint_verdicts import (
 )
 from disting.fit.judge.members import Member, members
 from disting.fit.judge.practical import Thresholds
-from disting.fit.judge.reading import other_quantities
+from disting.fit.judge.quantity import quantity_readings
 from disting.fit.judge.readings import Reading, better_sign, pilot, readings
 from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import statements
@@ -188,6 +188,16 @@ def _selection(
     """What the fits tell of all candidates."""
     task, search = fits.task, fits.search
     chosen = _chosen(fits, terms, work.engine.settings)
+    quantities = quantity_readings(
+        fits.searched,
+        chosen.selected.estimate if chosen.selected else None,
+        search,
+        work.engine.store,
+        work.executor,
+        work.progress,
+    )
+    if quantities and chosen.explanation.explains:  # nothing is said before somebody names it
+        chosen = replace(chosen, selected=None, left=(), better=())
     whole, containing = _members(fits, chosen, work)
     return Selection(
         selected=chosen.selected,
@@ -208,9 +218,7 @@ def _selection(
         task=task,
         test=(fits.test or task.cost).measured,
         judging=fits.test or task.cost,
-        quantities=other_quantities(
-            fits.searched, search, work.engine.store, work.executor, work.progress
-        ),
+        quantities=quantities,
     )
 
 

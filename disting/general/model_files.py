@@ -16,13 +16,12 @@ refused in one sentence that names the model: an unknown key or a doubled name w
 model that nobody meant.
 """
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from disting.errors import InputError, enumeration, printable, short
-from disting.files import Format, as_path, read_bounded, write_whole
+from disting.files import Format, as_path, json_text, read_bounded, write_whole
 from disting.general.matrix_model import AnyModel
 from disting.general.model_entries import (
     FORMS,
@@ -133,8 +132,8 @@ def models_text(models: ModelList) -> str:
       {"name": "lag", "num": ["k"], "den": ["T", "1"]}
     ]}
     """
-    lines = [f"  {json.dumps(as_entry(model), ensure_ascii=False)}" for model in models.models]
-    title = json.dumps(models.title, ensure_ascii=False)
+    lines = [f"  {json_text(as_entry(model), spaced=True)}" for model in models.models]
+    title = json_text(models.title)
     head = f'{{"format": "{Format.MODELS}", "title": {title}, "models": [\n'
     return head + ",\n".join(lines) + "\n]}\n"
 

@@ -5,6 +5,7 @@ A unit stands in brackets behind the name, behind a stroke, a comma or "in", or 
 """
 
 import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -14,6 +15,7 @@ from disting.measurement.units import (
     PHASES,
     drive,
     gain,
+    in_ohm,
     known_unit,
     motion,
     omega_per as omega_per,
@@ -31,6 +33,7 @@ class Role(StrEnum):
     COHERENCE = "coherence"
     DEVIATION = "standard deviation"
     SIGNAL = "level of a signal"
+    SPECTRUM = "power spectrum"
     OTHER = "not used"
 
 
@@ -54,11 +57,13 @@ class Column:
 WORDS = {
     Role.COHERENCE: ("coh", "coherence", "kohaerenz", "kohärenz"),
     Role.DEVIATION: ("std", "sd", "sigma", "stdev", "deviation", "uncertainty"),
-    Role.PHASE: ("phase", "phas", "ph", "arg", "phi", "φ", "ϕ", "angle", "winkel"),
-    Role.IMAGINARY: ("im", "imag", "imaginary"),
-    Role.REAL: ("re", "real"),
+    Role.PHASE: ("phase", "phas", "ph", "arg", "phi", "φ", "ϕ", "angle", "winkel",
+                 "zphase", "zphz", "zphi", "zarg"),
+    Role.IMAGINARY: ("im", "imag", "imaginary", "zim", "zimag"),
+    Role.REAL: ("re", "real", "zre", "zreal"),
     Role.GAIN: (
         "mag", "magnitude", "amp", "ampl", "amplitude", "abs", "gain", "modulus", "betrag",
+        "impedance", "impedanz", "zmod", "zmag", "zabs",
     ),
     Role.FREQUENCY: (
         "f", "freq", "frequency", "frequencies", "frequenz", "frequenza", "w", "omega", "ω",
@@ -68,6 +73,19 @@ CIRCULAR = {"w", "omega", "ω"}
 # of a file without units in its names: what stands for role and unit
 SHORT = {"hz": Role.FREQUENCY, "khz": Role.FREQUENCY, "db": Role.GAIN, "deg": Role.PHASE}
 WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[Ωωφϕ]")
+# a power spectrum or the root of one, by its name or its unit
+SPECTRAL = re.compile(
+    r"(?<![a-z])(?:psd|asd)(?![a-z])|power[ _-]?spectr|auto[ _-]?spectr|spectral[ _-]density|"
+    r"leistungsdichte|leistungsspektr|(?:\^2|\*\*2|²)\)?\s*/\s*hz|/\s*(?:√|sqrt|rt)\s*\(?\s*hz",
+    re.IGNORECASE,
+)
+# Z' and Z'' with the signs that keyboards and instruments have for them
+PRIMED = re.compile(r"(?<!\w)Z\s*(''|\"+|″|’’|′′|'|’|′)(?!['\"’′″])")
+# what is called an impedance: Re(Z), |Z|, Z', Zreal, Z_im, Re Z, impedance
+IMPEDANCE = re.compile(
+    r"\(Z\)|\|Z\||(?<!\w)Z\s*['\"’′″]|(?<![A-Za-z])Z_?(?:re|im|mod|abs|mag|ph|arg)|"
+    r"\b(?:re|im|real|imag|abs|mod|mag|phase|arg)[ _]Z\b|\b[Ii]mpedan[cz]"
+)
 MODULUS = re.compile(r"\|[^|]+\|")
 LOGARITHM = re.compile(r"\b(?:log|log10|ln|lg)\b", re.IGNORECASE)
 TWENTY = re.compile(r"20\s*\*?\s*(?:log|lg)", re.IGNORECASE)
@@ -77,13 +95,19 @@ SAID_IN = re.compile(r"(.+?)\s+in\s+(.+)$")
 INSIDE = re.compile(
     r"([GMkmµ]?[Hh][Zz]|[Mkm]?rad\s*/\s*s(?:ec)?|rad_?(?:per_?)?s(?![a-z])|rpm|dB|"
     r"(?<![a-z])db(?![a-z])|(?<=mag)db|(?<=gain)db|[Dd]eg(?:rees?)?(?![a-z])|"
-    r"(?<![a-z])m?rad(?![a-z])|gon|°|(?<=phase)deg|(?<=phase)rad)"
+    r"(?<![a-z])m?rad(?![a-z])|gon|(?<![A-Za-z])[mkMG]?[Oo]hms?(?![a-z])|°|(?<=phase)deg|(?<=phase)rad)"
 )
 # in round brackets, or behind a stroke: a name rather than a unit
 NAME = re.compile(
     r"[A-Za-z]\w{3,}[\w ]*|[A-Z]\w?\d*(?:\(.*\))?|[a-z]+\d+(?:/[a-z]+\d+)?|[A-Z]\w*/[A-Z]\w*"
 )  # no unit
 STROKE = re.compile(r"(.+?)\s*/\s*([^/\s()|]+)$")
+# a part of a response and what it is of: a unit alone follows its stroke
+PART = re.compile(
+    r"[-−]?\s*(?:(?:re|im|real|imag|abs|mag|magnitude|gain|amplitude)\s*(?:\(\w+\))?|\|\w+\||"
+    r"Z['’′″\"]*)",
+    re.IGNORECASE,
+)
 UNITS_OF = {Role.FREQUENCY: FREQUENCIES, Role.PHASE: PHASES, Role.COHERENCE: LEVELS}
 
 
@@ -95,6 +119,8 @@ def meaning(header: str) -> Column:
     >>> meaning("f [Furlong]").unknown, meaning("Amplitude (Vpp)").role.value
     ('Furlong', 'level of a signal')
     """
+    if SPECTRAL.search(header):
+        return Column(Role.SPECTRUM)
     name, stated = split_unit(header)
     role = _role(name) or _role_of_unit(stated or header)
     if LOGARITHM.search(header) and Role.FREQUENCY in (role, _role(stated or "")):
@@ -104,7 +130,8 @@ def meaning(header: str) -> Column:
         hertz = [text for text in inside if text.lower().endswith("hz")]
         units = [text for text in inside if _known(role, text) is not None]
         if role in (Role.REAL, Role.IMAGINARY, Role.GAIN):
-            units = [text for text in units if known_unit(text, LEVELS)]  # rad is none of a gain
+            # rad is none of a gain
+            units = [text for text in units if known_unit(text, LEVELS) or in_ohm(text)]
         stated = (units or (hertz if role is Role.FREQUENCY else []) or [None])[-1]
     if role is Role.FREQUENCY and stated is None and CIRCULAR & set(_words(name)):
         return Column(role, "rad/s")
@@ -138,9 +165,44 @@ def split_unit(header: str) -> tuple[str, str | None]:
             if _is_unit(text[at + 1 :].strip()):
                 return text[:at].strip(), text[at + 1 :].strip()
     stroke = STROKE.match(text)
-    if stroke and not NAME.fullmatch(stroke[2]) and len(stroke[2]) > 1:
+    is_name = stroke and NAME.fullmatch(stroke[2]) and not PART.fullmatch(stroke[1])
+    if stroke and not is_name and len(stroke[2]) > 1:
         return stroke[1], stroke[2]
     return text, None
+
+
+def matching(names: Sequence[str], asked: str) -> list[int]:
+    """Places of the names that are meant by a text: those that are the same; else those that are
+    the same where one of both has no unit; else these two with capitals alike. Several: the text
+    is ambiguous.
+
+    >>> matching(["t [s]", "excitation [Nm]", "Speed"], "excitation")
+    [1]
+    >>> matching(["t [s]", "excitation [Nm]", "Speed"], "speed [rpm]"), matching(["a", "A"], "A")
+    ([2], [1])
+    """
+    wanted = asked.strip()
+    for fold in (str, str.casefold):
+        same = [i for i, name in enumerate(names) if name and fold(name) == fold(wanted)]
+        alike = [i for i, name in enumerate(names) if name and _is_same(name, wanted, fold)]
+        if same or alike:
+            return same or alike
+    return []
+
+
+def _is_same(name: str, asked: str, fold: Callable[[str], str]) -> bool:
+    """Return True for names that are the same but for a unit that one of them lacks."""
+    (own, unit), (other, wanted) = split_unit(name), split_unit(asked)
+    return bool(own) and fold(own) == fold(other) and not (unit and wanted)
+
+
+def is_called_impedance(header: str) -> bool:
+    """Return True if a header names an impedance, whatever its unit.
+
+    >>> [is_called_impedance(h) for h in ("Re(Z)/Ohm", "Z''", "Zreal", "Re G_z", "Z axis [mm]")]
+    [True, True, True, False, False]
+    """
+    return IMPEDANCE.search(header) is not None
 
 
 def _opening(text: str) -> int:
@@ -157,7 +219,7 @@ def _is_unit(text: str) -> bool:
     """Whether a text is a unit that needs no brackets to be known as one."""
     is_known = omega_per(text) is not None or known_unit(text, (*PHASES, *LEVELS[1:])) is not None
     the_gain = gain(text) if "/" in text or "-1" in text or "⁻" in text else None
-    return (is_known or the_gain is not None) and text != "*"
+    return (is_known or the_gain is not None or in_ohm(text) > 0) and text != "*"
 
 
 def _words(name: str) -> list[str]:
@@ -165,6 +227,9 @@ def _words(name: str) -> list[str]:
 
 
 def _role(name: str) -> Role | None:
+    primes = PRIMED.search(name)
+    if primes:
+        return Role.REAL if primes[1] in "'’′" else Role.IMAGINARY
     words = set(_words(name))
     whole = {word.removesuffix(unit) for word in words for unit in ("", "db", "deg", "rad", "hz")}
     the_role = next((role for role, names in WORDS.items() if whole & set(names)), None)
@@ -180,7 +245,7 @@ def _role_of_unit(text: str) -> Role:
         return Role.FREQUENCY
     if known_unit(text, ("deg",)):
         return Role.PHASE
-    if level is not None and level.level in ("dB", "Np"):
+    if level is not None and (level.level in ("dB", "Np") or in_ohm(text)):
         return Role.GAIN
     words = set(_words(text))
     return next((role for word, role in SHORT.items() if word in words), Role.OTHER)

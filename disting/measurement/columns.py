@@ -94,6 +94,7 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
         key=lambda group: group.first,
     )
     if not the_groups:
+        _refuse_spectra(table, columns)
         raise misread(
             table,
             columns,
@@ -112,6 +113,17 @@ def groups(table: Table, columns: Sequence[Column]) -> list[Group]:
     return the_groups
 
 
+def _refuse_spectra(table: Table, columns: Sequence[Column]) -> None:
+    """Raise InputError where columns are power spectra."""
+    names = enumeration(table.named(i) for i in _of(columns, Role.SPECTRUM))
+    if names:
+        raise InputError(
+            f"{table.origin}: {names}: a power spectrum is no frequency response, it has neither a"
+            " phase nor an input; record the force, torque or current together with the motion, and"
+            " read both: --read input=NAME --read output=NAME"
+        )
+
+
 def choose(
     table: Table, columns: list[Column], the_groups: Sequence[Group], asked: str | int | None
 ) -> Group:
@@ -121,6 +133,8 @@ def choose(
     if asked is None:
         return the_groups[0]
     at = table.at(asked)
+    if columns[at].role is Role.SPECTRUM:
+        _refuse_spectra(table, columns)
     own = next((group for group in the_groups if at in group.columns.values()), None)
     phases = [i for i, column in enumerate(columns) if column.role is Role.PHASE]
     if own is None and phases and columns[at].role not in (Role.FREQUENCY, Role.PHASE, *BESIDE):
@@ -267,12 +281,17 @@ def _of(columns: Sequence[Column], role: Role) -> list[int]:
     return [i for i, column in enumerate(columns) if column.role is role]
 
 
+def stated_quantities(table: Table) -> list[Sensor]:
+    """The quantities of which the headers and comments of a table speak."""
+    text = " ".join((*table.headers, *table.comments)).lower()
+    return [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
+
+
 def quantity_of(table: Table, sensor: Sensor | str | None, unit: str, notes: list[str]) -> Sensor:
     """The quantity that is asked for, or that words or the unit of the output say."""
     if sensor is not None:
         return as_sensor(sensor)
-    text = " ".join((*table.headers, *table.comments)).lower()
-    sensors = [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
+    sensors = stated_quantities(table)
     if len(sensors) == 1:
         return sensors[0]
     own = motion(unit)

@@ -54,7 +54,7 @@ def write_csv(response: FrequencyResponse, path: str | Path) -> None:
 
 def _head(response: FrequencyResponse) -> Iterator[str]:
     yield f"# {MARK}"
-    yield f"# sensor: {response.sensor.value}"
+    yield f"# sensor: {response.quantity}"
     for role, signal in (("input", response.input), ("output", response.output)):
         yield from (
             f"# {role} {part}: {_line(text)}"

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from disting.errors import InputError, enumeration
-from disting.measurement.column_words import Role, meaning
+from disting.measurement.codesys import read_codesys_trace
+from disting.measurement.column_words import Role, matching, meaning
 from disting.measurement.exports import read_export
 from disting.measurement.impedance import is_impedance, read_impedance
 from disting.measurement.matlab import responses, variables
@@ -87,9 +88,9 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
     """
     asked, index = split_index(options.get("response"))
     arrays, stored = variables(file), responses(file)
-    if asked in stored or (
-        stored and (asked not in arrays if asked else not holds_response(arrays))
-    ):
+    of_object = asked is not None and bool(matching(list(stored), asked))
+    of_variable = asked is not None and bool(matching(list(arrays), asked))
+    if of_object or (stored and (not of_variable if asked else not holds_response(arrays))):
         name = chosen_response(stored, asked, file.name)
         rest = {key: value for key, value in options.items() if key != "response"} | (
             {"index": index} if index else {}
@@ -128,7 +129,9 @@ def _from_impedance(file: Source, *, sensor: str = "") -> FrequencyResponse:
 
 def _table(file: Source) -> Table:
     text = decode(file.content, file.name)
-    return read_export(text, file.name) or read_trace(text, file.name) or table(text, file.name)
+    readers = (read_export, read_trace, read_codesys_trace)
+    tables = (read(text, file.name) for read in readers)
+    return next(filter(None, tables), None) or table(text, file.name)
 
 
 def _from_text(file: Source, options: Options) -> FrequencyResponse:

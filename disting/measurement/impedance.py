@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from disting.errors import InputError
-from disting.measurement.response import FrequencyResponse, Signal
+from disting.measurement.response import CURRENT, VOLTAGE, FrequencyResponse
 from disting.measurement.source import Source
 from disting.measurement.text_table import decode
 from disting.model.chain import Sensor
@@ -21,7 +21,6 @@ FREQUENCY = re.compile(r"freq", re.IGNORECASE)
 REAL = re.compile(r"zreal|re\(z\)|z'\(a\)|z'(?!')", re.IGNORECASE)
 IMAGINARY = re.compile(r"-?\s*(zimag|im\(z\)|z'')", re.IGNORECASE)
 TURNED = "the imaginary part was mostly positive: taken as -Im, as impedances are often written"
-VOLT = "V"
 MOSTLY = 0.5  # share of the lines
 
 
@@ -51,10 +50,11 @@ def read_impedance(file: Source) -> FrequencyResponse:
         2 * np.pi * frequency,
         real + sign * 1j * imaginary,
         sensor=Sensor.POSITION,
-        input=Signal("current", "A"),
-        output=Signal("voltage", VOLT),
+        input=CURRENT,
+        output=VOLTAGE,
         origin=file.name,
         reading=f"frequency in Hz, {headers[1]}, {headers[2]}",
+        is_impedance=True,
     )
 
 
@@ -62,12 +62,13 @@ def as_impedance(measured: FrequencyResponse) -> FrequencyResponse:
     """A response that was read as that of a machine, as an impedance: -Im is turned where it is
     seen to be that, and the file does not say what it is.
     """
-    turned = measured.output.unit != VOLT and np.mean(measured.G.imag > 0) > MOSTLY
+    turned = measured.output != VOLTAGE and np.mean(measured.G.imag > 0) > MOSTLY
     notes = tuple(note for note in measured.notes if "sensor quantity" not in note)
     return replace(
         measured,
         G=measured.G.conj() if turned else measured.G,
         sensor=Sensor.POSITION,
+        is_impedance=True,
         notes=(*notes, *([TURNED] if turned else [])),
     )
 

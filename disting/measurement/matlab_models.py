@@ -11,6 +11,7 @@ import numpy as np
 from disting.errors import InputError, enumeration, short
 from disting.measurement import mat5
 from disting.measurement.arrays import Complex, Real
+from disting.measurement.column_words import matching
 from disting.measurement.mat5_objects import OBJECT, STRUCT, Objects, Reference, objects, tree
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
@@ -122,8 +123,10 @@ def from_object(
 
 def chosen_response(stored: Mapping[str, ResponseObject], asked: str | None, origin: str) -> str:
     """The name asked for, or the only one; raises InputError listing them."""
-    if asked in stored:
-        return str(asked)
+    names = list(stored)
+    found = matching(names, asked) if asked else []
+    if len(found) == 1:
+        return names[found[0]]
     if asked is None and len(stored) == 1:
         return next(iter(stored))
     wrong = (

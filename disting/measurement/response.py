@@ -23,7 +23,7 @@ from disting.measurement.arrays import (
 )
 from disting.measurement.distortion import Distortion
 from disting.measurement.hold import Hold, as_period
-from disting.measurement.units import agree, unit_as
+from disting.measurement.units import AMPERE, VOLT, agree, unit_as
 from disting.measurement.window import Window
 from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import NotebookTable, plural, summary
@@ -33,6 +33,15 @@ if TYPE_CHECKING:
 
 ASSUMED_ACCELERATION = (
     "sensor quantity taken as acceleration; if not, give --quantity position or --quantity velocity"
+)
+OF_IMPEDANCE = "impedance"  # in place of a sensor quantity
+NO_MOTION = (
+    "this is an impedance, a voltage per current, not the motion of a machine: no chain of masses"
+    " is fitted to it; fit circuits, as disting fit FILE --models 'R0-p(R1,C1)'"
+)
+ASSUMED_IMPEDANCE = (
+    "taken as an impedance in ohm, by its name or unit; if it is a motion, name its quantity, such"
+    " as --quantity velocity"
 )
 SORTED = "the frequencies were not in rising order and have been sorted"
 
@@ -52,6 +61,7 @@ class Signal(NamedTuple):
 
 
 UNNAMED = Signal()
+CURRENT, VOLTAGE = Signal("current", AMPERE), Signal("voltage", VOLT)  # of an impedance
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,9 +78,10 @@ class FrequencyResponse(NotebookTable):
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
     are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
-    in any unit, shape (n_f,), or None; `hold` = how the input is held between samples, or None: the
-    lines show G through it then, and a fit compares models so. Frequencies out of order are sorted,
-    with a note. Raises InputError for what is no frequency response (module `checks`).
+    in any unit, shape (n_f,), or None; `is_impedance`: G is a voltage per current [ohm], of which
+    `sensor` says nothing; `hold` = how the input is held between samples, or None: the lines show G
+    through it then, and a fit compares models so. Frequencies out of order are sorted, with a note.
+    Raises InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -93,6 +104,7 @@ class FrequencyResponse(NotebookTable):
     freedom: float | None = None
     window: Window | None = None
     drive: Real | None = None
+    is_impedance: bool = False
     hold: Hold | None = None
 
     def __post_init__(self) -> None:
@@ -132,7 +144,7 @@ class FrequencyResponse(NotebookTable):
         )
         return summary(
             self,
-            f"{plural(len(self), 'line')}, {low:.4g} to {high:.4g} Hz, {self.sensor.value}{unit}",
+            f"{plural(len(self), 'line')}, {low:.4g} to {high:.4g} Hz, {self.quantity}{unit}",
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -146,7 +158,7 @@ class FrequencyResponse(NotebookTable):
         if not isinstance(other, FrequencyResponse):
             return NotImplemented
         words = (
-            self.sensor == other.sensor
+            (self.sensor, self.is_impedance) == (other.sensor, other.is_impedance)
             and self.input == other.input
             and self.output == other.output
         )
@@ -171,10 +183,17 @@ class FrequencyResponse(NotebookTable):
         return np.asarray(self.omega / (2 * np.pi))
 
     @property
+    def quantity(self) -> str:
+        """The quantity that G shows, as a word."""
+        return OF_IMPEDANCE if self.is_impedance else self.sensor.value
+
+    @property
     def suspicions(self) -> tuple[str, ...]:
         """Sentences on what looks wrong in the numbers, each with its remedy; empty where
         nothing does.
         """
+        if self.is_impedance:
+            return self.doubts
         doubt = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
         return (*self.doubts, *([] if doubt is None else [doubt]))
 
@@ -230,9 +249,11 @@ class FrequencyResponse(NotebookTable):
         difference of the orders.
 
         Raises InputError where the unit of the output is that of another quantity than it was read
-        as.
+        as, and for an impedance.
         """
         wanted = as_sensor(sensor)
+        if self.is_impedance:
+            raise InputError(f"{self.origin or 'data'}: {NO_MOTION}")
         steps = wanted.order - self.sensor.order
         if not steps:
             return self

@@ -10,7 +10,7 @@ import numpy as np
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
-from disting.measurement.column_words import split_unit
+from disting.measurement.column_words import matching, split_unit
 from disting.measurement.response import Signal, as_sign
 from disting.measurement.time_series import TimeSeries, said
 from disting.measurement.units import TIMES, drive, known_unit, motion
@@ -46,8 +46,8 @@ class Table:
         return np.asarray(values)
 
     def at(self, column: str | int) -> int:
-        """Number, from 0, of a column named by its header or by its number from 1; raises
-        InputError listing the headers.
+        """Number, from 0, of a column named by its header, with or without its unit
+        (`matching`), or by its number from 1; raises InputError listing the headers.
         """
         if (
             isinstance(column, int)
@@ -55,11 +55,7 @@ class Table:
             and 1 <= column <= len(self.headers)
         ):
             return column - 1
-        places = [
-            i
-            for i, h in enumerate(self.headers)
-            if isinstance(column, str) and h and h == column.strip()
-        ]
+        places = matching(self.headers, column) if isinstance(column, str) else []
         if not places and isinstance(column, str) and column.isdecimal():
             return self.at(int(column))
         if len(places) != 1:

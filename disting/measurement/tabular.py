@@ -9,8 +9,9 @@ import numpy as np
 from disting.errors import InputError, enumeration, short
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.column_words import NAME, Column, Role
+from disting.measurement.column_words import NAME, Column, Role, is_called_impedance, meaning
 from disting.measurement.columns import (
+    BESIDE,
     Group,
     choose,
     columns_of,
@@ -18,16 +19,32 @@ from disting.measurement.columns import (
     groups,
     level_of,
     quantity_of,
+    stated_quantities,
 )
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import (
+    ASSUMED_IMPEDANCE,
+    OF_IMPEDANCE,
+    VOLTAGE,
     FrequencyResponse,
     Signal,
     as_sign,
 )
 from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import Table
-from disting.measurement.units import FREQUENCIES, LEVELS, PHASES, gain, known_unit, ratio
+from disting.measurement.units import (
+    AMPERE,
+    FREQUENCIES,
+    LEVELS,
+    OHM,
+    PHASES,
+    VOLT,
+    gain,
+    in_ohm,
+    known_unit,
+    motion,
+    ratio,
+)
 from disting.model.chain import Sensor
 
 ESCAPED = re.compile(r"\\u(003d|002b|0040|002d|005c)")  # = + @ - and the backslash itself
@@ -37,6 +54,7 @@ ASSUMED_LINEAR = "says no unit: taken as linear"  # of a gain, in a note
 NEGATIVE = 0.1  # share of the lines that must be negative: fewer are damage
 # a linear gain above it on all lines, of one order of magnitude, may be one in dB without a sign
 HIGH, NARROW = 40.0, 10.0
+NO_GAIN = (Role.PHASE, *BESIDE)
 LINEAR_OF = {"1": 1.0, "%": 0.01}
 MINUS = re.compile(r"\s*[-−]\s*[A-Za-z]")
 TRANSPOSED = "the table has a line for each quantity: it is read by its columns"
@@ -74,7 +92,10 @@ def frequency_response(
     whole = column == "all" and "all" not in table.headers
     used = the_groups if whole else [choose(table, roles, the_groups, column)]
     said = _units(table, roles, used[0], ours)
-    quantity = quantity_of(table, sensor or ours.get("sensor"), said[0], notes)
+    impedance = _is_impedance(table, used[0], sensor, magnitude_unit, ours, notes)
+    own = Sensor.POSITION if impedance else ours.get("sensor")
+    quantity = quantity_of(table, own if impedance else sensor or own, said[0], notes)
+    said = (VOLT, AMPERE) if impedance and not ours else said
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
     responses = [
         FrequencyResponse(
@@ -86,6 +107,7 @@ def frequency_response(
             input=_signal(ours, "input", Signal("", said[1])),
             output=_signal(ours, "output", Signal(table.headers[group.first], said[0])),
             origin=f"{table.origin}, {table.named(group.first)}",
+            is_impedance=impedance,
         )
         for group in used
     ]
@@ -121,7 +143,10 @@ class _Reading:
         columns = group.columns
         if Role.REAL in columns:
             real, imaginary = columns[Role.REAL], columns[Role.IMAGINARY]
-            scale = self._scale(real), self._scale(imaginary)
+            scale = (
+                self._scale(real) * self._ohms(real),
+                self._scale(imaginary) * self._ohms(imaginary),
+            )
             self.words = f"real part (column {real + 1}), imaginary part (column {imaginary + 1})"
             return np.asarray(
                 self._signed(real) * scale[0] + 1j * self._signed(imaginary) * scale[1]
@@ -129,6 +154,7 @@ class _Reading:
         at = columns[Role.PHASE]
         unit = self._phase_unit(at)
         size, level = self._size(columns[Role.GAIN], guess=self.guess and unit == "deg")
+        size = size * self._ohms(columns[Role.GAIN])
         phrase = "" if level == "1" else f" in {level}"
         self.words = (
             f"gain{phrase} (column {columns[Role.GAIN] + 1}), phase in"
@@ -154,6 +180,12 @@ class _Reading:
             return None
         return self.table.column(at) * (0.01 if level_of(self.roles[at]) == "%" else 1.0)
 
+    def _ohms(self, at: int) -> float:
+        """What a number of a column is in ohm, where its unit is one of impedance; else 1."""
+        stated = self.magnitude_unit or _stated(self.table.headers[at])
+        unit = gain(str(stated))
+        return unit.ohms if unit and unit.ohms else 1.0
+
     def _known(self, at: int) -> None:
         """Raise InputError where the unit that a column states is not known."""
         unknown, header = self.roles[at].unknown, self.table.headers[at]
@@ -164,7 +196,7 @@ class _Reading:
             units = (
                 enumeration(PHASES)
                 if phase
-                else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N and alike"
+                else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N, ohm and alike"
             )
             remedy = "phase=deg" if phase else "magnitude=1, which takes the numbers as they are"
             raise InputError(
@@ -187,10 +219,13 @@ class _Reading:
         if self.magnitude_unit is None:
             self._known(at)
             return level_of(self.roles[at])
+        if in_ohm(str(self.magnitude_unit)):
+            return "1"
         level = known_unit(str(self.magnitude_unit), LEVELS)
         if level is None:
             raise InputError(
-                f"the unit of a magnitude is {', '.join(LEVELS)}, not {short(self.magnitude_unit)}"
+                f"the unit of a magnitude is {', '.join(LEVELS)} or ohm, not"
+                f" {short(self.magnitude_unit)}"
             )
         return level
 
@@ -278,6 +313,39 @@ def _units(
     if own is not None and own.output:
         return own.output, own.input
     return ratio((*table.headers, *table.comments)) or ("", "")
+
+
+def _is_impedance(
+    table: Table,
+    group: Group,
+    sensor: Sensor | str | None,
+    magnitude_unit: str | None,
+    ours: Mapping[str, str],
+    notes: list[str],
+) -> bool:
+    """Return True for an impedance. A unit that is called ohm says so whatever else is said; V/A
+    and a name such as Re(Z) do where neither caller nor file says that this is a motion, such as
+    the speed that a tachometer shows in V.
+    """
+    if ours:  # files of earlier versions call the sensor of an impedance a position
+        is_voltage = (ours.get("output label"), ours.get("output unit")) == tuple(VOLTAGE)
+        return ours.get("sensor") == OF_IMPEDANCE or is_voltage
+    headers = [table.headers[at] for role, at in group.columns.items() if role not in NO_GAIN]
+    units = {text: gain(text) for text in (str(magnitude_unit or ""), *map(_stated, headers))}
+    if any(unit.ohms and OHM.search(text) for text, unit in units.items() if unit):
+        return True
+    moves = any(motion(unit.output) for unit in units.values() if unit)
+    if sensor is not None or moves or stated_quantities(table):
+        return False
+    is_ratio = any(unit.ohms for unit in units.values() if unit)
+    is_named = any(map(is_called_impedance, headers))
+    notes += [ASSUMED_IMPEDANCE] * (is_ratio or is_named)
+    return is_ratio or is_named
+
+
+def _stated(header: str) -> str:
+    """The unit in a header, "" without one that is known."""
+    return meaning(header).unit
 
 
 def _written(comments: Sequence[str]) -> dict[str, str]:

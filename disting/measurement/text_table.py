@@ -14,7 +14,7 @@ import numpy as np
 
 from disting.errors import InputError, short
 from disting.measurement.checks import FEWEST
-from disting.measurement.column_words import Role, meaning
+from disting.measurement.column_words import Role, meaning, omega_per
 from disting.measurement.table import Table
 
 DIALECTS = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (" ", "."), (" ", ","))
@@ -191,6 +191,8 @@ def _headers(
     header; else nothing.
     """
     stacked = [fields for fields in before if len(fields) == width]
+    if len(stacked) > 1 and any(omega_per(field) is not None for field in stacked[-1]):
+        stacked[-1] = [f"[{field}]" if field else "" for field in stacked[-1]]  # a line of units
     if stacked:
         return tuple(" ".join(filter(None, words)) for words in zip(*stacked, strict=True))
     for comment in reversed(comments):

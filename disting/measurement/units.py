@@ -46,6 +46,10 @@ DRIVES = {
     "N m": ("Nm", 1.0), "mN m": ("Nm", 1e-3), "kN m": ("Nm", 1e3), "N cm": ("Nm", 1e-2),
     "A": ("A", 1.0), "mA": ("A", 1e-3), "V": ("V", 1.0), "mV": ("V", 1e-3),
 }  # fmt: skip
+VOLT, AMPERE = "V", "A"
+# of an impedance, to ohm
+OHM = re.compile(r"([mkMG]?)(?:\u2126|\u03a9|ohms?)", re.IGNORECASE)  # both signs of the ohm
+OHMS = {"": 1.0, "m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6, "G": 1e9}
 # of a frequency, to rad/s
 FREQUENCIES = {
     "mHz": 2e-3 * pi, "Hz": 2 * pi, "kHz": 2e3 * pi, "MHz": 2e6 * pi, "GHz": 2e9 * pi,
@@ -70,7 +74,6 @@ SPELLINGS = {
     "hours": "h", "sek": "s", "sec": "s", "msec": "ms",
     "lin": "1", "linear": "1", "abs": "1", "-": "1", "a.u.": "1", "percent": "%", "pct": "%",
     "decibel": "dB", "neper": "Np",
-    "ohm": "1", "ohms": "1", "ω": "1", "v/a": "1",  # an impedance in SI; Ω in small letters is ω
 }  # fmt: skip
 POWER = re.compile(r"(?:10\s*(?:\^|\*\*)\s*|1e)([+-]?\d{1,2})\s*[*·x]?\s*(.+)")
 REFERRED = re.compile(r"(dB|Np|%)(?:\s+re[fl]?\.?:?)?(?:\s+1?\s*|(?=\())(.+)", re.IGNORECASE)
@@ -137,20 +140,24 @@ def omega_per(text: str) -> float | None:
 class Gain(NamedTuple):
     """Unit of a column of gains, or of their parts: its level, one of `LEVELS`, and the units of
     output and input, "" where they are not said. `signal`: that of a signal alone, as a
-    generator's level has it, rather than of an output per input.
+    generator's level has it, rather than of an output per input. `ohms`: of an impedance, what a
+    number of 1 is in ohm; 0 of anything else.
     """
 
     level: str
     output: str = ""
     input: str = ""
     signal: bool = False
+    ohms: float = 0.0
 
 
 def gain(text: str) -> Gain | None:
     """The unit of a gain, None for what is none.
 
     >>> gain("deg/s^2/A"), gain("dB re 1 mm/s/N").level, gain("k"), gain("Vpp").signal
-    (Gain(level='1', output='deg/s^2', input='A', signal=False), 'dB', None, True)
+    (Gain(level='1', output='deg/s^2', input='A', signal=False, ohms=0.0), 'dB', None, True)
+    >>> [gain(text).ohms for text in ("kOhm", "mV/A", "dB(Ohm)", "1")]
+    [1000.0, 0.001, 1.0, 0.0]
     """
     level = known_unit(text, LEVELS)
     if level is not None:
@@ -166,7 +173,13 @@ def gain(text: str) -> Gain | None:
 
 def _per(text: str) -> Gain | None:
     """The unit of an output per input, of an output, or of a signal."""
+    size = in_ohm(text)
+    if size:
+        return Gain("1", VOLT, AMPERE, ohms=size)
     before, _, behind = (part.strip(" ()") for part in text.replace(" per ", "/").rpartition("/"))
+    above, below = drive(before), drive(behind)
+    if above and below and (above[0], below[0]) == (VOLT, AMPERE):
+        return Gain("1", VOLT, AMPERE, ohms=above[1] / below[1])
     if motion(before) is not None and drive(behind) is not None:
         return Gain("1", before, behind)
     if motion(text) is not None:
@@ -175,6 +188,16 @@ def _per(text: str) -> Gain | None:
         return Gain("1")
     volts = re.sub(r"(?:pp|pk|rms|_?peak|eff)$", "", text, flags=re.IGNORECASE)
     return Gain("1", signal=True) if drive(volts) else None
+
+
+def in_ohm(text: str) -> float:
+    """The size in ohm of a unit that is called by this name; 0 for another unit.
+
+    >>> in_ohm("kOhm"), in_ohm("MOHM"), in_ohm("mΩ"), in_ohm("V/A")
+    (1000.0, 1000000.0, 0.001, 0.0)
+    """
+    match = OHM.fullmatch(text.strip())
+    return OHMS.get(match[1], 0.0) if match else 0.0
 
 
 def _plain(text: str) -> str:

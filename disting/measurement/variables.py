@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
+from disting.measurement.column_words import is_called_impedance, matching
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
+    ASSUMED_IMPEDANCE,
     FrequencyResponse,
     Signal,
     as_sign,
@@ -67,17 +69,20 @@ def from_variables(
     response, chosen_index = split_index(response)
     index = index if chosen_index is None else chosen_index
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
+    impedance = sensor is None and (chosen == "Z" or is_called_impedance(chosen))
     the_response = FrequencyResponse(
         values,
         row(_numeric(arrays, chosen, origin), len(values), index, chosen) * as_sign(sign),
         _optional(arrays, deviation, DEVIATION_NAMES, len(values), index, origin),
         _optional(arrays, coherence, COHERENCE_NAMES, len(values), index, origin),
-        sensor=as_sensor(sensor or Sensor.ACCELERATION),
+        sensor=as_sensor(sensor or (Sensor.POSITION if impedance else Sensor.ACCELERATION)),
         output=Signal(chosen),
         origin=f"{origin}, {chosen}",
+        is_impedance=impedance,
     )
     words = f"frequency in {taken_unit(values, grid)} ({name}), complex response ({chosen})"
-    return the_response.noted(None if sensor else ASSUMED_ACCELERATION, taken).read_as(words)
+    assumed = ASSUMED_IMPEDANCE if impedance else ASSUMED_ACCELERATION
+    return the_response.noted(None if sensor else assumed, taken).read_as(words)
 
 
 def holds_response(arrays: Arrays) -> bool:
@@ -167,9 +172,12 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
                 f" {_listed(arrays)}"
             )
         return variable
-    if asked not in arrays:
-        raise InputError(f"{origin} has no variable {short(asked)}; variables: {_listed(arrays)}")
-    return asked
+    names = list(arrays)
+    found = matching(names, asked)
+    if len(found) != 1:
+        count = f"{len(found)} variables like" if found else "no variable"
+        raise InputError(f"{origin} has {count} {short(asked)}; variables: {_listed(arrays)}")
+    return names[found[0]]
 
 
 def _optional(

@@ -8,6 +8,7 @@ the sensor shows x[meas_plus] - x[meas_minus].
 A chain in one line of text: for tables in a terminal.
 """
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -37,11 +38,29 @@ LEGEND = (
 )
 
 
+OTHER_WORDS = {
+    "position": (
+        "pos", "angle", "displacement", "travel", "receptance", "compliance", "lage", "weg",
+        "winkel",
+    ),
+    "velocity": ("vel", "speed", "omega", "mobility", "geschwindigkeit", "drehzahl"),
+    "acceleration": ("acc", "accel", "accelerance", "inertance", "beschleunigung"),
+}  # fmt: skip
+# what drives a machine, and what is said of a response as a whole
+DRIVE = re.compile(
+    r"(torque|force|current|voltage|moment|iq|drehmoment|kraft|strom|spannung)\b", re.IGNORECASE
+)
+
+
 class Sensor(StrEnum):
     """Measured quantity; its transfer function is s**order times the receptance.
 
+    Other words for them are understood too.
+
     >>> Chain(2, sensor="velocity").sensor is Sensor.VELOCITY, Sensor.VELOCITY.order
     (True, 1)
+    >>> [Sensor(word).value for word in ("speed", "Angle", "accel")]
+    ['velocity', 'position', 'acceleration']
     """
 
     POSITION = "position"
@@ -52,6 +71,12 @@ class Sensor(StrEnum):
     def order(self) -> int:
         """Number of differentiations of the position: 0, 1 or 2."""
         return list(Sensor).index(self)
+
+    @classmethod
+    def _missing_(cls, value: object) -> "Sensor | None":
+        """The quantity of another word; None for a word that is none."""
+        word = value.strip().lower() if isinstance(value, str) else ""
+        return next((own for own in cls if word in (own.value, *OTHER_WORDS[own.value])), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -256,7 +281,12 @@ def as_sensor(value: Sensor | str) -> Sensor:
         return Sensor(value)
     except ValueError:
         *others, last = Sensor
-        raise InputError(f"sensor is {', '.join(others)} or {last}, not {short(value)}") from None
+        known = f"{', '.join(others)} or {last}"
+        if isinstance(value, str) and DRIVE.match(value.strip()):
+            raise InputError(
+                f"{short(value)} drives the machine; the quantity is what the sensor shows: {known}"
+            ) from None
+        raise InputError(f"sensor is {known}, not {short(value)}") from None
 
 
 def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:

@@ -6,7 +6,6 @@ triangle. A sentence names the models {L} and {R}, so that pairs decided alike s
 neighbours are counted (`pack`).
 """
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import groupby
@@ -17,6 +16,7 @@ from markupsafe import Markup
 from disting.conditions.rule import ADMISSIBLE, RULES
 from disting.evidence.conditions import capital
 from disting.evidence.positive import Share
+from disting.files import json_text
 from disting.model.question import Domain
 from disting.report.domains import Over
 from disting.report.words import SAID as RELATIONS_SAID, VIEW_TITLES, DecidedModels, raise_exponents
@@ -137,7 +137,7 @@ def script_json(data: object) -> Markup:
     >>> str(script_json(["</script>&"]))
     '["\\\\u003c/script\\\\u003e\\\\u0026"]'
     """
-    text = json.dumps(data, separators=(",", ":"), ensure_ascii=False)
+    text = json_text(data)
     for character in "<>&\u2028\u2029":
         text = text.replace(character, f"\\u{ord(character):04x}")
     return Markup(text)

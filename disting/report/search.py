@@ -6,12 +6,12 @@ opened from a folder may load no data.
 The pages of pairs of a site: what a search needs of each, by its name.
 """
 
-import json
 from collections.abc import Mapping, Sequence
 
 from disting.catalogs import Catalog
 from disting.catalogs.damper_family import DamperFamily, damper_name
 from disting.catalogs.sizes_files import SizesCatalog
+from disting.files import json_text
 from disting.report.environment import source
 from disting.report.guide import Part
 from disting.report.model import folder_of
@@ -66,6 +66,6 @@ def search_script(
         sections.append([len(pages), "", title, text])
         pages.append([address, title])
     data = {"pages": pages, "sections": sections, "families": families}
-    written = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
+    written = json_text(data)
     code = source("search.js") + source("site-search.js")
     return f'"use strict";\n(() => {{\nconst DATA = {written};\n{code}}})();\n'

@@ -9,7 +9,9 @@ import pytest
 
 from disting import Chain, InputError
 from disting.fit import select
+from disting.fit.networks import fit_networks
 from disting.measurement import FrequencyResponse
+from disting.network import network_of
 from tests.fit.drives import response as drive
 
 OMEGA = np.linspace(10.0, 100.0, 30)
@@ -45,6 +47,12 @@ def fitted(omega, response):
 def test_numbers_that_floating_point_cannot_square_are_refused(data):
     with pytest.raises(InputError, match="choose other units"):
         fitted(*data)
+
+
+@pytest.mark.parametrize("data", REFUSED.values(), ids=REFUSED)
+def test_networks_refuse_them_too(data):
+    with pytest.raises(InputError, match="choose other units"):
+        fit_networks(FrequencyResponse(*data), [network_of("R0-p(R1,C1)")])
 
 
 @pytest.mark.parametrize(

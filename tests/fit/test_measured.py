@@ -3,16 +3,18 @@ text, in JSON and on the page.
 """
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from disting.fit import select
+from disting import InputError
+from disting.fit import Case, FurtherResponse, Setup, read_model, select
 from disting.fit.judge.reading import outside, read_in_words
 from disting.fit.search.candidates import chosen_ports
 from disting.measurement import read
 from disting.model.chain import Chain
-from disting.report.fit import fit_page, waterfall
+from disting.report.fit import fit_page
 from disting.report.fit.sentences import first_lines, suspicions
 from tests.cli.process import called
 from tests.fit.drives import OMEGA, response
@@ -47,18 +49,63 @@ def speed(tmp_path_factory):
     return fitted(file_of(tmp_path_factory.mktemp("speed") / "a.csv", "velocity"), (2,))
 
 
-def test_a_speed_read_as_an_acceleration_is_the_first_suspicion(speed):
-    first = suspicions(speed)[0]
-    assert first.startswith("read as velocity, 2:1") and "as well or better" in first
-    assert "acceleration is assumed; give --quantity velocity, or --quantity acceleration" in first
-    assert first_lines(speed)[1] == first
-    assert not any("no other sensor quantity" in line for line in first_lines(speed))
+def test_of_a_speed_that_nobody_named_the_quantity_is_asked_and_nothing_is_selected(speed):
+    assert [r.quantity.value for r in speed.quantities] == ["acceleration", "velocity"]
+    assert speed.selected is None and not speed.members and not speed.relied_on
+    assert "lag" in speed.quantities[0].name and "lag" not in speed.quantities[1].name
+    assert speed.quantities[0].integrates and not speed.quantities[1].integrates
+    assert speed.question == first_lines(speed)[0] == suspicions(speed)[0]
+    assert "give --quantity acceleration or --quantity velocity" in speed.question
+    for reading in speed.quantities:
+        assert f"{reading.name} has chi2 {reading.chi2:.3g} per line" in speed.question
+    assert "open" in repr(speed)
 
 
-def test_the_page_says_it_too(speed):
-    page = fit_page(speed, [], [waterfall(speed.described)], speed.task.cost.measured)
-    assert page.index("read as velocity, 2:1") < page.index('id="result"')
+def test_the_page_asks_for_it_first_and_gives_no_values(speed):
+    page = fit_page(speed, [], [], speed.task.cost.measured)
+    assert page.index(speed.question) < page.index("<main>")
     assert "frequency in Hz (column 1), real part (column 2)" in page
+    assert "--quantity velocity" in page and "explains" not in page
+    for word in ("95 %", "k12", "stiffness"):
+        assert word not in page
+
+
+def test_the_command_asks_for_it_and_its_file_leads_nowhere(tmp_path):
+    """Status 1, the same sentence on the page and in JSON, and no value by any door."""
+    path, file = file_of(tmp_path / "a.csv", "velocity"), tmp_path / "fit.json"
+    done = called("fit", path, "--masses", "2", "--json", file, "--out", tmp_path / "out")
+    assert done.returncode == 1
+    asked = next(line for line in done.stdout.splitlines() if line.startswith("the data do not"))
+    assert "explains" not in done.stdout and "k12" not in done.stdout
+    assert f"disting fit {path} --quantity velocity" in done.stdout
+    assert asked in (tmp_path / "out" / "fit.html").read_text(encoding="utf-8")
+    plain = json.loads(file.read_text(encoding="utf-8"))
+    assert (plain["status"], plain["explained"], plain["selected"]) == (
+        "quantity not settled", False, None,
+    )  # fmt: skip
+    assert plain["question"] == asked and plain["not_excluded"] == plain["relied_on"] == []
+    assert not (tmp_path / "out" / "model.mat").exists()
+    for words in (("next", file), ("plan", file), ("fit", path, "--left", file)):
+        refused = called(*words)
+        assert refused.returncode == 2 and asked in refused.stderr
+    with pytest.raises(InputError, match="do not settle which quantity"):
+        read_model(file)
+    named = called("fit", path, "--masses", "2", "--quantity", "speed")
+    assert named.returncode == 0 and "explains this data" in named.stdout
+
+
+def test_several_responses_and_another_cost_ask_for_it_too(tmp_path):
+    """Of two sensors, and with the cost of the paper, the same question."""
+    measured = read(file_of(tmp_path / "a.csv", "velocity"))
+    at_load = Chain(2, 0, 0, 1, 0, 2, "velocity", True, (1,), dead_time=True)
+    load = replace(response(at_load, VALUES, noise=0.01, seed=5), sensor="acceleration")
+    second = FurtherResponse(load, Setup(sensor="2"))
+    chosen = [c for c in candidates((2,), measured.sensor) if c.lag and c.dead_time]
+    both = select(measured, chosen, further=[second])
+    assert both.explanation.explains and both.selected is None
+    assert [r.quantity.value for r in both.quantities] == ["acceleration", "velocity"]
+    paper = select(measured, chosen, case=Case.COMPLEX)
+    assert paper.question and paper.selected is None
 
 
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
@@ -85,8 +132,8 @@ def test_the_quantity_of_an_axis_with_dry_friction_is_asked():
     data = read(measured_data("EMPS.mat"), input="vir", output="qm", reference="qg", segment=4096)
     found = select(data, chosen_ports((1, 2), "1", "1", 0, data.sensor))
     assert found.explanation.explains
-    (asked,) = found.quantities
-    assert asked.startswith("read as velocity") and "that it is position is assumed" in asked
+    assert [r.quantity.value for r in found.quantities] == ["position", "velocity"]
+    assert found.selected is None
 
 
 def test_a_quantity_that_is_said_is_not_doubted(tmp_path):
@@ -196,7 +243,8 @@ def test_a_recorded_speed_that_is_taken_as_a_position_is_suspected(tmp_path, mas
     assert read_in_words(measured).endswith("sensor: acceleration, from a position (assumed)")
     tried = candidates(masses, measured.sensor)
     found = select(measured, [c for c in tried if lag or not c.lag])
-    assert "that it is position is assumed; give --quantity velocity" in suspicions(found)[0]
+    assert [r.quantity.value for r in found.quantities] == ["position", "velocity"]
+    assert "give --quantity" in suspicions(found)[0] and "velocity" in suspicions(found)[0]
 
 
 def test_the_unit_of_a_recorded_output_says_its_quantity(tmp_path):

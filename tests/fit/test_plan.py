@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-from scipy.stats import chi2, norm
+from scipy.stats import chi2, ncx2, norm
 
 from disting.errors import InputError
 from disting.fit import select
@@ -20,7 +20,7 @@ from disting.fit.plan.power import (
     union,
 )
 from disting.fit.plan.rival import Trust, fitted_rival, gain
-from disting.fit.plan.sample import ideal, simulate
+from disting.fit.plan.sample import Sample, ideal, simulate
 from disting.fit.results.export import predict
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -54,6 +54,24 @@ def test_power_of_one_parameter_is_that_of_a_two_sided_normal_test():
         assert power(size) == pytest.approx(norm.sf(limit - shift) + norm.cdf(-limit - shift))
     assert power(0.0, 3) == LEVEL and ideal().needed() == pytest.approx(17.814, abs=1e-3)
     assert power(ideal(4).needed(), 4) == pytest.approx(POWER, abs=1e-9)
+
+
+@pytest.mark.parametrize("size", [1e12, 1e20, 1e300, float("inf")])
+def test_power_against_a_rival_that_is_far_away_is_one(size):
+    """SciPy's noncentral chi2 is not a number there."""
+    assert power(size) == power(size, 9, 1e-6) == 1.0
+
+
+@pytest.mark.parametrize("surplus", [1, 2, 12])
+def test_power_is_the_same_on_both_sides_of_the_bound_of_the_series(surplus):
+    limit = chi2.isf(1e-4, surplus)
+    for size in np.square(np.sqrt(limit) + np.array([37.0, 39.9, 40.1, 50.0])):
+        assert power(size, surplus, 1e-4) == ncx2.sf(limit, surplus, size)
+
+
+def test_an_effort_that_is_never_enough_is_infinite():
+    ones = np.ones(1)
+    assert Sample(1e9 * ones, ones, ones, 1).needed() == np.inf
 
 
 def test_power_of_several_parameters_is_what_sampling_shows():

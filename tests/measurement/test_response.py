@@ -63,7 +63,11 @@ def test_equality_is_that_of_numbers_sensor_and_signals():
         ({"coherence": np.full(20, -0.01)}, "coherence lies in 0..1"),
         ({"coherence": np.ones((20, 1))}, "shape"),
         ({"omega": "abc"}, "row of numbers"),
-        ({"sensor": "force"}, "sensor is position, velocity or acceleration"),
+        ({"sensor": "jerk"}, "sensor is position, velocity or acceleration"),
+        (
+            {"sensor": "torque"},
+            "drives the machine; the quantity is what the sensor shows: position",
+        ),
     ],
 )
 def test_what_is_no_response_is_refused_with_cause_and_remedy(changed, words):

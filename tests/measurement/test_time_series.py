@@ -104,7 +104,7 @@ def test_given_lines_band_and_period():
         ({"segment": 100, "outliers": "drop"}, "segments of Welch's method are not alike"),
         ({"segment": 4}, "at least 8 samples"),
         ({"segment": 2000}, "half-overlapping segments"),
-        ({"sensor": "force"}, "sensor is"),
+        ({"sensor": "jerk"}, "sensor is"),
     ],
 )
 def test_bad_options_are_refused(options, words):

@@ -121,7 +121,7 @@ def test_a_chain_outside_38_is_a_model_with_another_number():
         {"n_masses": True},
         {"n_masses": 2, "gap": None},
         {"n_masses": 2, "meas_plus": 1.5},
-        {"n_masses": 2, "sensor": "speed"},
+        {"n_masses": 2, "sensor": "jerk"},
         {"n_masses": 2, "ground_dampers": (0,)},
         {"n_masses": 2, "ground_dampers": (3,)},
         {"n_masses": 2, "ground_dampers": (1, -1)},
@@ -279,3 +279,21 @@ def test_families_that_are_none(n_masses):
 def test_a_chain_with_extras_is_in_no_family():
     with pytest.raises(InputError, match="not in the 2-mass family"):
         Family(2, damped=False).number(Chain(2, ground_dampers=(1,), damped=False))
+
+
+@pytest.mark.parametrize(
+    ("words", "quantity"),
+    [
+        (("position", "pos", "angle", "Displacement", "Weg"), "position"),
+        (("velocity", "speed", "omega", "SPEED "), "velocity"),
+        (("acceleration", "accel", "acc"), "acceleration"),
+    ],
+)
+def test_usual_words_for_a_quantity(words, quantity):
+    assert {Chain(2, sensor=word).sensor.value for word in words} == {quantity}
+
+
+@pytest.mark.parametrize("word", ["torque", "Torque per speed", "current", "iq"])
+def test_what_drives_a_machine_is_no_quantity_of_its_response(word):
+    with pytest.raises(InputError, match="what the sensor shows: position, velocity or acc"):
+        Chain(2, sensor=word)

@@ -75,7 +75,7 @@ def test_damping_and_sensor_are_said_or_taken_from_the_chain_beside() -> None:
     assert said == [Family(3, True, Sensor.POSITION)[4], beside]
     assert read_together(["3:4"]) == [Family(3, damped=True)[4]]
     with pytest.raises(InputError, match="sensor is position"):
-        read_together(["3:4"], sensor="speed")
+        read_together(["3:4"], sensor="jerk")
 
 
 @pytest.mark.parametrize(

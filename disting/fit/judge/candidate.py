@@ -8,7 +8,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from disting.fit.judge.exclusion import Exclusion
-from disting.fit.judge.explanation import chi2, explain, merge, noises, scatters, yardsticks
+from disting.fit.judge.explanation import (
+    Explanation,
+    chi2,
+    explain,
+    merge,
+    noises,
+    scatters,
+    yardsticks,
+)
 from disting.fit.judge.practical import NoiseModel, Practical, practical
 from disting.fit.judge.structural import with_structure
 from disting.fit.noise.covariance import expected_deviation
@@ -124,9 +132,14 @@ def judge(
 
 
 def explains(estimate: Estimate, task: Task, most: Real) -> bool:
-    """Whether an estimate explains the data of its task, of one response, at lines that its fit has
-    not seen (`explanation`), if these scatter as they do about it and by no more than the shares
-    `most` of the measured amplitudes, shape (n_f,).
+    """Return True if an estimate explains the data as `unseen_explanation` has it."""
+    return unseen_explanation(estimate, task, most).explains
+
+
+def unseen_explanation(estimate: Estimate, task: Task, most: Real) -> Explanation:
+    """Explain the data of a task, of one response, by an estimate at lines that its fit has not
+    seen, if these scatter as they do about it and by no more than the shares `most` of the measured
+    amplitudes, shape (n_f,).
     """
     own, size = _scatter_about(estimate, task), np.abs(task.cost.measured.G)
     sigma = np.minimum(own.sigma, most * size)
@@ -134,7 +147,7 @@ def explains(estimate: Estimate, task: Task, most: Real) -> bool:
     missed = _expected(estimate, task, None, scatter, scatter)
     response = _cross_validated(estimate, task, values_of(estimate, task))
     residual = WhitenedCost(task.cost, scatter).residual(response)
-    return explain(task.cost, residual, missed, scatter).explains
+    return explain(task.cost, residual, missed, scatter)
 
 
 def share_about(estimate: Estimate, task: Task) -> Real:

@@ -14,7 +14,13 @@ from typing import Any
 
 from disting.errors import InputError, enumeration
 from disting.files import Format, read_json
-from disting.fit.results.model_file import FIT_FILE, chain_from_dict, model_from_dict, number_of
+from disting.fit.results.model_file import (
+    FIT_FILE,
+    chain_from_dict,
+    model_from_dict,
+    number_of,
+    refuse_open_quantity,
+)
 from disting.fit.results.networks import BAR
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.starts import Parameters
@@ -83,6 +89,7 @@ class FitRecord:
 def named_by(path: Path) -> FitRecord:
     """What a JSON file of `disting fit` names; raises InputError."""
     plain = read_json(path, FIT_FILE)
+    refuse_open_quantity(plain, path)
     if not isinstance(plain, dict) or not isinstance(plain.get("selected"), dict):
         raise InputError(f"{path} holds no selected model: name {FIT_FILE}")
     model, values = model_from_dict(plain["selected"])

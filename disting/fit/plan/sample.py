@@ -26,6 +26,7 @@ from disting.measurement.arrays import Complex, Real
 
 POWER = 0.95  # wanted probability of excluding one that is not
 LARGEST = 1e6  # noncentrality that is looked for, at most
+BEYOND = 40.0  # standard deviations: a normal variable lies there with a probability of 1e-350
 DRAWS = 60  # simulated measurements: the mean of their powers is known within a point or two
 SEED = 20_251
 
@@ -44,11 +45,25 @@ class Sample:
     def power(self, noncentrality: float) -> float:
         """Probability of excluding the rival if the model is true."""
         seen = noncentrality * self.shares / self.widths
-        return float(np.mean(ncx2.sf(self.limits / self.widths, self.surplus, seen)))
+        return float(np.mean(_exceeding(self.limits / self.widths, self.surplus, seen)))
 
     def needed(self, wanted: float = POWER) -> float:
-        """Noncentrality for a power."""
+        """Noncentrality for a power; infinite where one of a million does not reach it."""
+        if self.power(LARGEST) < wanted:
+            return np.inf
         return float(brentq(lambda size: self.power(size) - wanted, 1e-6, LARGEST))
+
+
+def _exceeding(limits: Real, freedom: int, noncentrality: Real) -> Real:
+    """P(chi2_s(lambda) > c) for c = `limits` and s = `freedom`, shape (n,) each.
+
+    SciPy's series is not a number for lambda of about 1e12 and more. With one normal variable z,
+    chi_s(lambda) >= sqrt(lambda) + z, so the probability is 1 to double precision where sqrt(c)
+    lies 40 below sqrt(lambda).
+    """
+    is_certain = np.sqrt(noncentrality) - np.sqrt(limits) > BEYOND
+    within = np.where(is_certain, 0.0, noncentrality)
+    return np.where(is_certain, 1.0, ncx2.sf(limits, freedom, within))
 
 
 def ideal(surplus: int = 1, level: float = LEVEL) -> Sample:

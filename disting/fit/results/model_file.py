@@ -55,9 +55,16 @@ def _no_model(reason: Exception) -> InputError:
     return InputError(f"this is no fitted model: {short(reason)} is missing or wrong")
 
 
+def refuse_open_quantity(plain: Any, path: Path) -> None:
+    """Raise InputError with the question for the sensor quantity, where a file of a fit asks it."""
+    if isinstance(plain, dict) and plain.get("question"):
+        raise InputError(f"{path} names no model: {plain['question']}")
+
+
 def read_model(path: Path) -> tuple[Chain, dict[str, float]]:
     """The selected model of a JSON file of `disting fit`; raises InputError."""
     plain = read_json(path, FIT_FILE)
+    refuse_open_quantity(plain, path)
     selected = plain.get("selected", plain) if isinstance(plain, dict) else None
     if not isinstance(selected, dict):
         raise InputError(f"{path} holds no selected model")

@@ -26,6 +26,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.members import Member
 from disting.fit.judge.practical import Thresholds, standard_errors
+from disting.fit.judge.quantity import QuantityReading, question
 from disting.fit.judge.readings import Reading
 from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import Statement
@@ -185,8 +186,9 @@ class Selection(NotebookTable):
     because one with the same positive models was (`same_as`, by candidate); `validation` says where
     the test cost comes from, `judging` is that cost. Where several responses are fitted, `test` is
     the data of the first one, and `silent` names those that are zero, from which nothing is
-    learned. `quantities`: sentences on the sensor quantities that explain the data as well as the
-    assumed one; `command`: what reads and fits the same data once more, without the candidates.
+    learned. `quantities`: the readings of the data, the assumed quantity first, where others
+    explain them as well; then nothing is selected, and `question` asks for the quantity; `command`:
+    what reads and fits the same data once more, without the candidates.
     """
 
     selected: Candidate | None
@@ -207,11 +209,12 @@ class Selection(NotebookTable):
     task: Task = field(repr=False)
     test: FrequencyResponse = field(repr=False)
     judging: AnyCost = field(repr=False)
-    quantities: tuple[str, ...] = ()
+    quantities: tuple[QuantityReading, ...] = ()
     command: str = ""
 
     def __repr__(self) -> str:
-        text = "none is admissible" if self.selected is None else reference(self.selected.chain)
+        nothing = "the sensor quantity is open" if self.question else "none is admissible"
+        text = nothing if self.selected is None else reference(self.selected.chain)
         left = len(self.members) + len(self.containing)
         members = f", {left} not excluded" if left else ""
         return summary(self, f"{text} of {plural(len(self.candidates), 'candidate')}{members}")
@@ -221,6 +224,13 @@ class Selection(NotebookTable):
         exclude, else the best one. `ax` and what is returned as in `FrequencyResponse.plot`.
         """
         return tuple(self._presenter.plot(self, ax, {}))
+
+    @property
+    def question(self) -> str:
+        """The sentence that asks for the sensor quantity where the data are explained and do not
+        settle it; "" else.
+        """
+        return question(self.quantities) if self.explanation.explains and self.quantities else ""
 
     @property
     def described(self) -> Candidate:

@@ -23,6 +23,7 @@ from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse, are_opposite
 from disting.measurement.arrays import Complex, Real
+from disting.measurement.response import NO_MOTION
 from disting.model.chain import Chain
 
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
@@ -86,6 +87,10 @@ def check(
     if not candidates:
         raise InputError("a selection needs at least one candidate")
     _check_pair(train, test)
+    every = (train, test, *(data for extra in further for data in (extra.measured, extra.test)))
+    for data in filter(None, every):
+        if data.is_impedance:
+            raise InputError(f"{data.origin or 'data'}: {NO_MOTION}")
     other = {c.sensor for c in candidates} - {train.sensor}
     if other:
         raise InputError(
@@ -93,13 +98,13 @@ def check(
             " sensor quantity"
         )
     for data in filter(None, (train, test)):
-        _check_units(data)
+        check_units(data)
     for extra in further:  # each against its own test data
         if extra.test is not None and test is None:
             raise InputError("test data of a further response need test data of the first one too")
         _check_pair(extra.measured, extra.test)
         for data in filter(None, (extra.measured, extra.test)):
-            _check_units(data)
+            check_units(data)
     thinned = None if test is None else test.thinned(most)
     return (
         train.thinned(most),
@@ -119,9 +124,9 @@ def _check_pair(train: FrequencyResponse, test: FrequencyResponse | None) -> Non
         )
 
 
-def _check_units(data: FrequencyResponse) -> None:
-    """Numbers whose squares and products floating point holds; beyond these no unit of
-    measurement is sensible.
+def check_units(data: FrequencyResponse) -> None:
+    """Raise InputError for frequencies or amplitudes beyond 1e-30 to 1e30: their squares and
+    products leave floating point, and no unit of measurement is sensible there.
     """
     for name, values, unit in (
         ("frequencies", data.omega, "rad/s"),

@@ -22,6 +22,7 @@ from disting.model.names import damping_option
 
 PURPOSES = {
     "compare": "Whether an experiment tells them apart, and why:",
+    "fit": "The fit, where the sensor shows this quantity:",
     "equivalents": "Every structure with the same response, and its parameters:",
 }
 SAME = "Why nothing tells them apart, and whether that holds for all parameters:"
@@ -117,8 +118,11 @@ def new_names(selection: Selection) -> str:
 
 def commands(selection: Selection) -> tuple[str, ...]:
     """Ready command lines for the next steps; none from a structure that does not explain the data,
-    whose values mean nothing.
+    whose values mean nothing. Where the sensor quantity is open, the fit with each.
     """
+    if selection.question:
+        fit = selection.command or "disting fit FILE"
+        return tuple(f"{fit} --quantity {r.quantity.value}" for r in selection.quantities)
     if not selection.explanation.explains:
         return ()
     first = selection.described

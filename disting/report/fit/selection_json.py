@@ -10,6 +10,7 @@ from disting.files import Format
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation, explanations
 from disting.fit.judge.members import Member
+from disting.fit.judge.quantity import QuantityReading
 from disting.fit.judge.reading import assumed_quantity
 from disting.fit.results.reliance import Statement
 from disting.fit.results.selection import Selection, fit_percent
@@ -34,7 +35,10 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
         "not_fitted": [
             {**_named(c), "same_as": _named(other)} for c, other in selection.same_as.items()
         ],
-        "explained": selection.explanation.explains,
+        "status": _status(selection),
+        "question": selection.question,
+        "quantities": [_quantity_to_dict(reading) for reading in selection.quantities],
+        "explained": _status(selection) == "explained",
         "chi2_per_line": selection.explanation.chi2,
         "scatter": selection.explanation.scatter.typical,
         "scatter_source": selection.explanation.scatter.source,
@@ -52,6 +56,24 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
     } | (
         _joint_to_dict(selection) if len(selection.task.cost.parts) > 1 or selection.silent else {}
     )
+
+
+def _status(selection: Selection) -> str:
+    if selection.question:
+        return "quantity not settled"
+    return "explained" if selection.explanation.explains else "not explained"
+
+
+def _quantity_to_dict(reading: QuantityReading) -> dict[str, Any]:
+    """The data read as one sensor quantity."""
+    return {
+        "quantity": reading.quantity.value,
+        "assumed": reading.is_assumed,
+        "structure": reading.name,
+        "n_parameters": len(reading.found.parameters),
+        "chi2_per_line": reading.chi2,
+        "lag_integrates": reading.integrates,
+    }
 
 
 def _statement_to_dict(statement: Statement) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
 from disting.report.fit.links import Site, next_steps
 from disting.report.fit.responses import drawing, shown_responses, with_all_sensors
-from disting.report.fit.sentences import first_lines, suspicions
+from disting.report.fit.sentences import first_lines, quantity_rows, suspicions
 from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import (
     cost_in_words,
@@ -77,6 +77,8 @@ def fit_page(
     `site`: where the pages of the catalogues and the guide lie, to which structures and bar are
     linked.
     """
+    if selection.question:
+        return _question_page(selection, train, test, site)
     candidate, rows = selection.described, [result_row(r, train) for r in results]
     shown = shown_responses(selection, train, test, figures)
     return render(
@@ -105,6 +107,31 @@ def fit_page(
         suspicions=suspicions(selection),
         steps=next_steps(selection),
         members=list_structures(selection, train, site),
+        home=site.home if site else None,
+        **ALWAYS,
+    )
+
+
+def _question_page(
+    selection: Selection,
+    train: FrequencyResponse,
+    test: FrequencyResponse | None,
+    site: Site | None,
+) -> str:
+    """The page of data that do not settle the sensor quantity: the question, the readings side by
+    side, the commands that settle it.
+    """
+    head, *rows = quantity_rows(selection)
+    return render(
+        "fit-question.html",
+        first_lines=first_lines(selection),
+        readings=selection.quantities,
+        rows_head=head,
+        rows=rows,
+        suspicions=suspicions(selection),
+        steps=next_steps(selection),
+        data=_data(selection, train, test),
+        choices=choices(selection),
         home=site.home if site else None,
         **ALWAYS,
     )

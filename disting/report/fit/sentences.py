@@ -30,12 +30,14 @@ FEW = 8  # names in one line
 
 def first_lines(selection: Selection) -> tuple[str, ...]:
     """At most five lines: does anything explain the data, what is selected, what else may it
-    be, what is suspicious.
+    be, what is suspicious. Where the sensor quantity is open, the question for it alone.
     """
+    if selection.question:
+        return (selection.question, *same_data_twice(selection))
     return (
         _verdict(selection),
         *same_data_twice(selection),
-        *selection.quantities,
+        *_other_quantities(selection),
         *(_explained(selection) if selection.explanation.explains else _unexplained(selection)),
     )[:5]
 
@@ -44,8 +46,11 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
     """Sentences on what looks wrong, each with what it means; the gravest first, empty where
     nothing does.
     """
+    if selection.question:
+        cost = selection.task.cost
+        return (selection.question, *same_data_twice(selection), *suspicious_data(cost))
     said = [
-        *selection.quantities,
+        *_other_quantities(selection),
         *(
             []
             if selection.explanation.explains
@@ -65,6 +70,31 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         *uninformative(selection),
     ]
     return tuple(dict.fromkeys(said))
+
+
+def quantity_rows(selection: Selection) -> list[tuple[str, ...]]:
+    """A head and a row for each quantity under which the data are explained."""
+    rows = [
+        (
+            f"{r.quantity.value}{' (assumed)' if r.is_assumed else ''}",
+            r.name,
+            str(len(r.found.parameters)),
+            f"{r.chi2:.3g}",
+            "its lag integrates over the whole band" if r.integrates else "",
+        )
+        for r in selection.quantities
+    ]
+    return [("read as", "structure", "parameters", "chi2 per line", ""), *rows]
+
+
+def _other_quantities(selection: Selection) -> Iterator[str]:
+    """Other quantities under which the data, which the assumed one does not explain, would be."""
+    for reading in selection.quantities[1:]:
+        wanted, assumed = reading.quantity.value, selection.quantities[0].quantity.value
+        yield (
+            f"read {reading.sentence}: that it is {assumed} is assumed; give"
+            f" --quantity {wanted}, or --quantity {assumed}"
+        )
 
 
 def uninformative(selection: Selection) -> tuple[str, ...]:

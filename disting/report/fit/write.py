@@ -1,7 +1,6 @@
 """Writes what a fit or a plan found into a folder: page, figures, data."""
 
 import csv
-import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from io import StringIO
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disting.files import write_whole
+from disting.files import json_text, write_whole
 from disting.fit.judge.modes import Result, physical
 from disting.fit.plan.design import Design, designed_to_dict
 from disting.fit.plan.power import Plan, typical
@@ -50,7 +49,7 @@ def write_plan(plan: Plan, best: Design, folder: Path) -> str:
     """
     folder.mkdir(parents=True, exist_ok=True)
     figure = plan_figure(plan, best)
-    text = json.dumps(designed_to_dict(plan, best), indent=1, ensure_ascii=False, allow_nan=False)
+    text = json_text(designed_to_dict(plan, best), indent=1)
     for file, content in (
         ("plan.svg", figure.svg),
         ("plan.png", figure.png),
@@ -163,10 +162,12 @@ def write_fit_report(
     does not exist; other files in it stay as they are. Raises InputError for the name of a
     parameter that the described candidate does not have.
     """
-    candidate = selection.described
-    the_profiles = [profile(candidate, selection.task, n) for n in profiles]
-    results = physical(candidate, selection.task)
-    figures = fit_figures(selection, results, train, test, the_profiles)
+    candidate, results = selection.described, list[Result]()
+    figures = list[FigureFiles]()
+    if not selection.question:  # else there is no model to show
+        the_profiles = [profile(candidate, selection.task, n) for n in profiles]
+        results = [*physical(candidate, selection.task)]
+        figures = fit_figures(selection, results, train, test, the_profiles)
     folder.mkdir(parents=True, exist_ok=True)
     page = fit_page(
         selection, results, figures, train, test, Site(site or folders_near(folder), folder)
@@ -219,7 +220,7 @@ def _files(
     yield (
         "fit.json",
         [
-            json.dumps(selection_to_dict(selection), indent=1, ensure_ascii=False, allow_nan=False),
+            json_text(selection_to_dict(selection), indent=1),
             "\n",
         ],
     )

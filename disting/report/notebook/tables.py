@@ -25,6 +25,7 @@ from disting.model.family import Family
 from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance
+from disting.report.fit.sentences import quantity_rows
 from disting.report.fit.words import name, readable, response_unit, typeset
 from disting.report.notebook.markup import LONGEST, block, curve, facts, line, matrix, more, table
 from disting.report.words import headline, plural, raise_exponents, title
@@ -184,6 +185,9 @@ def _selection(shown: Selection) -> str:
     first = list(shown.candidates[:LONGEST])
     chosen = [c for c in shown.candidates[LONGEST:] if c is shown.selected]
     rows = (_candidate(c, c is shown.selected) for c in (*first, *chosen))
+    if shown.question:
+        names, *readings = quantity_rows(shown)
+        return block(line(shown.question, bold=True), table(names, readings))
     return block(
         line(_selected(shown), bold=True),
         line(_explained(shown)),
