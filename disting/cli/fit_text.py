@@ -166,7 +166,7 @@ def _set(selection: Selection) -> Iterator[str]:
             other.name for other in selection.containing if other.contains == m.candidate.chain
         ]
         if larger:
-            yield f"    or more, not determined by this data: {_named(larger)}"
+            yield f"    or a larger one that contains it: {_named(larger)}"
 
 
 def _relied_on(selection: Selection) -> Iterator[str]:

@@ -8,7 +8,7 @@ misses that one by any amount. Then the search begins again at the limit, and wh
 too the candidate is taken at the limit itself.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -48,7 +48,8 @@ def as_good_as_contained(
         for contained in sorted(inner, key=lambda s: s.j_train)[:1]:
             limit = limit_in(c.chain, contained, task, scatters[0])
             if limit is not None:
-                own[c.chain] = _from_limit(c, contained, limit, most, task, test, scatters, settings)
+                ends = _from_limit(c, contained, limit, task, test, scatters, settings)
+                own[c.chain] = next(end for end in ends if end.chi2 <= most)
     return sorted(own.values(), key=lambda c: c.order)
 
 
@@ -87,9 +88,7 @@ def limit_in(chain: Chain, contained: Candidate, task: Task, scatter: Scatter) -
         return None
     starts = embedded(chain, contained.estimate, task)
     cost = WhitenedCost(task.cost, scatter)
-    own = cost.residual(
-        task.plant(contained.chain).response(values_of(contained.estimate, task))
-    )
+    own = cost.residual(task.plant(contained.chain).response(values_of(contained.estimate, task)))
     with np.errstate(all="ignore"):
         apart = np.abs(cost.residual(task.plant(chain).response(starts)) - own).max(axis=-1)
     near = np.flatnonzero(apart <= ALIKE)
@@ -100,21 +99,20 @@ def _from_limit(
     candidate: Candidate,
     contained: Candidate,
     limit: Real,
-    most: float,
     task: Task,
     test: AnyCost | None,
     scatters: Scatters,
     settings: Settings,
-) -> Candidate:
-    """The candidate searched again from the limit; at the limit where that misses the data too."""
+) -> Iterator[Candidate]:
+    """Yield the candidate searched again from the limit, then that at the limit, with the residual
+    of the one that it contains.
+    """
     chain, box = candidate.chain, task.box(task.names(candidate.chain))
     p, j = fine(task.plant(chain), task.cost, box, limit)
-    (found,) = judge([_estimate(candidate, p, j, task)], task, test, scatters, settings)
-    if found.chi2 <= most:
-        return found
+    yield from judge([_estimate(candidate, p, j, task)], task, test, scatters, settings)
     estimate = _estimate(candidate, limit, contained.j_train, task)
     (there,) = judge([estimate], task, test, scatters, settings)
-    return replace(
+    yield replace(
         there,
         j_test=contained.j_test,
         chi2=contained.chi2,

@@ -11,11 +11,12 @@ Where a chain is only a limit of another one by reciprocity, its force in the pl
 one's sensor, a further sensor may tell them apart: this is not containment.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from itertools import islice
 from math import sqrt
 
+from disting.evidence.limits import Minor
 from disting.fit.search.starts import Parameters, Scale
 from disting.general.model_inclusions import minor_of
 from disting.model.chain import Chain
@@ -47,7 +48,7 @@ def contains(larger: AnyStructure, smaller: AnyStructure) -> bool:
             and bool(_ways(_plain(smaller), _plain(larger)))
         )
     if isinstance(larger, Network) and isinstance(smaller, Network):
-        return _is_minor(smaller, larger)
+        return limit_of(larger, smaller) is not None
     return False
 
 
@@ -64,11 +65,11 @@ def embeddings(larger: Chain, smaller: Chain, fit: Parameters, size: Scale) -> I
             yield {name: _value(name, limits, fit, size, share) for name in larger.parameters}
 
 
-def smallest(
-    larger: AnyStructure, others: Iterable[AnyStructure]
-) -> AnyStructure | None:
-    """The first of other structures that a structure contains; None if it contains none."""
-    return next((other for other in others if contains(larger, other)), None)
+def limit_of(larger: Network, smaller: Network) -> Minor | None:
+    """The values of the larger network in the limit that is the smaller one; None where it does not
+    contain it.
+    """
+    return None if larger == smaller else _minor(smaller, larger)
 
 
 def _value(name: str, limits: Fates, fit: Parameters, size: Scale, share: float) -> float:
@@ -128,5 +129,5 @@ def _ports(part: Chain, whole: Chain) -> Iterator[Places]:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _is_minor(part: Network, whole: Network) -> bool:
-    return part != whole and minor_of(part, whole) is not None
+def _minor(part: Network, whole: Network) -> Minor | None:
+    return minor_of(part, whole)

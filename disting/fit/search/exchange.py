@@ -105,7 +105,9 @@ def polish(
         whole = list(stage)
         the_estimates |= {c: evaluate(c, task) for c in whole if _is_given(c, task)}
         helpful = {
-            c: _lowest(c, the_estimates, task) | {c: own[c]} for c in whole if c not in the_estimates
+            c: _lowest(c, the_estimates, task) | {c: own[c]}
+            for c in whole
+            if c not in the_estimates
         }
         for this_estimate in _results(refine, helpful, task, store, executor):
             the_estimates[this_estimate.chain] = this_estimate

@@ -227,7 +227,8 @@ def _beside(selection: Selection) -> Iterator[str]:
     if more:
         yield (
             f"{plural(more, 'larger one')} {'contains' if more == 1 else 'contain'}"
-            f" {'one of these' if others else 'it'}, with parts that these data do not show."
+            f" {'one of these' if others else 'it'}: no experiment excludes"
+            f" {'that' if more == 1 else 'them'} if the smaller one is true."
         )
     if twins:
         yield (
@@ -248,8 +249,12 @@ def _misfit(selection: Selection) -> KeyFigure:
 
 
 def _left(selection: Selection) -> KeyFigure:
-    count, of = len(selection.members) + len(selection.containing), len(selection.candidates)
-    return KeyFigure("structures left", f"{count} of {of}", "fitted, and not excluded by the data")
+    count, of, more = (
+        len(each) for each in (selection.members, selection.candidates, selection.containing)
+    )
+    beside = f"; {more} more contain{'s' if more == 1 else ''} one of these" if more else ""
+    meaning = f"fitted, and not excluded by the data{beside}"
+    return KeyFigure("structures left", f"{count} of {of}", meaning)
 
 
 def _third(selection: Selection, results: Sequence[ParameterRow]) -> KeyFigure:

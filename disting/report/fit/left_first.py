@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from disting.errors import enumeration
 from disting.experiments.menu import Item
 from disting.fit.judge.admissible import KNOWN, UNDETERMINED
-from disting.fit.judge.exclusion import union
 from disting.fit.plan.fit_file import FitRecord
 from disting.fit.plan.next_experiment import Predictions
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import reference
+from disting.fit.search.containment import contains
 from disting.report.fit.left_words import ChainAdvice, cheapest_first
-from disting.report.fit.plan_words import chance
+from disting.report.fit.plan_words import chance, larger_in_words
 from disting.report.fit.words import percent, readable
 
 
@@ -81,11 +81,7 @@ def _alone(named: FitRecord, source: str) -> Iterator[str]:
         f"{source} leaves {reference(named.model)} alone: no further measurement is needed to tell"
         " structures apart"
     )
-    if named.larger:
-        yield (
-            f"{enumeration(named.larger)} {_contain(named.larger)} it with elements that the data"
-            " do not determine"
-        )
+    yield from larger_in_words(list(named.larger), reference(named.model))
     if named.rivals:
         names = enumeration(map(reference, named.rivals))
         yield f"it is not known whether these structures behave the same: {names}"
@@ -118,7 +114,7 @@ def _contain(names: Sequence[object]) -> str:
 def _others(lead: ChainAdvice) -> list[int]:
     """The structures that do not contain the selected one."""
     chain = lead.left[0].chain
-    return [k for k, o in enumerate(lead.left) if k and union(chain, o.chain) != o.chain]
+    return [k for k, o in enumerate(lead.left) if k and not contains(o.chain, chain)]
 
 
 def _best(lead: ChainAdvice, seen: Predictions, others: list[int]) -> Reach | None:

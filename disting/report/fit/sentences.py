@@ -134,8 +134,8 @@ def _explained(selection: Selection) -> Iterator[str]:
         )
     others, more = [m.name for m in selection.members[1:]], len(selection.containing)
     larger = (
-        f"{more} more that contain{'s' if more == 1 else ''} one of these, with elements that this"
-        " data does not determine"
+        f"{more} more that contain{'s' if more == 1 else ''} one of these, which no experiment"
+        " excludes if the smaller one is true"
     )
     if others:
         beside = f"; {larger}" if more else ""
