@@ -46,7 +46,8 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from first_lines(selection)
     yield ""
     left, more = [m.candidate for m in selection.members], len(selection.containing)
-    beside = f" ({more} more contain{'s' if more == 1 else ''} one of these)" if more else ""
+    which = "one of these" if len(left) > 1 else "it"
+    beside = f" ({more} more contain{'s' if more == 1 else ''} {which})" if more else ""
     yield (
         f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
         f" validated on {selection.validation}"

@@ -26,6 +26,7 @@ from disting.fit.plan.fit_file import (
 )
 from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
 from disting.fit.plan.search import AnyStructure, name_of, responses_of, sensor_of
+from disting.fit.search.containment import contains
 from disting.fit.search.starts import Parameters
 from disting.measurement import read
 from disting.measurement.arrays import Real

@@ -180,13 +180,14 @@ class Selection(NotebookTable):
     structures that the data do not exclude, the selected one first, none where nothing explains
     the data; `containing`: those that contain one of them, which are no rivals: no experiment
     excludes them if the smaller one is true; `readings`: what would fit then; `relied_on`: what
-    holds for all members, around which `controller` closes the loop; `better`: candidates that the paper's rule does not admit
-    and that would exclude the selected one; `saved` counts the candidates that were not fitted
-    because one with the same positive models was (`same_as`, by candidate); `validation` says where
-    the test cost comes from, `judging` is that cost. Where several responses are fitted, `test` is
-    the data of the first one, and `silent` names those that are zero, from which nothing is
-    learned. `quantities`: sentences on the sensor quantities that explain the data as well as the
-    assumed one; `command`: what reads and fits the same data once more, without the candidates.
+    holds for all members, around which `controller` closes the loop; `better`: candidates that the
+    paper's rule does not admit and that would exclude the selected one; `saved` counts the
+    candidates that were not fitted because one with the same positive models was (`same_as`, by
+    candidate); `validation` says where the test cost comes from, `judging` is that cost. Where
+    several responses are fitted, `test` is the data of the first one, and `silent` names those that
+    are zero, from which nothing is learned. `quantities`: sentences on the sensor quantities that
+    explain the data as well as the assumed one; `command`: what reads and fits the same data once
+    more, without the candidates.
     """
 
     selected: Candidate | None
