@@ -225,10 +225,10 @@ def _beside(selection: Selection) -> Iterator[str]:
             " excluded by the data either."
         )
     if more:
+        which, smaller = ("one of these", "the smaller one") if others else ("it", "it")
         yield (
-            f"{plural(more, 'larger one')} {'contains' if more == 1 else 'contain'}"
-            f" {'one of these' if others else 'it'}: no experiment excludes"
-            f" {'that' if more == 1 else 'them'} if the smaller one is true."
+            f"{plural(more, 'larger one')} {'contains' if more == 1 else 'contain'} {which}: no"
+            f" experiment excludes {'that' if more == 1 else 'them'} if {smaller} is true."
         )
     if twins:
         yield (
@@ -252,7 +252,8 @@ def _left(selection: Selection) -> KeyFigure:
     count, of, more = (
         len(each) for each in (selection.members, selection.candidates, selection.containing)
     )
-    beside = f"; {more} more contain{'s' if more == 1 else ''} one of these" if more else ""
+    which = "one of these" if count > 1 else "it"
+    beside = f"; {more} more contain{'s' if more == 1 else ''} {which}" if more else ""
     meaning = f"fitted, and not excluded by the data{beside}"
     return KeyFigure("structures left", f"{count} of {of}", meaning)
 

@@ -47,9 +47,9 @@ def first_sentence(lead: ChainAdvice) -> str:
     """The experiment that parts the selected structure from most of the others, of equals the
     cheapest, and what it leaves; "" where the lines of the data are not known.
 
-    Structures that contain the selected one are named apart: if it is that one, no data exclude
-    them. The powers are those at the fitted values, before a rival refits: upper bounds; a rival
-    of which the selected structure is a limit, such as one with more masses, can follow it. Where
+    Structures that contain the selected one are no rivals: if it is that one, no experiment
+    excludes them. The powers are those at the fitted values, before a rival refits: upper bounds.
+    Where
     one structure is left the sentence says so, and what would narrow its worst parameter.
     """
     if len(lead.left) == 1:
@@ -144,5 +144,5 @@ def _of(lead: ChainAdvice, best: Reach, others: list[int]) -> str:
         which = f"{len(best.parted)} of the {len(others)} others"
     return (
         f"{which} (power {percent(POWER)} or more for the values fitted now; a rival that is fitted"
-        f" again comes closer, and one of which {lead.left[0].name} is a limit can follow it)"
+        " again comes closer)"
     )
