@@ -121,7 +121,14 @@ def _selected(
 
 def _onward(selection: Selection, out: Path) -> Iterator[str]:
     """Where the page is and, where several structures are left, how to go on."""
+    from disting.report.fit.write import not_exported
+
     yield f"\nwritten to {out}; open {out / 'fit.html'}"
+    if not_exported(selection):
+        yield (
+            f"model.mat and models.py leave out {enumeration(not_exported(selection))}: the data do"
+            " not determine all of their parameters"
+        )
     if len(selection.members) > 1 or any(m.twins for m in selection.members):
         yield f"what to measure next: disting next {shlex.quote(str(out / 'fit.json'))}"
 

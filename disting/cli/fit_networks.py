@@ -124,4 +124,6 @@ def _standing(f: FittedNetwork) -> str:
     same = f"; never told from {enumeration(f.same, BAR)}" if f.same else ""
     if not f.explains:
         return f"does not explain the data{same}"
+    if f.contains:
+        return f"contains {f.contains}{same}"
     return (f"excluded by {f.excluded_by}" if f.excluded_by else "not excluded") + same

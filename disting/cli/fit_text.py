@@ -55,7 +55,8 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
         yield from _side_by_side(selection)
         return
     left, more = [m.candidate for m in selection.members], len(selection.containing)
-    beside = f" ({more} more contain{'s' if more == 1 else ''} one of these)" if more else ""
+    which = "one of these" if len(left) > 1 else "it"
+    beside = f" ({more} more contain{'s' if more == 1 else ''} {which})" if more else ""
     yield (
         f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
         f" validated on {selection.validation}"
@@ -188,7 +189,7 @@ def _set(selection: Selection) -> Iterator[str]:
             other.name for other in selection.containing if other.contains == m.candidate.chain
         ]
         if larger:
-            yield f"    or more, not determined by this data: {_named(larger)}"
+            yield f"    or a larger one that contains it: {_named(larger)}"
 
 
 def _relied_on(selection: Selection) -> Iterator[str]:

@@ -24,6 +24,7 @@ from disting.report.fit.left_words import (
     measured_in_words,
     set_in_words,
 )
+from disting.report.fit.plan_words import larger_in_words
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.network_placement import further_networks
 from disting.verdict.next_experiments import Menu, menu_for
@@ -35,12 +36,14 @@ AGAIN = "then fit the new measurement, NEW, together with these data:"
 @dataclass(frozen=True, slots=True)
 class NetworkAdvice:
     """The networks that a fit of `source` left: `noise` names those that noise alone leaves
-    together, the selected one first; `groups`: those that no data of these ports tell apart.
+    together, the selected one first; `groups`: those that no data of these ports tell apart;
+    `larger`: those that contain another one, and are no rivals.
     """
 
     source: str
     noise: tuple[str, ...]
     groups: tuple[Menu[Network], ...]
+    larger: tuple[Network, ...] = ()
 
     @property
     def sentences(self) -> list[str]:
@@ -51,7 +54,7 @@ class NetworkAdvice:
             texts.append(f"how much more of the same measurement tells these apart: {command}")
         if not self.groups:
             texts.append("no other candidate gives the same responses as one of them")
-        return texts
+        return [*texts, *larger_in_words(self.larger, self.noise[0])]
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""
@@ -76,7 +79,8 @@ def network_advice(
     source = _source(options)
     if not is_of_networks(Path(source)):
         return None
-    left = left_by(Path(source))
+    every = left_by(Path(source))
+    left = [survivor for survivor in every if not survivor.contains]
     groups = [
         further_networks(
             [(network.name, network) for network in (survivor.network, *survivor.same)],
@@ -88,7 +92,9 @@ def network_advice(
         for survivor in left
         if survivor.same
     ]
-    return NetworkAdvice(source, tuple(survivor.network.name for survivor in left), tuple(groups))
+    noise = tuple(survivor.network.name for survivor in left)
+    larger = tuple(survivor.network for survivor in every if survivor.contains)
+    return NetworkAdvice(source, noise, tuple(groups), larger)
 
 
 def _source(options: argparse.Namespace) -> str:

@@ -24,7 +24,8 @@ from disting.fit.plan.fit_file import (
     networks_named_by,
 )
 from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
-from disting.fit.plan.search import AnyStructure, responses_of, sensor_of
+from disting.fit.plan.search import AnyStructure, name_of, responses_of, sensor_of
+from disting.fit.search.containment import contains
 from disting.fit.search.starts import Parameters
 from disting.measurement import read
 from disting.measurement.arrays import Real
@@ -112,17 +113,25 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
         for rival, values in named.rivals.items():
             progress("rival", len(plans), len(named.rivals))
             other_plan = planned(named.model, named.values, rival)
-            contains = other_plan.answer is Answer.SAME and values
-            plans.append((other_plan, planned(rival, values, named.model) if contains else None))
+            is_same = other_plan.answer is Answer.SAME and values
+            plans.append((other_plan, planned(rival, values, named.model) if is_same else None))
+        reverse = {
+            structure: planned(structure, values, named.model)
+            for structure, values in named.larger.items()
+            if structure in named.determined and contains(structure, named.model)
+        }
     rows = [plan_to_dict(own_plan) | _reverse(back) for own_plan, back in plans]
-    _emit(options, {"format": Format.PLANS_OF_FIT.value, "same": named.same, "rivals": rows})
+    larger = [{"name": name_of(x), **_reverse(reverse.get(x))} for x in named.larger]
+    plain = {"same": named.same, "rivals": rows, "larger": larger}
+    _emit(options, {"format": Format.PLANS_OF_FIT.value, **plain})
     if options.json != "-":
-        print(printable("\n".join(rivals_in_words(named, plans, effort.source, str(path)))))
+        back = list(reverse.values())
+        print(printable("\n".join(rivals_in_words(named, plans, back, effort.source, str(path)))))
     return 0
 
 
 def _reverse(the_plan: Plan | None) -> dict[str, Any]:
-    """Beside a rival that does what the model does: the model, were the rival true."""
+    """The plan against the model, were a structure true that gives the model's response too."""
     return {"reverse": plan_to_dict(the_plan)} if the_plan else {}
 
 

@@ -1,26 +1,34 @@
 """Networks fitted to a measured response: which of them explain it, which the data do not exclude.
 
 Networks that give the same responses for all positive values are fitted once (their verdict is
-theirs, not the data's). Each is searched from random starts in logarithms of its values, then
-brought to the last digit in units of what the lines scatter (`whitened`); the test by which one
-network excludes another one, and the question whether any explains the data, are those of chains.
+theirs, not the data's). One that contains another one (`fit.search.containment`) never fits worse,
+explains what that explains, and is left where that is left.
+
+Each is searched from random starts in logarithms of its values, then brought to the last digit in
+units of what the lines scatter (`whitened`); the test by which one network excludes another one,
+and the question whether any explains the data, are those of chains.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import permutations
+from math import isfinite
 
 import numpy as np
 
 from disting.errors import InputError
+from disting.evidence.limits import Minor
 from disting.fit.judge.exclusion import CLEARLY, basis_of, limit, statistic
 from disting.fit.judge.explanation import explain, merge, noises, scatters
 from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
+from disting.fit.search.containment import limit_of
 from disting.fit.search.cost import Case, Cost, comparable
 from disting.fit.search.data import WhitenedCost, check_units
 from disting.fit.search.descent import Box, fine, rough
-from disting.fit.search.estimate import NOTHING, REACHED
+from disting.fit.search.estimate import NESTED, NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
 from disting.fit.search.network_plant import (
     AnyNetworkPlant,
@@ -44,6 +52,8 @@ STARTS, KEPT = 60, 6  # random starts of a network, and how many are searched on
 ITERATIONS = 40
 BREADTHS = (0.1, 0.03)  # of resonances, one after the other, before they are as sharp as they are
 SEED = 20_240_601  # of the starts
+AGAIN = 20  # starts of a second search, near the limit that is a smaller network
+FAR = 1e8  # times a random start, for a value that vanishes or grows without bound there
 LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
 
 
@@ -104,7 +114,10 @@ def fit_networks(
         )
         for i, (plant, p) in zip(chosen, pairs, strict=True)
     ]
-    fits = [replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits]
+    classes = [[asked[j] for j, k in enumerate(first) if k == i] for i in chosen]
+    limits = _limits(fits, classes)
+    fits = _no_worse_than_contained(fits, limits, [plant for plant, _ in pairs], data, scatter)
+    fits = _left([replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits], limits)
     ordered = tuple(sorted(fits, key=lambda f: comparable(f.chi2)))
     whole = NetworkSelection(ordered, tuple(asked), tuple(data), scatter, decided)
     order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left))
@@ -206,6 +219,81 @@ def _judged(
         explains=seen.explains,
         misses=seen.misses,
     )
+
+
+Limits = Mapping[tuple[int, int], Minor]
+"""By (larger, smaller), of fits counted from 0: the limit of the one that is the other."""
+
+
+def _limits(fits: Sequence[FittedNetwork], classes: Sequence[Sequence[Network]]) -> Limits:
+    """Which fitted networks contain which; `classes`: those that each one stands for, all of which
+    give the same responses.
+    """
+    limits = dict[tuple[int, int], Minor]()
+    for large, small in permutations(range(len(fits)), 2):
+        pairs = ((fits[large].network, other) for other in classes[small])
+        found = next(filter(None, (limit_of(*pair) for pair in pairs)), None)
+        if found is not None:
+            limits[large, small] = found
+    return limits
+
+
+def _no_worse_than_contained(
+    fits: Sequence[FittedNetwork],
+    limits: Limits,
+    plants: Sequence[AnyNetworkPlant],
+    data: Sequence[FrequencyResponse],
+    scatter: Scatter,
+) -> list[FittedNetwork]:
+    """The fits, those searched again at their limit that miss more than one which they contain;
+    where that fails too they have its residuals, as it is their limit.
+    """
+    own, cost = list(fits), _cost(data)
+    for i in sorted(range(len(fits)), key=lambda i: len(fits[i].values)):
+        inner = [k for k in range(len(fits)) if (i, k) in limits]
+        if not inner:
+            continue
+        best = min(inner, key=lambda k: own[k].cost)
+        if own[i].cost > own[best].cost * (1 + NESTED):
+            source = np.random.default_rng((SEED, i))
+            starts = random_starts(plants[i], data[0], AGAIN, source)
+            p = search_from(plants[i], cost, _at_limit(plants[i], limits[i, best], starts)).p
+            again = _judged(plants[i], p, cost, scatter, own[i].rank)
+            own[i] = min(own[i], replace(again, same=own[i].same), key=lambda f: f.cost)
+        if own[i].cost > own[best].cost * (1 + NESTED):
+            own[i] = replace(own[i], residual=own[best].residual)
+        for k in (k for k in inner if own[k].explains and not own[i].explains):
+            own[i] = replace(own[i], chi2=own[k].chi2, explains=True, misses=own[k].misses)
+    return own
+
+
+def _at_limit(plant: AnyNetworkPlant, limit: Minor, starts: Real) -> Real:
+    """Starts, shape (n_s, n_p), with what vanishes and what grows without bound near there."""
+    at = {name: k for k, name in enumerate(plant.parameters)}
+    moved = starts.copy()
+    special = dict(limit.exponents)
+    for e in plant.network.elements:
+        if e.value in (*limit.missing, *limit.rigid) and e.value in at:
+            grows = (e.value in limit.rigid) != e.kind.divides
+            moved[:, at[e.value]] *= FAR if grows else 1 / FAR
+        if e.value in special:
+            moved[:, at[e.exponent]] = float(Fraction(special[e.value]))
+    return moved
+
+
+def _left(fits: Sequence[FittedNetwork], limits: Limits) -> list[FittedNetwork]:
+    """The fits, none of them excluded that contains one which is left, and with what each one
+    contains: the selected network, or, where the data do not determine all of its values, any.
+    """
+    kept = {i for i, f in enumerate(fits) if f.is_left}
+    kept |= {i for i, f in enumerate(fits) if f.explains and any((i, k) in limits for k in kept)}
+    own = [replace(f, excluded_by="") if i in kept else f for i, f in enumerate(fits)]
+    order = sorted(kept, key=lambda i: (own[i].rank, comparable(own[i].cost)))
+    for i in order:
+        inner = order if not all(map(isfinite, own[i].relative.values())) else order[:1]
+        simplest = (own[k].network.name for k in inner if (i, k) in limits)
+        own[i] = replace(own[i], contains=next(simplest, ""))
+    return own
 
 
 def _deviations(columns: Real, level: float) -> list[float]:

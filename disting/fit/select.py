@@ -27,6 +27,7 @@ from disting.fit.judge.joint_verdicts import (
     locate,
     representatives_under_all,
 )
+from disting.fit.judge.larger import as_good_as_contained
 from disting.fit.judge.members import Member, members
 from disting.fit.judge.practical import Thresholds
 from disting.fit.judge.quantity import quantity_readings
@@ -226,6 +227,7 @@ def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
     """Which candidate is taken, which others are left, and whether any explains the data."""
     task, test, scatters = fits.task, fits.test, fits.known
     fitted = judge(fits.found, task, test, scatters, settings)
+    fitted = as_good_as_contained(fitted, task, test, scatters, settings)
     fitted = [replace(c, reasons=reasons(c, task, terms.thresholds, terms.rule)) for c in fitted]
     return choice(with_akaike_weights(fitted, task), task, test, scatters, terms.rule, settings)
 

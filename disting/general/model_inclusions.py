@@ -80,16 +80,26 @@ def _by_minors(small: AnyModel, large: AnyModel, left_is_part: bool) -> Inclusio
     """The part is a limit of the whole, its elements at these places."""
     if small.network is None or large.network is None:
         return None
-    part, whole = small.network.grounded, large.network.grounded
-    places = next(minors(part, whole), None)
-    gone = remainder(part, whole) if places is None else None
-    if places is not None:
-        evidence = _minor(part, whole, places, left_is_part)
-    elif gone is not None:
-        evidence = Minor(left_is_part, (), *gone)
-    else:
+    evidence = minor_of(small.network, large.network, left_is_part)
+    if evidence is None:
         return None
     return InclusionFinding(inside(left_is_part), Certainty.THEOREM, evidence=evidence)
+
+
+def minor_of(small: Network, large: Network, left_is_part: bool = True) -> Minor | None:
+    """Return the elements of the large network in the limit that is the small one; None if no such
+    limit is found with bounded work.
+
+    >>> from disting.network import network_of
+    >>> minor_of(network_of("R0-C1"), network_of("R0-p(C1,R1)")).missing
+    ('R1',)
+    """
+    part, whole = small.grounded, large.grounded
+    places = next(minors(part, whole), None)
+    if places is not None:
+        return _minor(part, whole, places, left_is_part)
+    gone = remainder(part, whole)
+    return None if gone is None else Minor(left_is_part, (), *gone)
 
 
 def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:

@@ -23,6 +23,7 @@ eliminating the complement shows that A^-1 -> K (K' A_0 K)^-1 K'. K' turns a for
 into one at the node of i. So for e -> 0 all transfer functions converge, at infinitely many s.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -31,6 +32,7 @@ from itertools import pairwise
 from disting.model.structure import Element, Structure
 
 REMEMBERED = 1024  # structures whose joints are kept
+TIMES = {"T1", "Td"}  # parameters of a lag and of a dead time
 Places = Mapping[int, int]
 Joint = frozenset[int]
 
@@ -74,6 +76,41 @@ def embeddings(part: Structure, whole: Structure) -> Iterator[dict[int, int]]:
         for places in minors(part, whole, dict(pairs)):
             if len(places) == part.n_masses + 1:
                 yield {at: i for i, at in sorted(places.items(), key=lambda x: x[1])}
+
+
+@dataclass(frozen=True, slots=True)
+class Fates:
+    """Parameters of the whole in the limit that is the part: `shared`, the parameter of the part of
+    which each is a share, and the number of shares; `rigid`, those that grow without bound; `idle`,
+    masses that move alone, of any size. All others tend to zero.
+    """
+
+    shared: Mapping[str, tuple[str, int]]
+    rigid: frozenset[str]
+    idle: frozenset[str]
+
+
+def fates(part: Structure, whole: Structure, places: Places) -> Fates:
+    """Return the limits of all parameters of the whole at places that make the part of it.
+
+    >>> from disting.model.chain import Chain
+    >>> one, two = (Chain(n).structure for n in (1, 2))
+    >>> limits = fates(one, two, {0: 0, 1: 1, 2: 1})
+    >>> limits.shared["m2"], sorted(limits.rigid)
+    (('m1', 2), ['k12'])
+    """
+    own = {e: e.parameter for e in part.elements}
+    met = {e.parameter: own[x] for e in whole.elements for x in _met(e, places) if x in own}
+    count = Counter(met.values())
+    shared = {name: (mine, count[mine]) for name, mine in met.items()}
+    shared |= {name: (name, 1) for name in TIMES & {*part.parameters}}
+    rigid = (
+        e.parameter
+        for e in whole.elements
+        if e.kind == "k" and e.at in places and places[e.at] == places.get(e.at + 1)
+    )
+    idle = (e.parameter for e in whole.elements if e.kind == "m" and e.at not in places)
+    return Fates(shared, frozenset(rigid), frozenset(idle))
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,7 +49,7 @@ from disting.report.words import (
     unknown_parameters,
     with_and,
 )
-from disting.verdict.next_words import anywhere
+from disting.verdict.next_words import group_in_words
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -62,7 +62,7 @@ class Group:
     """A group of structures, drawn, what tells all of them apart, and the advice for each."""
 
     drawings: tuple[Drawing, ...]
-    anywhere: str
+    summary: str
     advice: tuple[Advice, ...]
 
 
@@ -73,7 +73,7 @@ def next_page(catalog: Catalog, the_catalog: NextCatalog) -> str:
         whole = next_for(the_catalog, members)
         drawings = tuple(model_of(catalog, m).drawing for m in members)
         advices = tuple(advice_of(whole, k, members) for k in range(len(members)))
-        groups.append(Group(drawings, anywhere(whole), advices))
+        groups.append(Group(drawings, group_in_words(whole), advices))
     return render(
         "next.html",
         catalog=catalog,

@@ -5,6 +5,7 @@ from itertools import product
 from typing import Any
 
 from disting.conditions.rule import EXACT, FREE_CHOICE, RENAMING
+from disting.errors import enumeration
 from disting.experiments.menu import Gain, Item
 from disting.files import Format
 from disting.model.chain import Chain
@@ -96,6 +97,32 @@ def anywhere(further: AnyMenu) -> str:
     enough = [k for k in further.kinds if further.anywhere(k)]
     phrases = [f"{k.anywhere} (cost {further.costs.cost(k):g})" for k in enough]
     return "; or ".join(phrases)
+
+
+def group_in_words(further: AnyMenu) -> str:
+    """How many experiments tell the structures of a group apart: one anywhere, one at the right
+    place, or two.
+
+    >>> from disting.catalogs.next_files import next_catalog
+    >>> group_in_words(next_catalog(3, damped=True).further((9, 10)))
+    'one experiment tells each from the rest, but none does so at every mass: see which mass below'
+    """
+    if anywhere(further):
+        return f"all told apart by {anywhere(further)}"
+    least = [further.least(k) for k in range(len(further.names))]
+    counts = [len(options[0].items) if options else 0 for options in least]
+    unknown, two = (
+        [name for name, count in zip(further.names, counts, strict=True) if count == wanted]
+        for wanted in (0, 2)
+    )
+    if unknown:
+        return f"no two experiments are known to tell {enumeration(unknown)} from the rest"
+    if two:
+        return f"no single experiment surely tells {enumeration(two)} from the rest, but two do"
+    return (
+        "one experiment tells each from the rest, but none does so at every"
+        f" {further.place}: see which {further.place} below"
+    )
 
 
 def rows(further: AnyMenu) -> Iterator[tuple[str, ...]]:

@@ -18,11 +18,16 @@ from tests.fit.test_predictions import FREE, VALUES, fit_file, member, twin_valu
 PLAIN, FRICTION = (Chain(3, damped=True, ground_dampers=b) for b in ((), (2,)))
 
 
+RIVAL = Chain(2, ground_dampers=(1,))
+
+
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
     folder = tmp_path_factory.mktemp("next")
     larger = member(FRICTION, VALUES | {"b2": 0.2})
-    return fit_file(folder / "fit.json", member(FREE, VALUES, **{"3:11": twin_values()}), larger)
+    rival = member(RIVAL, truth(RIVAL, 2))
+    twin = member(FREE, VALUES, **{"3:11": twin_values()})
+    return fit_file(folder / "fit.json", twin, larger, rival)
 
 
 @pytest.fixture(scope="module")
@@ -36,18 +41,18 @@ def test_each_pair_has_a_sentence(said, path):
     first, empty, head, selected, *_ = said.splitlines()
     assert first == (
         "measure next: a sensor at mass 2 (cost 1); if the machine is 3:1, it shows a difference"
-        " from 3:11 (power 95 % or more for the values fitted now; a rival that is fitted again comes"
-        " closer, and one of which 3:1 is a limit can follow it); no data exclude 3:1+b2, which"
-        " contains it"
+        " from 2:1+b1, 3:11 (power 95 % or more for the values fitted now; a rival that is fitted again comes"
+        " closer)"
     )
     assert (empty, head) == ("", "3 structures that the fit left:")
-    assert selected == "  3:1     [1FS]=[2]=[3]  fitted"
-    (noise,) = [line for line in said.splitlines() if line.startswith("3:1+b2: ")]
-    assert (
-        "the data are too noisy to tell it from 3:1, which it contains: only 3:1 can be excluded"
-        in noise
-    )
+    assert selected == "  3:1     [1FS]=[2]=[3]   fitted"
+    (noise,) = [line for line in said.splitlines() if line.startswith("2:1+b1: ")]
+    assert "the data are too noisy to tell it from 3:1 (disting plan" in noise
     assert f"(disting plan {path})" in noise
+    assert (
+        "\nnot a rival: 3:1+b2 contains 3:1 or one of its rivals; no experiment excludes a structure"
+        " that contains the true one\n"
+    ) in said
     (twin,) = [line for line in said.splitlines() if line.startswith("3:11: ")]
     assert twin.startswith(
         "3:11: with this force and sensor no data can tell it from 3:1, whatever"
@@ -109,9 +114,9 @@ def test_costs_change_what_is_cheapest(path):
 def test_tables_hold_all_pairs_of_places(path):
     done = called("next", path, "--csv", "-")
     rows = list(csv.DictReader(io.StringIO(done.stdout)))
-    assert len(rows) == 3 * 4 * 9
+    assert len(rows) == 4 * 21
     pairs = {(r["left"], r["right"], r["relation"]) for r in rows}
-    assert ("3:1", "3:1+b2", "distinguishable") in pairs
+    assert ("3:1", "2:1+b1", "distinguishable") in pairs
     (moved,) = [
         r for r in rows
         if (r["experiment"], r["left"], r["at_left"], r["right"], r["at_right"])
@@ -125,10 +130,10 @@ def test_tables_hold_all_pairs_of_places(path):
 
 def test_plain_data_says_what_the_numbers_are(path):
     plain = json.loads(called("next", path, "--json", "-").stdout)
-    assert [one["name"] for one in plain["structures"]] == ["3:1", "3:1+b2", "3:11"]
+    assert [one["name"] for one in plain["structures"]] == ["3:1", "2:1+b1", "3:11"]
     assert [group["structures"] for group in plain["groups"]] == [["3:1", "3:11"]]
     assert {(p["left"], p["right"]): p["standing"] for p in plain["pairs"]} == {
-        ("3:1", "3:1+b2"): "noise", ("3:1", "3:11"): "equal", ("3:1+b2", "3:11"): "noise",
+        ("3:1", "2:1+b1"): "noise", ("3:1", "3:11"): "equal", ("2:1+b1", "3:11"): "noise",
     }  # fmt: skip
     measured = plain["measured"]
     assert measured["what"] == "at the fitted values, before a rival is fitted again"
@@ -153,7 +158,7 @@ def test_a_brake_is_told_of_where_it_costs_something(path):
             io.StringIO(called("next", path, "--cost", "brake=0.5", "--csv", "-").stdout)
         )
     )
-    assert len(rows) == 3 * 5 * 9 and {"brake", "lock"} < {row["experiment"] for row in rows}
+    assert len(rows) == 5 * 21 and {"brake", "lock"} < {row["experiment"] for row in rows}
     plain = json.loads(called("next", path, "--cost", "brake=0.5", "--json", "-").stdout)
     assert plain["measured"]["brake"] == pytest.approx(4 * pi)
 

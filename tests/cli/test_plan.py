@@ -112,28 +112,27 @@ def fit_file(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def rivals(fit_file):
-    """What is said of a fit, and the rivals in its file."""
+    """What is said of a fit, and the file about its rivals."""
     path = fit_file[0].with_name("plan.json")
     done = called("plan", fit_file[0], "--json", path)
-    return done, json.loads(path.read_text(encoding="utf-8"))["rivals"]
+    return done, json.loads(path.read_text(encoding="utf-8"))
 
 
-def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answered(
+def test_what_contains_the_selected_structure_is_no_rival_and_the_reverse_is_planned_for(
     fit_file, rivals
 ):
-    (path, found), (done, rows) = fit_file, rivals
-    assert [m.name for m in found.members] == ["2:1", "2:1+b1", "2:1+b2"]
+    (path, found), (done, plain) = fit_file, rivals
+    assert [m.name for m in found.members] == ["2:1"]
+    assert [m.name for m in found.containing] == ["2:1+b1", "2:1+b2"]
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("assumed: the machine is 2:1 with")
     first, second = done.stdout.split("the reverse: can data exclude")
-    for name in ("2:1+b1", "2:1+b2"):
-        (row,) = [line for line in first.splitlines() if line.startswith(f"{name} ")]
-        assert f"impossible: it contains the model ({name[4:]} without effect)" in row
-    assert [one["rival"] for one in rows] == ["2:1+b1", "2:1+b2"]
-    assert all(one["noncentrality"] == 0 and one["contains"] for one in rows)
-    for one in rows:
+    assert "\nnot a rival: 2:1+b1, 2:1+b2 contain 2:1 or one of its rivals; no experiment" in first
+    assert plain["rivals"] == []
+    assert [one["name"] for one in plain["larger"]] == ["2:1+b1", "2:1+b2"]
+    for one in plain["larger"]:
         back = one["reverse"]
-        assert (back["model"], back["rival"]) == (one["rival"], "2:1")
+        assert (back["model"], back["rival"]) == (one["name"], "2:1")
         assert back["noise"] == pytest.approx(found.explanation.scatter.typical)
         assert f"\n{back['model']} " in second and back["factor"] > 0
     hertz = found.task.cost.measured.frequency
@@ -143,8 +142,8 @@ def test_every_rival_that_a_fit_names_is_planned_for_in_the_way_that_can_be_answ
 
 
 def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file, rivals):
-    back, found = rivals[1][0]["reverse"], fit_file[1]
-    values = found.members[1].candidate.estimate.parameters
+    back, found = rivals[1]["larger"][0]["reverse"], fit_file[1]
+    values = found.containing[0].candidate.estimate.parameters
     assert back["parameters"] == values
     hertz = found.task.cost.measured.frequency
     omega = 2 * np.pi * np.geomspace(hertz[0], hertz[-1], 120)

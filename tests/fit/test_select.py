@@ -17,6 +17,7 @@ from disting.fit.results.export import predict
 from disting.fit.results.model_file import model_from_dict
 from disting.fit.results.selection import CRITERIA, profile, sweep
 from disting.fit.search.candidates import figure_1, variants
+from disting.fit.search.containment import contains
 from disting.fit.search.cost import lines_by_deviation
 from disting.fit.select import select
 from disting.model.chain import Chain
@@ -70,7 +71,9 @@ def test_the_simplest_of_what_is_not_excluded_is_selected(selection):
     sizes = [(c.n_parameters, c.order) for c in left]
     assert sizes == sorted(sizes)
     names = [m.candidate.chain for m in selection.members]
-    assert all(m.contains in names and not m.candidate.admissible for m in selection.containing)
+    assert all(m.contains in names for m in selection.containing)
+    assert all(contains(m.candidate.chain, m.contains) for m in selection.containing)
+    assert not any(contains(m.candidate.chain, PLANTED) for m in selection.members)
     left += [m.candidate for m in selection.containing]
     out = [c for c in selection.candidates if c.excluded is not None]
     assert all(c.excluded.statistic > c.excluded.limit > 6.6 for c in out)

@@ -43,6 +43,12 @@ def reasons(candidate: Candidate, task: Task, limits: Thresholds, rule: Rule) ->
     return (*exceeded, unknown, *bound) if unknown else bound
 
 
+def undetermined(candidate: Candidate) -> tuple[str, ...]:
+    """Names of the parameters that the data do not determine, not even their order of magnitude."""
+    errors = candidate.practical.relative_errors
+    return tuple(name for name, error in errors.items() if not error <= UNDETERMINED)
+
+
 def undetermined_sentence(candidate: Candidate, task: Task) -> str:
     """What the data do not determine well, in one sentence; "" where they determine all."""
     loose = {n: e for n, e in candidate.practical.relative_errors.items() if not e <= FROM_ZERO}

@@ -16,6 +16,7 @@ from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate, Scatters, values_of
 from disting.fit.judge.exclusion import Exclusion, Fit, basis_of, exclusions, limit, statistic
 from disting.fit.judge.explanation import Explanation, explain, largest_cost, noises
+from disting.fit.judge.larger import check_left, left_with_contained
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
@@ -90,9 +91,11 @@ def choice(
         better = _better(best, fitted, task, scatters) if best and rule is Rule.PAPER else ()
         return Choice(tuple(fitted), said, best, better=better)
     out = _excluded(explaining, task, test, scatters, settings)
+    out = left_with_contained(out, explaining, task, scatters)
     whole = tuple(replace(c, excluded=out.get(c.chain)) for c in fitted)
     chains = {c.chain for c in explaining} - out.keys()
     left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.order))
+    check_left(left, asked, task, scatters)
     selected = left[0]
     better = _better(selected, fitted, task, scatters) if rule is Rule.PAPER else ()
     return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)

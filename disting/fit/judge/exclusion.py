@@ -33,6 +33,7 @@ from scipy.stats import chi2, f as f_distribution
 
 from disting.fit.judge.practical import NoiseModel
 from disting.fit.noise.covariance import VANISHING
+from disting.fit.search.containment import contains
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings
@@ -212,20 +213,6 @@ def union(model: Chain, rival: Chain) -> Chain | None:
         ground_dampers=tuple(sorted({*model.ground_dampers, *rival.ground_dampers})),
         lag=model.lag or rival.lag,
         dead_time=model.dead_time or rival.dead_time,
-    )
-
-
-def contains(larger: Chain, smaller: Chain) -> bool:
-    """Whether the elements of a structure are among those of a larger one with the same force and
-    sensor at its beginning: a mass more is one behind the last one.
-    """
-    if larger == smaller or larger.indices[1:] != smaller.indices[1:]:
-        return False
-    return (
-        larger.n_masses >= smaller.n_masses
-        and {*smaller.ground_dampers} <= {*larger.ground_dampers}
-        and larger.lag >= smaller.lag
-        and larger.dead_time >= smaller.dead_time
     )
 
 

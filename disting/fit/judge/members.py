@@ -1,7 +1,8 @@
 """Structures that the data do not exclude, each with all that is known of it.
 
-Which these are, `choice` tells. What contains one of them with elements that the data do not
-determine is not excluded either: it is named, with what these elements are at most. And what
+Which these are, `choice` tells. What contains the selected one (`containment`), or another one with
+parameters that the data do not determine, is not excluded either, and by no experiment while the
+smaller one is true: it is named, and no rival. And what
 behaves as one of them does, for exactly these values, is not excluded either, by this or any other
 data of this force and sensor: other structures of as many masses, anywhere in the catalogue, with
 any ground dampers, and other values of its own.
@@ -17,13 +18,13 @@ import numpy as np
 from disting.equivalence import Origin, Signs, equivalents
 from disting.fit.judge.alternatives import Limits
 from disting.fit.judge.candidate import Candidate, Scatters
-from disting.fit.judge.exclusion import contains
 from disting.fit.judge.explanation import merge, noises, scatters
 from disting.fit.judge.interval import Interval, intervals
 from disting.fit.judge.joint_verdicts import behaves_alike
 from disting.fit.judge.practical import practical
 from disting.fit.noise.covariance import expected_deviation
 from disting.fit.search.candidates import listed_form, reference
+from disting.fit.search.containment import contains
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
@@ -78,8 +79,8 @@ class Member:
     """A structure that the data do not exclude; `open` names those of which it is not known
     whether they do the same; `intervals` of 95 % of its fitted parameters.
 
-    `contains`: the simpler member whose elements are among its own, where the data do not determine
-    what it has beside; nothing is asked then of what does the same. `differs`: frequencies [Hz] at
+    `contains`: the simpler member that it contains, which makes it no rival; equivalents of it are
+    not searched. `differs`: frequencies [Hz] at
     which it differs most from the first member, and by how much (0.01 = 1 % or 0.01 rad).
     """
 
@@ -144,12 +145,11 @@ def members(
 
 
 def _contained(candidate: Candidate, left: Sequence[Candidate]) -> Chain | None:
-    """The simplest structure left whose elements a candidate has, where it has others that are not
-    determined.
+    """The simplest structure left that a candidate contains: the selected one, or, where the data
+    do not determine all of its parameters, any.
     """
-    if candidate.admissible:
-        return None
-    return next((c.chain for c in left if contains(candidate.chain, c.chain)), None)
+    inner = left[:1] if candidate.admissible else left
+    return next((c.chain for c in inner if contains(candidate.chain, c.chain)), None)
 
 
 def twins(

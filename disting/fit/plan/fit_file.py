@@ -1,13 +1,13 @@
 """What the file of a fit names: what is selected, its rivals, and how it was measured.
 
 Rivals are the structures that the data do not exclude and those of which it is not known whether
-they behave the same; none that contains another one with elements that the data do not determine,
-since that is no other machine. What behaves exactly the same for the fitted values stands apart:
-no data with this force and sensor tell it from the selected one.
+they behave the same. What contains one of them is no rival: no experiment excludes it if the
+smaller one is true. What behaves exactly the same for the fitted values stands apart: no data with
+this force and sensor tell it from the selected one.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from disting.fit.results.model_file import (
 )
 from disting.fit.results.networks import BAR
 from disting.fit.search.candidates import listed_form, reference
+from disting.fit.search.containment import contains
 from disting.fit.search.starts import Parameters
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -62,7 +63,8 @@ class FitRecord:
     `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell; `responses`:
     how many were fitted together; `command`: what fits the same data again, "" where it does not
     tell; `errors`: relative standard errors of the selected structure's parameters, infinite for
-    one that is not determined; `larger`: names of the structures that only contain one of these.
+    one that is not determined; `larger`: the structures that contain one of these, with their
+    fitted values, `determined`: those of which the data determine all parameters.
     """
 
     model: Chain
@@ -78,7 +80,8 @@ class FitRecord:
     responses: int
     command: str = ""
     errors: Mapping[str, float] = field(default_factory=dict)
-    larger: tuple[str, ...] = ()
+    larger: Mapping[Chain, Parameters] = field(default_factory=dict)
+    determined: frozenset[Chain] = frozenset()
 
     @property
     def chains(self) -> tuple[Chain, ...]:
@@ -100,7 +103,7 @@ def named_by(path: Path) -> FitRecord:
             model,
             values,
             plain["explained"] is True,
-            {c: v for c, v in _rivals(plain) if c != model and reference(c) not in same},
+            {c: v for c, v in _rivals(plain, model) if c != model and reference(c) not in same},
             same,
             tuple(_left(plain, model, values)),
             number_of(plain["scatter"], 0.0),
@@ -110,7 +113,8 @@ def named_by(path: Path) -> FitRecord:
             len(plain.get("responses", [None])),
             str(plain.get("command", "")),
             dict(_errors(plain["selected"], values)),
-            tuple(str(m["name"]) for m in plain["not_excluded"] if m.get("contains")),
+            dict(model_from_dict(m) for m in plain["not_excluded"] if _is_larger(m, model)),
+            frozenset(map(chain_from_dict, _determined(plain))),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise InputError(
@@ -127,12 +131,25 @@ def _count(value: Any) -> int:
     return int(number_of(value, 0, MOST_COUNTED))
 
 
-def _rivals(plain: dict[str, Any]) -> Iterator[tuple[Chain, Parameters]]:
+def _is_larger(entry: Mapping[str, Any], model: Chain) -> bool:
+    """Return True if an entry of the file contains the selected structure, or another one as the
+    file tells.
+    """
+    return bool(entry.get("contains")) or contains(chain_from_dict(dict(entry)), model)
+
+
+def _determined(plain: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield the candidates of which the data determine all parameters."""
+    return (c for c in plain.get("candidates", []) if c["admissible"])
+
+
+def _rivals(plain: dict[str, Any], model: Chain) -> Iterator[tuple[Chain, Parameters]]:
     """In the order of the file, those with values last, which stand."""
     for alternative in plain["alternatives"]:
-        if alternative["relation"] != Relation.INDISTINGUISHABLE:
-            yield chain_from_dict(alternative), {}
-    members = [m for m in plain["not_excluded"][1:] if not m.get("contains")]
+        chain = chain_from_dict(alternative)
+        if alternative["relation"] != Relation.INDISTINGUISHABLE and not contains(chain, model):
+            yield chain, {}
+    members = [m for m in plain["not_excluded"][1:] if not _is_larger(m, model)]
     yield from map(model_from_dict, members)
 
 
@@ -140,7 +157,7 @@ def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[S
     """The selected structure, the others that were fitted, then what behaves as one of these;
     each once.
     """
-    members = [m for m in plain["not_excluded"] if not m.get("contains")]
+    members = [m for m in plain["not_excluded"] if not _is_larger(m, model)]
     fitted = {model: values} | dict(map(model_from_dict, members))
     own = {chain: [its] for chain, its in fitted.items()}
     like = {chain: dict[Chain, None]() for chain in fitted}
@@ -196,18 +213,22 @@ def _same(plain: dict[str, Any]) -> Iterator[tuple[str, str]]:
 @dataclass(frozen=True, slots=True)
 class LeftNetwork:
     """A network that the data do not exclude, with its fitted values, and those that give the
-    `same` responses.
+    `same` responses; `contains`: the name of another one that it contains, "" of a rival;
+    `is_determined`: whether the data determine all of its values.
     """
 
     network: Network
     values: Parameters
     same: tuple[Network, ...]
+    contains: str = ""
+    is_determined: bool = True
 
 
 @dataclass(frozen=True, slots=True)
 class NamedNetworks:
     """What a plan needs: the selected network (`model`) with its values, `rivals` with theirs, the
-    `same` by name with the reason; the typical `scatter` of the `lines` from `low` to `high` [Hz].
+    `same` by name with the reason, `larger` ones and which of them are `determined` as in
+    `FitRecord`; the typical `scatter` of the `lines` from `low` to `high` [Hz].
     """
 
     model: Network
@@ -219,6 +240,8 @@ class NamedNetworks:
     high: float
     lines: int
     explained: bool = True
+    larger: Mapping[Network, Parameters] = field(default_factory=dict)
+    determined: frozenset[Network] = frozenset()
 
 
 def is_of_networks(path: Path) -> bool:
@@ -228,7 +251,9 @@ def is_of_networks(path: Path) -> bool:
 
 
 def left_by(path: Path) -> tuple[LeftNetwork, ...]:
-    """The networks that a fit leaves, the selected one first; raises InputError."""
+    """The networks that a fit leaves, the selected one first, those that contain another one last;
+    raises InputError.
+    """
     return _left_networks(_read_plain(path), path)
 
 
@@ -241,12 +266,14 @@ def networks_named_by(path: Path) -> NamedNetworks:
         return NamedNetworks(
             model=first.network,
             values=first.values,
-            rivals={survivor.network: survivor.values for survivor in others},
+            rivals={s.network: s.values for s in others if not s.contains},
             same={network.name: REASON for network in first.same},
             scatter=number_of(plain["scatter"], 0.0),
             low=number_of(lines["low"], 0.0),
             high=number_of(lines["high"], 0.0),
             lines=int(number_of(lines["lines"], 0, MOST_COUNTED)),
+            larger={s.network: s.values for s in others if s.contains},
+            determined=frozenset(s.network for s in others if s.is_determined),
         )
     except (KeyError, TypeError, ValueError) as reason:
         raise _broken(path, reason) from None
@@ -268,6 +295,8 @@ def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, .
                 networks[fit["name"]],
                 {name: number_of(fit["values"][name]) for name in fit["values"]},
                 tuple(networks[name] for name in fit["same"]),
+                str(fit.get("contains") or ""),
+                None not in fit.get("relative_deviations", {}).values(),
             )
             for fit in plain["fits"]
             if fit["explains"] and not fit["excluded_by"]
@@ -277,7 +306,16 @@ def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, .
     if not survivors:
         tried = enumeration(entries, BAR)
         raise InputError(f"none of the networks of {path} explains its data ({tried}): try others")
-    return tuple(sorted(survivors, key=lambda survivor: survivor.network.name != plain["selected"]))
+    chosen = next((s.network for s in survivors if s.network.name == plain["selected"]), None)
+    survivors = tuple(_with_containment(s, chosen) for s in survivors)
+    return tuple(sorted(survivors, key=lambda s: (s.network != chosen, bool(s.contains))))
+
+
+def _with_containment(survivor: LeftNetwork, selected: Network | None) -> LeftNetwork:
+    """The network, which contains the selected one even where the file does not tell."""
+    if selected is None or survivor.contains or not contains(survivor.network, selected):
+        return survivor
+    return replace(survivor, contains=selected.name)
 
 
 def _broken(path: Path, reason: Exception) -> InputError:

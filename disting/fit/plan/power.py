@@ -33,6 +33,7 @@ from disting.fit.judge.exclusion import LEVEL, surplus, trials, union
 from disting.fit.plan.rival import Rival, Trust, fitted_rival
 from disting.fit.plan.sample import POWER, Sample, ideal, simulate
 from disting.fit.plan.search import AnyStructure, name_of, sensor_of, shown_as
+from disting.fit.search.containment import contains
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.presentation import NotebookTable, summary
@@ -95,10 +96,12 @@ class Plan(NotebookTable):
 
     @property
     def is_contained(self) -> bool:
-        """Whether the rival contains the model, as elements or the verdict on inclusion tell."""
+        """Whether the rival contains the model, as elements or the verdict on inclusion tell; the
+        verdict speaks of this force and sensor alone.
+        """
         both = None if self.verdict is None else self.verdict.inclusions
         is_known = both is not None and both.closure.inclusion is Inclusion.LEFT_IN_RIGHT
-        return is_known or self.joint == self.other
+        return is_known or contains(self.other, self.model)
 
     @property
     def joint(self) -> Chain | None:

@@ -11,6 +11,7 @@ import numpy as np
 from disting.errors import InputError
 from disting.fit.networks import SEED, STARTS, BestFit, search_from
 from disting.fit.search.candidates import reference
+from disting.fit.search.containment import AnyStructure as AnyStructure
 from disting.fit.search.descent import Box, fine
 from disting.fit.search.estimate import Estimate, Task, estimate
 from disting.fit.search.exchange import estimates
@@ -30,7 +31,6 @@ from disting.simulation.mechanics import check_values
 from disting.store import Store
 from disting.verdict.engine import Progress, silent
 
-AnyStructure = Chain | Network
 AnyPlant = Plant | AnyNetworkPlant
 
 

@@ -168,8 +168,8 @@ def _control() -> Any:
 
 @dataclass(frozen=True, slots=True)
 class NumberedStructure:
-    """A structure with numbers under its name, such as 3:11+b1, and the units of its parameters,
-    "" where the data do not tell.
+    """A structure with numbers under its name, such as 3:11+b1, the units of its parameters, ""
+    where the data do not tell, and the parameters that the data do not determine (`undetermined`).
 
     >>> NumberedStructure("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"}).units["m1"]
     'kg'
@@ -179,11 +179,13 @@ class NumberedStructure:
     chain: Chain
     values: dict[str, float]
     units: dict[str, str]
+    undetermined: tuple[str, ...] = ()
 
 
 def write_mat(path: Path, models: Sequence[NumberedStructure], sign: int = 1) -> None:
     """A MATLAB v5 file: A, B, C, D and delay of the first model, and the struct array `models` with
-    name, A, B, C, D, delay, z, p, k, parameters and units of each. The same models give the same
+    name, A, B, C, D, delay, z, p, k, parameters, units and undetermined (names with blanks between)
+    of each. The same models give the same
     bytes. Raises InputError for no models or wrong values, OSError where the file cannot be
     written.
 
@@ -216,6 +218,7 @@ def _plain(model: NumberedStructure, sign: int) -> dict[str, Any]:
         **{"z": zpk.zeros[:, None], "p": zpk.poles[:, None], "k": zpk.gain},
         "parameters": model.values,
         "units": model.units,
+        "undetermined": " ".join(model.undetermined),
     }
 
 
@@ -248,6 +251,8 @@ def _entry(model: NumberedStructure, sign: int) -> str:
         f"{n} = {v:.6g}{f' {model.units[n]}' if model.units.get(n) else ''}"
         for n, v in model.values.items()
     )
+    if model.undetermined:
+        parameters += f"; not determined by the data: {', '.join(model.undetermined)}"
     fields = "".join(f"        {getattr(ss, n).tolist()!r},\n" for n in "ABCD")
     return f"    # {parameters}\n    {model.name!r}: control.StateSpace(\n{fields}    ),\n"
 

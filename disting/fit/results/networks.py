@@ -27,7 +27,8 @@ class FittedNetwork:
 
     `same`: other candidates that give the same responses for all positive values; `relative`:
     standard deviations of the logarithms of the values, infinite of what the data or the network do
-    not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it.
+    not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it;
+    `contains`: the simplest network left that it contains, "" if there is none.
     """
 
     network: Network
@@ -41,12 +42,18 @@ class FittedNetwork:
     same: tuple[str, ...] = ()
     explains: bool = False
     excluded_by: str = ""
+    contains: str = ""
     misses: tuple[Miss, ...] = ()
 
     @property
     def cost(self) -> float:
         """|r|^2."""
         return float(self.residual @ self.residual)
+
+    @property
+    def is_left(self) -> bool:
+        """Whether it explains the data and no other one excludes it."""
+        return self.explains and not self.excluded_by
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; None for a deviation that is infinite."""
@@ -60,6 +67,7 @@ class FittedNetwork:
             "chi2": self.chi2,
             "explains": self.explains,
             "excluded_by": self.excluded_by,
+            "contains": self.contains,
             "same": list(self.same),
             "misses": [miss.sentence for miss in self.misses],
         }
@@ -83,8 +91,15 @@ class NetworkSelection(NotebookTable):
 
     @property
     def left(self) -> tuple[FittedNetwork, ...]:
-        """Those that explain the data and that no other one excludes."""
-        return tuple(f for f in self.fits if f.explains and not f.excluded_by)
+        """Those that explain the data, that no other one excludes, and that contain no other one
+        which is left.
+        """
+        return tuple(f for f in self.fits if f.is_left and not f.contains)
+
+    @property
+    def containing(self) -> tuple[FittedNetwork, ...]:
+        """Those that contain one that is left: no experiment excludes them if that is true."""
+        return tuple(f for f in self.fits if f.is_left and f.contains)
 
     @property
     def selected(self) -> FittedNetwork | None:
@@ -106,6 +121,10 @@ class NetworkSelection(NotebookTable):
         )
         others = [f.network.name for f in self.left if f is not chosen]
         more = f" The data do not exclude {enumeration(others, BAR)} either." if others else ""
+        if self.containing:
+            larger = enumeration([f.network.name for f in self.containing], BAR)
+            contain = "contains" if len(self.containing) == 1 else "contain"
+            more += f" Nor do they exclude {larger}, which {contain} one of these."
         return f"{chosen.network.name} is the simplest that explains the data{twins}.{more}"
 
     def to_dict(self) -> dict[str, object]:

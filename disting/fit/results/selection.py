@@ -179,16 +179,17 @@ class Selection(NotebookTable):
 
     `explanation` is that of the selected candidate, else of the best one; `members`: the
     structures that the data do not exclude, the selected one first, none where nothing explains
-    the data; `containing`: those that only contain one of them, with elements that the data do not
-    determine; `readings`: what would fit then; `relied_on`: what holds for all members, around
-    which `controller` closes the loop; `better`: candidates that the paper's rule does not admit
-    and that would exclude the selected one; `saved` counts the candidates that were not fitted
-    because one with the same positive models was (`same_as`, by candidate); `validation` says where
-    the test cost comes from, `judging` is that cost. Where several responses are fitted, `test` is
-    the data of the first one, and `silent` names those that are zero, from which nothing is
-    learned. `quantities`: the readings of the data, the assumed quantity first, where others
-    explain them as well; then nothing is selected, and `question` asks for the quantity; `command`:
-    what reads and fits the same data once more, without the candidates.
+    the data; `containing`: those that contain one of them, which are no rivals: no experiment
+    excludes them if the smaller one is true; `readings`: what would fit then; `relied_on`: what
+    holds for all members, around which `controller` closes the loop; `better`: candidates that the
+    paper's rule does not admit and that would exclude the selected one; `saved` counts the
+    candidates that were not fitted because one with the same positive models was (`same_as`, by
+    candidate); `validation` says where the test cost comes from, `judging` is that cost. Where
+    several responses are fitted, `test` is the data of the first one, and `silent` names those that
+    are zero, from which nothing is learned. `quantities`: the readings of the data, the assumed
+    quantity first, where others explain them as well; then nothing is selected, and `question` asks
+    for the quantity; `command`: what reads and fits the same data once more, without the
+    candidates.
     """
 
     selected: Candidate | None
@@ -215,8 +216,7 @@ class Selection(NotebookTable):
     def __repr__(self) -> str:
         nothing = "the sensor quantity is open" if self.question else "none is admissible"
         text = nothing if self.selected is None else reference(self.selected.chain)
-        left = len(self.members) + len(self.containing)
-        members = f", {left} not excluded" if left else ""
+        members = f", {len(self.members)} not excluded" if self.members else ""
         return summary(self, f"{text} of {plural(len(self.candidates), 'candidate')}{members}")
 
     def plot(self, ax: "Axes | Sequence[Axes] | None" = None) -> tuple["Axes", ...]:

@@ -2,8 +2,8 @@
 of the best.
 
 Starts come from the data, from the fits of smaller candidates and from those of neighbours (which
-of them there are: `exchange`). Within one size a candidate that contains another one is never
-worse: the smaller one's fit, the additional elements hardly felt, is a start.
+of them there are: `exchange`). A candidate that contains another one (`containment`) is never worse
+than that: the smaller one's fit, near the limit at which both are the same, is a start.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,12 +17,12 @@ import numpy as np
 from threadpoolctl import ThreadpoolController
 
 from disting.errors import InputError
+from disting.fit.search.containment import contains, embeddings
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.joint import AnyCost, AnyPlant
 from disting.fit.search.neighbours import carry_over, conspicuous, neighbours, split_starts
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import (
-    UNFELT,
     Parameters,
     extend,
     from_extrema,
@@ -229,16 +229,25 @@ def _nested(
     chain: Chain, task: Task, estimates: Mapping[Chain, Estimate], p: Real, j: float
 ) -> tuple[Real, float]:
     """Parameters and cost that are no worse than those of a candidate which this one contains."""
-    contained = min(
-        (estimates[c] for c in shorten(chain) if c in estimates), key=lambda e: e.j, default=None
-    )
-    if contained is None or contained.j * (1 + NESTED) >= j:
-        return p, j
-    plant, box = task.plant(chain), task.box(task.names(chain))
-    felt = extend(chain, _common(contained), scale(task.cost.measured), UNFELT)
-    slight = _stacked([_own(contained) | dict(start) for start in felt], chain, task)
-    unfelt = slight[int(np.argmin(task.cost.total(plant.response(box.clipped(slight)))))]
-    return min((p, j), fine(plant, task.cost, box, unfelt), key=lambda parts: parts[1])
+    lower = [e for e in estimates.values() if e.j * (1 + NESTED) < j]
+    inner = [e for e in lower if contains(chain, e.chain) and task.cost.on(e.chain) is task.cost]
+    for contained in sorted(inner, key=lambda e: e.j)[:1]:
+        starts = embedded(chain, contained, task)
+        if len(starts):
+            plant, box = task.plant(chain), task.box(task.names(chain))
+            nearest = starts[int(np.argmin(task.cost.total(plant.response(starts))))]
+            p, j = min((p, j), fine(plant, task.cost, box, nearest), key=lambda parts: parts[1])
+    return p, j
+
+
+def embedded(chain: Chain, contained: Estimate, task: Task) -> Real:
+    """Points of a chain, shape (n, n_p), at which it almost is a candidate that it contains with
+    the parameters of its estimate, inside the bounds of the task; n = 0 where it contains none.
+    """
+    names, size = task.names(chain), scale(task.cost.measured)
+    near = embeddings(chain, contained.chain, _common(contained), size)
+    starts = _stacked([_own(contained) | dict(start) for start in near], chain, task)
+    return task.box(names).clipped(starts) if len(starts) else starts
 
 
 def _stacked(starts: Sequence[Parameters], chain: Chain, task: Task) -> Real:

@@ -17,6 +17,7 @@ from itertools import groupby
 import numpy as np
 
 from disting.algebra.content import full_text
+from disting.fit.search.containment import contains
 from disting.fit.search.estimate import (
     Estimate,
     Method,
@@ -104,7 +105,9 @@ def polish(
         whole = list(stage)
         the_estimates |= {c: evaluate(c, task) for c in whole if _is_given(c, task)}
         helpful = {
-            c: _helpful(c, the_estimates) | {c: own[c]} for c in whole if c not in the_estimates
+            c: _lowest(c, the_estimates, task) | {c: own[c]}
+            for c in whole
+            if c not in the_estimates
         }
         for this_estimate in _results(refine, helpful, task, store, executor):
             the_estimates[this_estimate.chain] = this_estimate
@@ -241,6 +244,17 @@ def _helpful(chain: Chain, own_estimates: Mapping[Chain, Estimate]) -> dict[Chai
     """What one candidate's starts come from; a worker needs no more."""
     near = {*(c for _, c in merge(chain)), *shorten(chain)}
     return {c: own_estimates[c] for c in own_estimates if c in near}
+
+
+def _lowest(
+    chain: Chain, own_estimates: Mapping[Chain, Estimate], task: Task
+) -> dict[Chain, Estimate]:
+    """The estimate of least cost that is one of the chain too, at a limit; none where it contains
+    no candidate that has the same responses.
+    """
+    cost = task.cost.on(chain)
+    inner = [c for c in own_estimates if contains(chain, c) and cost.on(c) is cost]
+    return {c: own_estimates[c] for c in sorted(inner, key=lambda c: own_estimates[c].j)[:1]}
 
 
 def body(chain: Chain) -> tuple[int, str]:

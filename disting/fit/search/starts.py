@@ -27,8 +27,6 @@ DAMPING_RATIO = 0.02  # of a spring's damper in a start
 SHARES = (0.5, 0.15, 0.85)  # of the mass that is split off
 GRID = 12  # frequencies of the ladder and of resonances that the data do not show
 EXTRA = (1e-6, 0.1, 1.0)  # of its natural size, for an element that is added
-# likewise: what is small depends on parameters that may have run far away
-UNFELT = [10.0**-k for k in range(6, 97, 10)]
 SPREAD = 1.0  # standard deviation of the logarithms of random starts
 PROMINENCE = 0.05  # of an extremum, in decades of the amplitude
 

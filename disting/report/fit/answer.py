@@ -225,9 +225,10 @@ def _beside(selection: Selection) -> Iterator[str]:
             " excluded by the data either."
         )
     if more:
+        which, smaller = ("one of these", "the smaller one") if others else ("it", "it")
         yield (
-            f"{plural(more, 'larger one')} {'contains' if more == 1 else 'contain'}"
-            f" {'one of these' if others else 'it'}, with parts that these data do not show."
+            f"{plural(more, 'larger one')} {'contains' if more == 1 else 'contain'} {which}: no"
+            f" experiment excludes {'that' if more == 1 else 'them'} if {smaller} is true."
         )
     if twins:
         yield (
@@ -248,8 +249,13 @@ def _misfit(selection: Selection) -> KeyFigure:
 
 
 def _left(selection: Selection) -> KeyFigure:
-    count, of = len(selection.members) + len(selection.containing), len(selection.candidates)
-    return KeyFigure("structures left", f"{count} of {of}", "fitted, and not excluded by the data")
+    count, of, more = (
+        len(each) for each in (selection.members, selection.candidates, selection.containing)
+    )
+    which = "one of these" if count > 1 else "it"
+    beside = f"; {more} more contain{'s' if more == 1 else ''} {which}" if more else ""
+    meaning = f"fitted, and not excluded by the data{beside}"
+    return KeyFigure("structures left", f"{count} of {of}", meaning)
 
 
 def _third(selection: Selection, results: Sequence[ParameterRow]) -> KeyFigure:

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from disting.errors import enumeration
 from disting.experiments.menu import Item
 from disting.fit.judge.admissible import KNOWN, UNDETERMINED
-from disting.fit.judge.exclusion import union
 from disting.fit.plan.fit_file import FitRecord
 from disting.fit.plan.next_experiment import Predictions
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import reference
+from disting.fit.search.containment import contains
 from disting.report.fit.left_words import ChainAdvice, cheapest_first
-from disting.report.fit.plan_words import chance
+from disting.report.fit.plan_words import chance, larger_in_words
 from disting.report.fit.words import percent, readable
 
 
@@ -47,9 +47,9 @@ def first_sentence(lead: ChainAdvice) -> str:
     """The experiment that parts the selected structure from most of the others, of equals the
     cheapest, and what it leaves; "" where the lines of the data are not known.
 
-    Structures that contain the selected one are named apart: if it is that one, no data exclude
-    them. The powers are those at the fitted values, before a rival refits: upper bounds; a rival
-    of which the selected structure is a limit, such as one with more masses, can follow it. Where
+    Structures that contain the selected one are no rivals: if it is that one, no experiment
+    excludes them. The powers are those at the fitted values, before a rival refits: upper bounds.
+    Where
     one structure is left the sentence says so, and what would narrow its worst parameter.
     """
     if len(lead.left) == 1:
@@ -81,11 +81,7 @@ def _alone(named: FitRecord, source: str) -> Iterator[str]:
         f"{source} leaves {reference(named.model)} alone: no further measurement is needed to tell"
         " structures apart"
     )
-    if named.larger:
-        yield (
-            f"{enumeration(named.larger)} {_contain(named.larger)} it with elements that the data"
-            " do not determine"
-        )
+    yield from larger_in_words(list(named.larger), reference(named.model))
     if named.rivals:
         names = enumeration(map(reference, named.rivals))
         yield f"it is not known whether these structures behave the same: {names}"
@@ -118,7 +114,7 @@ def _contain(names: Sequence[object]) -> str:
 def _others(lead: ChainAdvice) -> list[int]:
     """The structures that do not contain the selected one."""
     chain = lead.left[0].chain
-    return [k for k, o in enumerate(lead.left) if k and union(chain, o.chain) != o.chain]
+    return [k for k, o in enumerate(lead.left) if k and not contains(o.chain, chain)]
 
 
 def _best(lead: ChainAdvice, seen: Predictions, others: list[int]) -> Reach | None:
@@ -148,5 +144,5 @@ def _of(lead: ChainAdvice, best: Reach, others: list[int]) -> str:
         which = f"{len(best.parted)} of the {len(others)} others"
     return (
         f"{which} (power {percent(POWER)} or more for the values fitted now; a rival that is fitted"
-        f" again comes closer, and one of which {lead.left[0].name} is a limit can follow it)"
+        " again comes closer)"
     )

@@ -7,13 +7,14 @@ from typing import Any
 
 from disting.experiments.menu import Costs, Item
 from disting.files import Format
-from disting.fit.judge.exclusion import LEVEL, union
+from disting.fit.judge.exclusion import LEVEL
 from disting.fit.plan.fit_file import FitRecord, Survivor
 from disting.fit.plan.next_experiment import Predictions, Reason, Step, Stood
 from disting.fit.plan.sample import POWER
 from disting.fit.search.candidates import listed_form, reference
+from disting.fit.search.containment import contains
 from disting.model.chain import LEGEND, Chain, text_drawing
-from disting.report.fit.plan_words import chance
+from disting.report.fit.plan_words import chance, larger_in_words
 from disting.report.fit.words import percent, readable
 from disting.verdict.next_experiments import Menu
 from disting.verdict.next_words import CSV_COLUMNS, rows, to_dict
@@ -80,6 +81,7 @@ def set_in_words(lead: ChainAdvice) -> Iterator[str]:
     moved = ", ".join(x.name for x in lead.left if listed_form(x.chain).chain != x.chain)
     if moved:
         yield f"masses of {moved} have the numbers of these drawings"
+    yield from larger_in_words(list(lead.named.larger), lead.left[0].name)
     left = {survivor.chain for survivor in lead.left}
     out = ", ".join(reference(chain) for chain in lead.named.rivals if chain not in left)
     if out:
@@ -120,7 +122,7 @@ def sentence(lead: ChainAdvice, a: int, b: int) -> str:
     standing = lead.stood.reason(a, b)
     said = f"{other.name}: {SAYS[standing].format(survivor.name)}"
     if standing is Reason.NOISE:
-        if union(survivor.chain, other.chain) == other.chain:
+        if contains(other.chain, survivor.chain):
             said += f", which it contains: only {survivor.name} can be excluded"
         said += f" (disting plan {lead.source})"
     shown = _shown(lead, lead.seen, a, b) if lead.seen else ""

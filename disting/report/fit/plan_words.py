@@ -27,6 +27,7 @@ WORDS = {
     Sort.CIRCUIT: ("circuit", "at these nodes"),
     Sort.COMPARTMENTS: ("system", "with this input and output"),
 }
+NAMED = 8  # structures in one sentence
 SHOWN = 12  # lines of the optimal spectrum in the table
 
 
@@ -65,11 +66,12 @@ def plan_in_words(plan: Plan, best: Design | None, source: str) -> Iterator[str]
 def rivals_in_words(
     named: FitRecord | NamedNetworks,
     plans: Sequence[tuple[Plan, Plan | None]],
+    reverse: Sequence[Plan],
     source: str,
     file: str,
 ) -> Iterator[str]:
-    """The selected structure of a fit, of which `file` is the name, against each rival; beside it
-    the reverse, where the rival contains the selected structure.
+    """The selected structure of a fit, of which `file` is the name, against each rival; then the
+    structures that contain it, and the `reverse` against it, if one of these is true.
     """
     name = name_of(named.model)
     thing = _words(named.model)[0]
@@ -80,10 +82,13 @@ def rivals_in_words(
         yield f"for another experiment: disting next {shlex.quote(file)}"
     if not plans:
         yield "" if named.same else "the fit left no rival: there is nothing to tell apart"
+    else:
+        yield ""
+        yield from _rows([plan for plan, _ in plans])
+    yield from larger_in_words(list(named.larger), name)
+    back = [*(plan for _, plan in plans if plan is not None), *reverse]
+    if not plans and not back:
         return
-    yield ""
-    yield from _rows([plan for plan, _ in plans])
-    back = [reverse for _, reverse in plans if reverse is not None]
     if back:
         yield ""
         yield f"the reverse: can data exclude {name} if a structure that contains it is true?"
@@ -99,6 +104,19 @@ def rivals_in_words(
         yield "enough: disting fit excludes structures by the same test"
     if every:
         yield f"one pair in full: {plan_command(max(every, key=lambda p: p.factor))}"
+
+
+def larger_in_words(structures: Sequence[AnyStructure], name: str) -> Iterator[str]:
+    """Yield a sentence on the structures that contain the selected one, `name`, or another one."""
+    if structures:
+        names = [name_of(structure) for structure in structures]
+        more = len(names) - NAMED
+        shown = ", ".join(names[:NAMED]) + (f" and {more} more" if more > 0 else "")
+        contain = "contains" if len(names) == 1 else "contain"
+        yield (
+            f"not a rival: {shown} {contain} {name} or one of its rivals; no experiment excludes a"
+            " structure that contains the true one"
+        )
 
 
 def _rows(plans: Sequence[Plan], *, true: bool = False) -> Iterator[str]:

@@ -231,9 +231,10 @@ def _choice(selection: Selection) -> str:
     if not selection.explanation.explains:
         return "No candidate explains the data; the selected one has the lowest cost."
     out = sum(c.excluded is not None for c in selection.candidates)
-    left = plural(len(selection.members) + len(selection.containing), "candidate")
+    left, more = plural(len(selection.members), "candidate"), len(selection.containing)
+    beside = f" ({more} more contain{'s' if more == 1 else ''} one of these)" if more else ""
     return (
-        f"{left} the data do not exclude, the selected one"
+        f"{left} the data do not exclude{beside}, the selected one"
         " is the simplest of them, of equally simple ones that with the lowest cost."
         f" {plural(out, 'candidate')} that would explain the data alone"
         f" {'is' if out == 1 else 'are'} excluded by another one at the level"

@@ -163,16 +163,13 @@ def _explained(selection: Selection) -> Iterator[str]:
             " parameters of each candidate undetermined; all values are printed"
         )
     others, more = [m.name for m in selection.members[1:]], len(selection.containing)
-    larger = (
-        f"{more} more that contain{'s' if more == 1 else ''} one of these, with elements that this"
-        " data does not determine"
-    )
+    contain = f"{more} more that contain{'s' if more == 1 else ''}"
     if others:
-        beside = f"; {larger}" if more else ""
-        yield f"not excluded by this data either: {_listed(others)}{beside}"
+        larger = f"{contain} one of these, which no experiment excludes if the smaller one is true"
+        yield f"not excluded by this data either: {_listed(others)}{f'; {larger}' if more else ''}"
     elif selection.members:
-        beside = f", but {larger.replace('one of these', 'it')}" if more else ""
-        yield f"this data excludes every other candidate{beside}"
+        larger = f", but {contain} it, which no experiment excludes if it is true"
+        yield f"this data excludes every other candidate{larger if more else ''}"
     for m in [m for m in selection.members if m.twins][:1]:
         same = list(dict.fromkeys(t.name for t in m.twins))
         yield (

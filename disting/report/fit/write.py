@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disting.files import json_text, write_whole
+from disting.fit.judge.admissible import undetermined
 from disting.fit.judge.modes import Result, physical
 from disting.fit.plan.design import Design, designed_to_dict
 from disting.fit.plan.power import Plan, typical
@@ -229,24 +230,36 @@ def _files(
 
 def export(selection: Selection, measured: FrequencyResponse) -> list[NumberedStructure]:
     """The structures that the data leave, the selected one first, then what may as well be one of
-    them; further parameter sets of one structure are numbered.
+    them; further parameter sets of one structure are numbered. Others than the selected one are
+    left out where the data do not determine all of their parameters (`not_exported`).
     """
-    fitted = [m.candidate for m in selection.members] or [
-        c for c in (selection.selected,) if c is not None
-    ]
+    kept = [m for m in selection.members if m.name not in not_exported(selection)]
+    fitted = [m.candidate for m in kept] or [c for c in (selection.selected,) if c is not None]
     models = [
-        (name_of(c.chain), c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters})
+        (
+            name_of(c.chain),
+            c.chain,
+            {n: c.estimate.parameters[n] for n in c.chain.parameters},
+            undetermined(c),
+        )
         for c in fitted
     ]
-    models += [(t.name, t.chain, t.parameters) for m in selection.members for t in m.twins]
+    models += [(t.name, t.chain, t.parameters, ()) for m in kept for t in m.twins]
     counted = Counter[str]()
     exporteds = []
-    for called, chain, values in models:
+    for called, chain, values, unknown in models:
         counted[called] += 1
         number = f" ({counted[called]})" if counted[called] > 1 else ""
         units = {n: unit_of(n[0], measured) for n in values}
-        exporteds.append(NumberedStructure(called + number, chain, values, units))
+        exporteds.append(NumberedStructure(called + number, chain, values, units, unknown))
     return exporteds
+
+
+def not_exported(selection: Selection) -> tuple[str, ...]:
+    """Names of the structures left, others than the selected one, of which the data do not
+    determine all parameters: their values are those of one point of many, such as a mass of 1e-17.
+    """
+    return tuple(m.name for m in selection.members[1:] if undetermined(m.candidate))
 
 
 def candidates_csv(selection: Selection) -> str:

@@ -141,10 +141,10 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
         " simplest that the data allow."
     )
     assert beginning in said and (others, more) == (0, 3)
-    assert "3 larger ones contain it, with parts that these data do not show." in said
+    assert "3 larger ones contain it: no experiment excludes them if it is true." in said
     order = (
         f"misfit {readable(selection.explanation.chi2)}",
-        "structures left 4 of 12",
+        "structures left 1 of 12",
         "resonance 1 58",
         "The rule: Of",
         "In more words",
