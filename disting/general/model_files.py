@@ -33,6 +33,7 @@ from disting.general.model_entries import (
     refuse_s,
     text_of,
 )
+from disting.general.naming import refuse_misnamed_models
 from disting.model.presentation import NotebookTable, plural, summary
 
 LARGEST = 5_000_000  # bytes of a file
@@ -64,6 +65,7 @@ class ModelList(NotebookTable):
                 f"{short(doubled[0])} names {names.count(doubled[0])} models; give each its own"
                 " name"
             )
+        refuse_misnamed_models(self.models)
         if self.title:
             _refuse_name(self.title, "the title", LONGEST_TITLE)
 
