@@ -10,7 +10,6 @@ from disting.errors import InputError, of_type, short
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.general.any_model import as_chain, as_model, of_network
 from disting.general.matrix_model import AnyModel
-from disting.general.naming import refuse_misnamed_models
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import name_of, names_of, read_together
 from disting.network import Network, network_of
@@ -30,16 +29,13 @@ def models_of_names(
     damped: bool | None,
     sensor: Sensor | str | None,
 ) -> tuple[Chain | AnyModel, Chain | AnyModel]:
-    """Both models, names as the chains that they mean, texts as the networks; raises InputError, also
-    for a model whose name denotes another one.
-    """
+    """Both models, names as the chains that they mean, texts as the networks; raises InputError."""
     wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
     for side in (left, right):
         of_type(side, Chain | str | AnyModel | Network, wanted)
     beside = next((m.sensor for m in (left, right) if isinstance(m, Chain)), Sensor.ACCELERATION)
     quantity = beside if sensor is None else as_sensor(sensor)
     read = [model_of(m, quantity) for m in (left, right)]
-    refuse_misnamed_models(m for m in read if isinstance(m, AnyModel))
     names = [m for m in read if isinstance(m, Chain | str)]
     chains = iter(read_together(names, damped=damped, sensor=sensor))
     a, b = (next(chains) if isinstance(m, Chain | str) else m for m in read)

@@ -74,13 +74,15 @@ def verdict_file(
     engine: Engine | None = None,
 ) -> dict[str, Any]:
     """The verdict on two models as plain data, ready for JSON, which `verify` checks alone; the
-    arguments are those of `compare`. Raises InputError as that does.
+    arguments are those of `compare`. Raises InputError as that does, and for a name that denotes
+    another model.
 
     >>> data = verdict_file("3:1", "A4", damped=True)
     >>> data["left"], data["models"][1]["name"], data["relation"], data["settings"]["seed"]
     ('3:1', '3:4', 'distinguishable', 'disting')
     """
     models = models_of_names(left, right, damped, sensor)
+    refuse_misnamed_models(model for model in models if not isinstance(model, Chain))
     (query, engine), both = asked_of(query, engine), both_places(experiments)
     verdict = compare(*models, experiments=both, query=query, engine=engine)
     beside = (

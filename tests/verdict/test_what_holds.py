@@ -6,6 +6,7 @@ import pytest
 
 from disting import Chain, InputError, Model, Query, View, verify
 from disting.model.names import name_of
+from disting.network.denotation import FREE_NAMES
 from disting.verdict.result import Verdict
 from disting.verdict.verification import Status
 from tests.cli.process import called
