@@ -52,8 +52,16 @@ def _has_formulas(model: AnyModel, denoted: Chain | Network) -> bool:
         return False
     try:
         if isinstance(denoted, Network):
-            return of_network(denoted) == model
-        is_short = denoted.n_masses <= LARGEST_CHAIN and not denoted.dead_time
-        return is_short and Model.from_chain(denoted) == model
+            made = of_network(denoted)
+        elif denoted.dead_time or denoted.n_masses > LARGEST_CHAIN:
+            return False
+        else:
+            made = Model.from_chain(denoted)
+        return _sizes(made) == _sizes(model) and made == model
     except InputError:  # too many terms
         return False
+
+
+def _sizes(model: AnyModel) -> list[tuple[tuple[int, int], int]]:
+    """Degrees and number of terms of each transfer function, known before terms are written out."""
+    return [(entry.degrees, entry.n_terms) for entry in model.entries]

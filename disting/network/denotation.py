@@ -21,7 +21,8 @@ from disting.network.notation import network_of, notations_of
 
 REMEMBERED = 4096  # names
 # a word such as RC, P1 or Lead-Lag may be meant as a word, though it can be read as a circuit
-WORD = re.compile(r"\w+|[^\W\d_]{2,}(?:-[^\W\d_]{2,})+")
+WORD = re.compile(r"(?:\w+|[^\W\d_]{2,}(?:-[^\W\d_]{2,})+)(?: [12])?")
+ADDED = re.compile(r"(.*\S) (?:[12]|\(((?:un)?damped, \w+)\))")  # such as (damped, velocity)
 FREE_NAMES = "model names are free text; the answer is about the models in the file"
 
 
@@ -83,13 +84,24 @@ def refuse_misnamed(name: str, naming: Naming) -> None:
 @lru_cache(maxsize=REMEMBERED)
 def readings(name: str, quantity: Sensor) -> tuple[Chain | Network, ...] | None:
     """The models that a name can denote, with sensors of this quantity unless it states another
-    one; none for a name of a chain that does not exist, None for free text.
+    one; none for a name of a chain that does not exist, None for free text. What verdicts add to
+    a name, to tell two models of one name apart, may follow it.
     """
     if is_whole_name(name):
         chains = (chain_of_whole_name(name, damped, quantity) for damped in (True, False))
         return tuple(chain for chain in chains if chain is not None)
     networks = (_read(name, notation, quantity) for notation in notations_of(name))
-    return tuple(network for network in networks if network is not None) or None
+    found = tuple(network for network in networks if network is not None)
+    more = ADDED.fullmatch(name)
+    if found or more is None:
+        return found or None
+    found_of_name = readings(more[1], quantity)
+    return found_of_name and tuple(m for m in found_of_name if _has_premise(m, more[2]))
+
+
+def _has_premise(model: Chain | Network, text: str) -> bool:
+    """Return True unless the text states another damping or quantity."""
+    return not (text and isinstance(model, Chain)) or text == str(model.premise)
 
 
 def is_same(one: Chain | Network, other: Chain | Network) -> bool:
