@@ -35,6 +35,7 @@ from disting.general.model_entries import (
 )
 from disting.general.naming import refuse_misnamed_models
 from disting.model.presentation import NotebookTable, plural, summary
+from disting.network.denotation import MisnamedError
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
@@ -180,6 +181,8 @@ def _model(entry: object, place: int, variable: str) -> AnyModel:
         _refuse_name(name, "its name", LONGEST_NAME)
         model = of_kind(entry, name, variable)
         refuse_s(model)
+    except MisnamedError:
+        raise
     except InputError as reason:
         raise InputError(f"model {short(name)}: {reason}") from None
     return model

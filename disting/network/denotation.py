@@ -108,13 +108,17 @@ def is_same(one: Chain | Network, other: Chain | Network) -> bool:
     """Return True if both are one model up to numbers of nodes and names of parameters."""
     if one == other:
         return True
-    extras = [isinstance(m, Chain) and (m.lag, m.dead_time) or (False, False) for m in (one, other)]
-    if extras[0] != extras[1]:
+    if _extras(one) != _extras(other):
         return False
     try:
         return is_same_network(*map(_elements, (one, other)))
     except (InputError, ConstraintViolation):  # a chain of more masses than a network has nodes
         return False
+
+
+def _extras(model: Chain | Network) -> tuple[bool, bool]:
+    """Lag and dead time, which no network has."""
+    return (model.lag, model.dead_time) if isinstance(model, Chain) else (False, False)
 
 
 def _elements(model: Chain | Network) -> Network:
