@@ -20,10 +20,12 @@ from disting.experiments.places import Places, move, parse_experiment
 from disting.files import json_text
 from disting.general.any_model import measurand
 from disting.general.matrix_model import AnyModel
+from disting.general.naming import has_free_name
 from disting.general.special_values import SpecialValues, special_values
 from disting.model.chain import Chain, text_drawing
 from disting.model.names import names_of
 from disting.model.question import Domain, Settings
+from disting.network.denotation import FREE_NAMES
 from disting.questions.positive import ranges, within_ranges
 from disting.verdict.comparison import compare, prove
 from disting.verdict.placement_verdicts import (
@@ -128,6 +130,8 @@ def _told(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterat
         yield from both_ways(verdict, "within the ranges", _within(chains, limits))
     elif chains and not verdict.proves_shares:
         yield from both_ways(verdict)
+    if has_free_name(model for model in judgement.models if not isinstance(model, Chain)):
+        yield f"names      {FREE_NAMES}"
 
 
 def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> SpecialValues | None:

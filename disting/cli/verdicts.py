@@ -27,9 +27,11 @@ from disting.conditions.side import AnySide
 from disting.errors import InputError, in_row
 from disting.general.any_model import of_network
 from disting.general.model_files import ModelList, read_models
+from disting.general.naming import has_free_name
 from disting.model.chain import Sensor
 from disting.model.names import damping_option
 from disting.model.presentation import plural
+from disting.network.denotation import FREE_NAMES
 from disting.network.families import family_of
 from disting.verdict.comparison import prove_all
 from disting.verdict.decisions import Decisions
@@ -94,6 +96,8 @@ def run(options: argparse.Namespace) -> int:
     if "-" not in (options.csv, options.json):
         print("\n".join([_summary(decided), *(_groups(decided) if file else ())]))
         print(joint_in_words(family_safety(decided)))
+        if models and has_free_name(models):
+            print(FREE_NAMES)
     return 0
 
 

@@ -30,9 +30,10 @@ from disting.general.expression import LONGEST_NUMBER
 from disting.general.powers import PLAIN, Powers, Terms as Terms, cell_in, in_v
 from disting.general.response import fraction, network_powers, network_ratios, transfer_functions
 from disting.model.chain import Chain
-from disting.model.names import name_of, names_another
+from disting.model.names import name_of
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.network.chains import as_chain, of_chain
+from disting.network.denotation import Naming, naming_of, refuse_misnamed
 from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
 
@@ -121,15 +122,14 @@ class Model(NotebookTable):
     @staticmethod
     def from_chain(chain: Chain, *, name: str = "") -> "Model":
         """The model of a chain in its own parameters, sorted; raises InputError for a dead time,
-        which is no rational function, and for a name that is another chain's.
+        which is no rational function, and for a name that denotes another model.
 
         >>> str(Model.from_chain(Chain(1, damped=False)))
         'G(s) = 1/m1'
         """
         if chain.dead_time:
             raise InputError("a dead time exp(-Td s) is no rational function of s")
-        if names_another(name, chain):
-            raise InputError(f"{name} is the name of another chain; call this one otherwise")
+        refuse_misnamed(name, naming_of(name, chain))
         parameters = tuple(sorted(chain.parameters))
         ring = symbols(["s", *parameters])
         num, den = (rename_symbols(part, ring, {}) for part in expand(chain.structure))
@@ -158,7 +158,7 @@ class Model(NotebookTable):
         else:
             made = unwritten(network)
         chain = as_chain(network)
-        if chain is not None and not names_another(network.name, chain):
+        if chain is not None and naming_of(network.name, chain) is not Naming.FALSE:
             object.__setattr__(made, "chain", chain)
         return made
 

@@ -11,6 +11,7 @@ from disting.general.any_model import as_chain, of_network
 from disting.general.expression import polynomial_text
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
+from disting.general.naming import LARGEST_CHAIN
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of, name_of
@@ -18,7 +19,6 @@ from disting.network.notation.compartments import space_of_flows
 from disting.network.notation.entries import FORMS as NETWORKS, entry_of, network_of_entry
 
 Plain = Mapping[str, Any]
-LARGEST_CHAIN = 6  # masses: coefficients of some hundred terms
 KINDS = {
     "A": ("A", "B", "C", "D", "x0", "known"),
     "num": ("num", "den"),

@@ -32,7 +32,9 @@ from disting.general.model_entries import (
     refuse_s,
     text_of,
 )
+from disting.general.naming import refuse_misnamed_models
 from disting.model.presentation import NotebookTable, plural, summary
+from disting.network.denotation import MisnamedError
 
 LARGEST = 5_000_000  # bytes of a file
 MOST_MODELS = 300  # 44,850 pairs
@@ -63,6 +65,7 @@ class ModelList(NotebookTable):
                 f"{short(doubled[0])} names {names.count(doubled[0])} models; give each its own"
                 " name"
             )
+        refuse_misnamed_models(self.models)
         if self.title:
             _refuse_name(self.title, "the title", LONGEST_TITLE)
 
@@ -177,6 +180,8 @@ def _model(entry: object, place: int, variable: str) -> AnyModel:
         _refuse_name(name, "its name", LONGEST_NAME)
         model = of_kind(entry, name, variable)
         refuse_s(model)
+    except MisnamedError:
+        raise
     except InputError as reason:
         raise InputError(f"model {short(name)}: {reason}") from None
     return model

@@ -12,13 +12,18 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from disting.errors import InputError, short
+from disting.errors import ConstraintViolation, InputError, short
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.family import MOST_MASSES, Family
 
 MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
 NAME = re.compile(rf"(?:(\d{{1,3}}):[Aa]?|[Aa])(\d{{1,7}})({EXTRAS})")
+# the name of a chain without a number
+INDICES = re.compile(
+    r"\((\d{1,4}) masses, gap (\d{1,4}), force (\d{1,4})-(\d{1,4}), sensor (\d{1,4})-(\d{1,4})"
+    rf"[a-z, ]*\)({EXTRAS})"
+)
 WORDS = ("lag", "delay")
 # what a name means where nothing else is said: springs of machines are damped, and so are the
 # structures that a fit names
@@ -142,14 +147,34 @@ def name_of(chain: Chain) -> str:
     return name + extras_of(chain)
 
 
-def names_another(text: str, chain: Chain) -> bool:
-    """Whether a text is the whole name of a chain, and not of this one.
+def is_whole_name(text: str) -> bool:
+    """Return True for the name of a chain that says how many masses it has, or its indices.
 
-    >>> [names_another(text, Chain(3)) for text in ("3:9", "3:1", "A9")]
+    >>> [is_whole_name(text) for text in ("3:9", "A9", "drive")]
     [True, False, False]
     """
     match = NAME.fullmatch(_joined(text))
-    return match is not None and bool(match[1]) and str(read(text)) != name_of(chain)
+    return (match is not None and bool(match[1])) or INDICES.fullmatch(text) is not None
+
+
+def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None:
+    """The chain of such a name, with this damping and sensor; None where there is none.
+
+    >>> chain_of_whole_name("3:1", True, Sensor.VELOCITY) == Chain(3, sensor="velocity", damped=True)
+    True
+    >>> chain_of_whole_name("3:999", True, Sensor.VELOCITY) is None
+    True
+    """
+    indices = INDICES.fullmatch(text)
+    try:
+        if indices is None:
+            return read(text).chain(Family(1, damped, sensor))
+        n, gap, plus, minus, shown_plus, shown_minus = map(int, indices.groups()[:6])
+        plain = Chain(n, gap, minus, plus, shown_minus, shown_plus, sensor, damped)
+        chain = extend(plain, indices[7])
+    except (ConstraintViolation, InputError):
+        return None
+    return chain if name_of(chain) == text else None
 
 
 def extras_of(chain: Chain) -> str:

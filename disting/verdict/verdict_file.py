@@ -21,12 +21,14 @@ from disting.files import Format, __version__
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
-from disting.general.model_entries import LARGEST_CHAIN, as_entry, read_entry
+from disting.general.model_entries import as_entry, read_entry
+from disting.general.naming import LARGEST_CHAIN, refuse_misnamed_models
 from disting.model.chain import Chain, Sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES
-from disting.model.names import name_of, names_another
+from disting.model.names import name_of
 from disting.model.question import Domain, Settings
+from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
@@ -72,13 +74,15 @@ def verdict_file(
     engine: Engine | None = None,
 ) -> dict[str, Any]:
     """The verdict on two models as plain data, ready for JSON, which `verify` checks alone; the
-    arguments are those of `compare`. Raises InputError as that does.
+    arguments are those of `compare`. Raises InputError as that does, and for a name that denotes
+    another model.
 
     >>> data = verdict_file("3:1", "A4", damped=True)
     >>> data["left"], data["models"][1]["name"], data["relation"], data["settings"]["seed"]
     ('3:1', '3:4', 'distinguishable', 'disting')
     """
     models = models_of_names(left, right, damped, sensor)
+    refuse_misnamed_models(model for model in models if not isinstance(model, Chain))
     (query, engine), both = asked_of(query, engine), both_places(experiments)
     verdict = compare(*models, experiments=both, query=query, engine=engine)
     beside = (
@@ -136,7 +140,8 @@ def exact(query: Query) -> Query:
 
 def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
     """Inverse of `verdict_file`. Raises InputError for what is no such file, or is damaged, and for
-    keys that it has not; `beside` = those that stand there for another reason.
+    keys that it has not, MisnamedError for a name that denotes another model; `beside` = those
+    keys that stand there for another reason.
     """
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         is_verdict = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
@@ -148,6 +153,8 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
         if unknown:
             raise InputError(f"{short(unknown[0])} is no key of it")
         return stored
+    except MisnamedError:
+        raise
     except (*DAMAGED, DistingError, RecursionError) as reason:
         why = f"{short(str(reason))} is missing" if isinstance(reason, KeyError) else reason
         raise InputError(
@@ -276,7 +283,9 @@ def _plain_model(model: Chain | AnyModel) -> dict[str, object]:
 
 def _model(data: Mapping[str, Any]) -> Chain | AnyModel:
     if "n_masses" not in data:
-        return read_entry(data)
+        model = read_entry(data)
+        refuse_misnamed_models([model])
+        return model
     rest = {name: value for name, value in data.items() if name != "name"}
     flags = [rest[name] for name in ("damped", "lag", "dead_time")]
     if not all(type(flag) is bool for flag in flags):
@@ -286,8 +295,9 @@ def _model(data: Mapping[str, Any]) -> Chain | AnyModel:
     chain, name = Chain(**rest | {"ground_dampers": tuple(rest["ground_dampers"])}), data["name"]
     if type(name) is not str:
         raise InputError("the name of a model is a text")
-    if name == name_of(chain) or names_another(name, chain):
-        return chain  # by its own name: what the file calls it is compared with that
+    refuse_misnamed(name, naming_of(name, chain))
+    if name == name_of(chain):
+        return chain
     if chain.n_masses > LARGEST_CHAIN:
         raise InputError(f"a chain with a name of its own has {LARGEST_CHAIN} masses at most")
     return Model.from_chain(chain, name=name)

@@ -15,9 +15,12 @@ from typing import Any
 from disting.conditions.inclusion import Inclusion
 from disting.errors import DistingError, InputError, NotSeenError, short
 from disting.files import as_path, read_json
+from disting.general.matrix_model import AnyModel
+from disting.general.naming import naming_of_model
 from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.question import Domain
+from disting.network.denotation import FREE_NAMES, MisnamedError, Naming
 from disting.verdict.claim_checks import CHECKS, LIMITS, SHARES, Check, Claim
 from disting.verdict.engine import Engine
 from disting.verdict.placement_verdicts import (
@@ -37,6 +40,7 @@ from disting.verdict.verdict_file import (
     read_file,
 )
 
+NUMBERED = "a numbered chain"
 WANTED = "a file of a verdict, as 'disting compare N:I M:J --json' writes it"
 
 
@@ -107,6 +111,14 @@ def verify(verdict: dict[str, Any] | str | Path) -> Verification:
     'does not hold'
     """
     data = verdict if isinstance(verdict, dict) else read_json(as_path(verdict), WANTED)
+    try:
+        return _verified_file(data)
+    except MisnamedError as reason:
+        return Verification(Status.FAILS, str(reason))
+
+
+def _verified_file(data: Any) -> Verification:
+    """What is found in a file of one verdict, or of one for every place."""
     if not isinstance(data, dict) or data.get("format") != EVERYWHERE:
         return _verified(data, read_file(data))
     stored = read_everywhere(data)
@@ -166,21 +178,21 @@ def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
 
 
 def _whose(stored: StoredVerdict, sides: Sides) -> str:
-    """Whose models they are: a model of one's own may have a name that reads like a chain's."""
-    names = (sides.left.name, sides.right.name)
-    own = [n for n, m in zip(names, stored.models, strict=True) if not isinstance(m, Chain)]
-    if not own:
-        if any(name.startswith("(") for name in names):
-            return "; ".join(dict.fromkeys(f"{name}: {_kind_of(name)}" for name in names))
-        return f"{' and '.join(dict.fromkeys(names))}: numbered chains, the catalogue's numbers"
-    rest = [name for name in names if name not in own]
-    beside = f"; {rest[0]}: {_kind_of(rest[0])}" if rest else ""
-    return f"{' and '.join(own)}: of your file, not of the catalogue{beside}"
+    """Origin of the models, by what their names are."""
+    named = zip((sides.left.name, sides.right.name), stored.models, strict=True)
+    kinds: dict[str, list[str]] = {}
+    for name, model in dict(named).items():
+        kinds.setdefault(_kind_of(name, model), []).append(name)
+    if [*kinds] == [NUMBERED]:
+        return f"{' and '.join(kinds[NUMBERED])}: numbered chains, the catalogue's numbers"
+    return "; ".join(f"{' and '.join(names)}: {kind}" for kind, names in kinds.items())
 
 
-def _kind_of(name: str) -> str:
-    """What a chain of this name is; one without a number is named by its indices, in brackets."""
-    return "a chain without a number" if name.startswith("(") else "a numbered chain"
+def _kind_of(name: str, model: Chain | AnyModel) -> str:
+    """What the name of a model is; a chain without a number is named by its indices."""
+    if isinstance(model, Chain):
+        return "a chain without a number" if name.startswith("(") else NUMBERED
+    return FREE_NAMES if naming_of_model(model) is Naming.FREE else "as the name denotes"
 
 
 def _checks(

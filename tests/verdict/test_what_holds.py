@@ -6,6 +6,7 @@ import pytest
 
 from disting import Chain, InputError, Model, Query, View, verify
 from disting.model.names import name_of
+from disting.network.denotation import FREE_NAMES
 from disting.verdict.result import Verdict
 from disting.verdict.verification import Status
 from tests.cli.process import called
@@ -29,16 +30,17 @@ def test_what_does_not_hold_is_not_said_again():
     assert found.verdicts == () == found.found_again
 
 
-def test_models_of_ones_own_that_are_called_like_chains_are_told_to_be_ones_own():
+def test_free_names_are_said_to_be_free():
     models = (
-        Model.from_transfer_function("a", "s + b", name="3:9"),
-        Model.from_transfer_function("c", "s**2 + d", name="3:10"),
+        Model.from_transfer_function("a", "s + b", name="pump"),
+        Model.from_transfer_function("c", "s**2 + d", name="tank"),
     )
     found = verify(plain(*models))
     assert found.status is Status.HOLDS
-    assert found.models == "3:9 and 3:10: of your file, not of the catalogue"
+    assert found.models == f"pump and tank: {FREE_NAMES}"
     beside = verify(plain("2:1", models[0]))
-    assert beside.models == "3:9: of your file, not of the catalogue; 2:1: a numbered chain"
+    assert beside.models == f"2:1: a numbered chain; pump: {FREE_NAMES}"
+    assert verify(plain("R1-C1", "p(R1,C1)")).models == "R1-C1 and p(R1,C1): as the name denotes"
 
 
 def test_a_chain_without_a_number_is_not_said_to_have_one():

@@ -28,6 +28,7 @@ from disting.fit.search.starts import Parameters
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
+from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
 from disting.network.network import Network
 from disting.network.notation.entries import network_of_entry
 from disting.verdict.result import Relation
@@ -95,8 +96,8 @@ def named_by(path: Path) -> FitRecord:
     refuse_open_quantity(plain, path)
     if not isinstance(plain, dict) or not isinstance(plain.get("selected"), dict):
         raise InputError(f"{path} holds no selected model: name {FIT_FILE}")
-    model, values = model_from_dict(plain["selected"])
     try:
+        model, values = model_from_dict(plain["selected"])
         range_of = plain.get("frequencies", {"low": 0.0, "high": 0.0, "lines": 0})
         same = dict(_same(plain))
         return FitRecord(
@@ -116,6 +117,8 @@ def named_by(path: Path) -> FitRecord:
             dict(model_from_dict(m) for m in plain["not_excluded"] if _is_larger(m, model)),
             frozenset(map(chain_from_dict, _determined(plain))),
         )
+    except MisnamedError as reason:
+        raise InputError(f"{path}: {reason}") from None
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise InputError(
             f"{path} is no whole file of a fit: {reason} is missing or wrong; fit again"
@@ -290,6 +293,8 @@ def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, .
     try:
         entries = {str(entry["name"]): entry for entry in plain["networks"]}
         networks = {name: network_of_entry(entry, name) for name, entry in entries.items()}
+        for name, network in networks.items():
+            refuse_misnamed(name, naming_of(name, network))
         survivors = tuple(
             LeftNetwork(
                 networks[fit["name"]],
@@ -301,6 +306,8 @@ def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, .
             for fit in plain["fits"]
             if fit["explains"] and not fit["excluded_by"]
         )
+    except MisnamedError as reason:
+        raise InputError(f"{path}: {reason}") from None
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise _broken(path, reason) from None
     if not survivors:

@@ -5,7 +5,9 @@ from typing import Any
 
 from disting.errors import InputError, short
 from disting.files import read_json
+from disting.fit.search.candidates import listed_form
 from disting.model.chain import Chain
+from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
 
 HUGE = 1e100  # more is no value of an element, and squares of it are no numbers any more
 FIT_FILE = "a file of 'disting fit --json'"
@@ -24,10 +26,12 @@ def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
 
 
 def chain_from_dict(plain: dict[str, Any]) -> Chain:
-    """The structure alone, of a candidate or of what is named beside it; raises InputError."""
+    """The structure alone, of a candidate or of what is named beside it; raises InputError, and
+    MisnamedError for a name that denotes another structure.
+    """
     try:
         (act_minus, act_plus), (meas_minus, meas_plus) = plain["actuator"], plain["sensor"]
-        return Chain(
+        chain = Chain(
             plain["n_masses"],
             plain["gap"],
             act_minus,
@@ -40,8 +44,11 @@ def chain_from_dict(plain: dict[str, Any]) -> Chain:
             plain["lag"],
             plain["delay"],
         )
+        name = str(plain.get("name", ""))
     except (KeyError, TypeError, ValueError) as reason:
         raise _no_model(reason) from None
+    refuse_misnamed(name, naming_of(name, listed_form(chain).chain))
+    return chain
 
 
 def number_of(value: Any, least: float = -HUGE, most: float = HUGE) -> float:
@@ -68,4 +75,7 @@ def read_model(path: Path) -> tuple[Chain, dict[str, float]]:
     selected = plain.get("selected", plain) if isinstance(plain, dict) else None
     if not isinstance(selected, dict):
         raise InputError(f"{path} holds no selected model")
-    return model_from_dict(selected)
+    try:
+        return model_from_dict(selected)
+    except MisnamedError as reason:
+        raise InputError(f"{path}: {reason}") from None
