@@ -14,7 +14,7 @@ signs of the factors of resultants, or from the search for cases (see `cases`), 
 and x are unknown then.
 """
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -115,23 +115,41 @@ def _moved(ring: Orthant, into: Orthant, polynomial: fmpz_mpoly, at: int) -> fmp
 
 def _counted(ring: Orthant, equation: fmpz_mpoly, asked: list[fmpz_mpoly], at: int) -> int | None:
     """The number at one point, every sign certified."""
-    plain, *others = (fmpz_poly(list(_at_point(ring, e, at))) for e in (equation, *asked))
-    bits = 128
+    point = {i: Fraction(POINT[i % len(POINT)]) for i in range(ring.n_given)}
+    return count_roots_at(ring, equation, asked, (), at, point)
+
+
+def count_roots_at(
+    ring: Orthant,
+    equation: fmpz_mpoly,
+    asked: Sequence[fmpz_mpoly],
+    nonzero: Sequence[fmpz_mpoly],
+    at: int,
+    point: dict[int, Fraction],
+) -> int | None:
+    """How many real roots (positive ones, over positive parameters) an equation has at a point of
+    whole numbers, and near it, at which all that is `asked` is positive; every sign certified.
+
+    None at a special point: where roots are multiple or infinite, or what is asked or to be
+    `nonzero` is zero.
+    """
+    plain, *others = (
+        fmpz_poly([int(value_at(c, point)) for c in ring.coefficients(e, at)])
+        for e in (equation, *asked, *nonzero)
+    )
+    if plain.degree() < int(equation.degrees()[at]) or plain.gcd(plain.derivative()).degree() > 0:
+        return None
+    is_positive, bits = ring.domain is Domain.POSITIVE, 128
     while bits <= BITS:
         with ctx.workprec(bits):
             isolated: list[Any] = plain.complex_roots()
             real = [root.real for root, _ in isolated if root.imag.is_zero()]
             signs = [[_sign(x), *(_sign(g(x)) for g in others)] for x in real]
-        if all(all(row) for row in signs):
-            return sum(min(row) > 0 for row in signs)
+        if all(all(row[not is_positive :]) for row in signs):
+            kept = slice(int(not is_positive), 1 + len(asked))
+            return sum(min(row[kept], default=1) > 0 for row in signs)
         bits *= 4
     return None
-
-
-def _at_point(ring: Orthant, polynomial: fmpz_mpoly, at: int) -> Iterator[int]:
-    """Coefficients of the powers of x at the point."""
-    point = {i: Fraction(POINT[i % len(POINT)]) for i in range(ring.n_given)}
-    return (int(value_at(c, point)) for c in ring.coefficients(polynomial, at))
 
 
 def _sign(ball: Any) -> int:
