@@ -26,6 +26,7 @@ import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import prod
 
 from flint import fmpz_mpoly
 
@@ -40,8 +41,8 @@ from disting.general.elimination import Case, inequalities
 from disting.general.fibre import Extent, solve
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel
-from disting.general.orthant import Orthant, TooMuch, value_at
-from disting.general.robust import CaseSearch, ParameterValues, find_equivalent
+from disting.general.orthant import Orthant, TooMuch
+from disting.general.robust import CaseSearch, find_equivalent
 from disting.general.sections import sections
 from disting.general.symmetries import Permutation, exchange_of, generators_of, symmetries_of
 from disting.general.target import joint_equations, target
@@ -55,16 +56,20 @@ POINTS = 24  # at which vectors are counted
 LISTED = 2  # of them, where all vectors are listed by a Gröbner basis
 MOST_BITS = 14  # of a value at a point
 QUADRATIC = 2
+Factors = tuple[fmpz_mpoly, ...]
+Point = dict[int, int]
+"""Whole numbers by position in the ring."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Branch:
     """A vector, or those of all roots of its equation: from `least` to `most` of them admissible,
-    where all `positive` polynomials are.
+    where all products that are `asked` to be are positive.
     """
 
     vector: Vector
     case: Case
+    asked: tuple[Factors, ...]
     least: int
     most: int
 
@@ -106,7 +111,9 @@ def find_solutions(model: AnyModel, settings: Settings) -> OverDomains:
         safety = safety_of_count(map_of(model), group.order, seed=settings.seed)
         if safety:
             return _as_exchanges(model, group, safety)
-    return tuple(_over(model, domain, group, search, tries, settings) for domain in Domain)
+    found = [_over(model, domain, group, search, tries, settings) for domain in Domain]
+    limit = found[0].most
+    return tuple(s if s.most is not None else replace(s, most=limit) for s in found)
 
 
 def _over(
@@ -194,37 +201,43 @@ def _branches(ring: Orthant, model: AnyModel, cases: Sequence[Case]) -> list[_Br
         vector = vector_of(ring, model, case)
         if vector is None or any(are_same(vector, b.vector) for b in branches):
             continue
-        admissible = _admissible(ring, case)
-        if admissible is None:
+        asked = _asked(ring, case)
+        if asked is None:
             continue
-        least, most = _bounds(ring, vector, admissible)
+        least, most = _bounds(ring, vector, case, asked)
         if any(b.vector.at not in (-1, vector.at) for b in branches):
             least = 0  # roots of different unknowns may be the same vectors
         if most:
-            branches.append(_Branch(vector, admissible, least, most))
+            branches.append(_Branch(vector, case, asked, least, most))
     return branches
 
 
-def _admissible(ring: Orthant, case: Case) -> Case | None:
-    """A case with what has to be positive for its values to be; None where they never are."""
+def _asked(ring: Orthant, case: Case) -> tuple[Factors, ...] | None:
+    """The products that have to be positive for the values of a case to be; None where they never
+    are.
+    """
     if ring.domain is not Domain.POSITIVE:
-        return replace(case, positive=())
-    asked = [*case.positive, *(v.num * v.den for _, v in case.solved)]
-    positive, failing = inequalities(ring, asked)
-    return None if failing is not None else replace(case, positive=positive)
+        return ()
+    products = [*((g,) for g in case.positive), *((v.num, v.den) for _, v in case.solved)]
+    try:
+        positive, failing = inequalities(ring, map(ring.product, products))
+    except TooMuch:
+        return tuple(products)
+    return None if failing is not None else tuple((g,) for g in positive)
 
 
-def _bounds(ring: Orthant, vector: Vector, case: Case) -> tuple[int, int]:
+def _bounds(ring: Orthant, vector: Vector, case: Case, asked: Sequence[Factors]) -> tuple[int, int]:
     """The least and the largest number of admissible vectors of a case, for all p."""
     equation = vector.equation
     if equation is None:
-        return int(not case.positive), 1
+        return int(not asked), 1
     degree = int(equation.degrees()[vector.at])
     if ring.domain is Domain.COMPLEX:
         return degree, degree
     if ring.domain is Domain.REAL:
         return _real_bounds(ring, equation, vector.at, degree)
-    at = at_roots(ring, case)
+    ring.begin()
+    at = at_roots(ring, replace(case, positive=tuple(map(ring.product, asked))))
     number = 0 if isinstance(at, str) else number_of_roots(ring, at)
     return (0, degree) if number is None else (number, number)
 
@@ -274,7 +287,7 @@ def _is(ring: Orthant, vector: Vector, at: int, positions: set[int]) -> bool:
     return any(r.is_zero() or (equation is not None and (r % equation).is_zero()) for r in rests)
 
 
-def _points(model: AnyModel, domain: Domain) -> Iterator[ParameterValues]:
+def _points(model: AnyModel, domain: Domain) -> Iterator[Point]:
     """Yield random whole numbers of all sizes, with signs over real parameters."""
     size = len(model.parameters)
     for k in range(POINTS):
@@ -282,8 +295,7 @@ def _points(model: AnyModel, domain: Domain) -> Iterator[ParameterValues]:
         bits = residues(f"{label}:bits", size, MOST_BITS + 1)
         signs = residues(f"{label}:signs", size, 3) if domain is Domain.REAL else [1] * size
         yield {
-            i: Fraction(residues(f"{label}:{i}", 1, 1 << b)[0] if b > 1 else 1)
-            * (1 if sign == 1 else -1)
+            i: (residues(f"{label}:{i}", 1, 1 << b)[0] if b > 1 else 1) * (1 if sign == 1 else -1)
             for i, (b, sign) in enumerate(zip(bits, signs, strict=True))
         }
 
@@ -292,45 +304,52 @@ def _numbers(
     ring: Orthant,
     generic: Sequence[fmpz_mpoly],
     branches: Sequence[_Branch],
-    points: Sequence[ParameterValues],
+    points: Sequence[Point],
 ) -> list[list[int]]:
-    """Of each point the numbers of admissible vectors by branch; nothing of special points, of
-    branches that may overlap, and where all numbers are known.
+    """Of each point the numbers of admissible vectors by branch, until all numbers that may be are
+    found; nothing of special points, and of branches that may overlap.
     """
-    if all(b.least == b.most for b in branches):
-        return []
-    if len({b.vector.at for b in branches} - {-1}) > 1:
-        return []
+    least, most = (sum(getattr(b, end) for b in branches) for end in ("least", "most"))
     rows = list[list[int]]()
+    if least == most or len({b.vector.at for b in branches} - {-1}) > 1:
+        return rows
     for point in points:
-        if all(value_at(g, point) for g in generic):
-            row = [_number_at(ring, b, point) for b in branches]
-            rows += [[n for n in row if n is not None]] if None not in row else []
+        if all(_value(g, point) for g in generic):
+            row = [n for b in branches if (n := _number_at(ring, b, point)) is not None]
+            rows += [row] if len(row) == len(branches) else []
+        if {least, most} <= set(map(sum, rows)):
+            break
     return rows
 
 
-def _number_at(ring: Orthant, branch: _Branch, point: ParameterValues) -> int | None:
+def _number_at(ring: Orthant, branch: _Branch, point: Point) -> int | None:
     """How many vectors of a branch are admissible near a point; None at special ones."""
     case, vector = branch.case, branch.vector
+    if branch.least == branch.most:
+        return branch.least
     below = [v.den for _, v in case.solved]
     if vector.equation is not None:
-        return count_roots_at(ring, vector.equation, case.positive, below, vector.at, point)
-    signs = [value_at(g, point) for g in case.positive]
-    if not all(signs) or not all(value_at(d, point) for d in below):
+        return count_roots_at(ring, vector.equation, branch.asked, below, vector.at, point)
+    values = [prod(_value(g, point) for g in factors) for factors in branch.asked]
+    if not all(values) or not all(_value(d, point) for d in below):
         return None
-    return int(all(sign > 0 for sign in signs))
+    return int(all(value > 0 for value in values))
 
 
-def _exists(
-    ring: Orthant, model: AnyModel, branch: _Branch, points: Sequence[ParameterValues]
-) -> bool:
+def _value(polynomial: fmpz_mpoly, point: Point) -> int:
+    """The value of a polynomial in the p alone."""
+    return int(polynomial.subs(dict(point)).leading_coefficient()) if polynomial else 0
+
+
+def _exists(ring: Orthant, model: AnyModel, branch: _Branch, points: Sequence[Point]) -> bool:
     """Whether a branch with free unknowns has admissible vectors for some p."""
     if ring.domain is not Domain.POSITIVE:
         return ring.domain is Domain.COMPLEX or branch.vector.equation is None
     search = Search(ring, tuple(ring.unknowns))
     solved, others = ([], [branch.case]) if branch.case.equations else sections(search, branch.case)
     parted = CaseSearch(search, tuple(solved), tuple(others), ring.lead(model))
-    return any(find_equivalent(parted, point) for point in points)
+    exact = ({i: Fraction(x) for i, x in point.items()} for point in points)
+    return any(find_equivalent(parted, point) for point in exact)
 
 
 def _as_exchanges(model: AnyModel, group: _Group, safety: int) -> OverDomains:
@@ -358,11 +377,9 @@ def _by_points(model: AnyModel, domain: Domain, group: _Group, settings: Setting
     return replace(found, sampled=tuple(sorted(numbers)))
 
 
-def _listed_at(
-    model: AnyModel, domain: Domain, point: ParameterValues, settings: Settings
-) -> int | None:
+def _listed_at(model: AnyModel, domain: Domain, point: Point, settings: Settings) -> int | None:
     """The number of vectors at a point, by a Gröbner basis; None where it is not found."""
-    values = [(name, point[i]) for i, name in enumerate(model.parameters)]
+    values = [(name, Fraction(point[i])) for i, name in enumerate(model.parameters)]
     try:
         goals = [target(entry, values) for entry in model.entries]
         equations = joint_equations(goals, model.entries)

@@ -93,15 +93,24 @@ class Counted(Protocol):
     """A finding that bounds a number of parameter vectors over a domain."""
 
     @property
-    def domain(self) -> Domain: ...
+    def domain(self) -> Domain:
+        """The admissible parameters."""
+
     @property
-    def least(self) -> int: ...
+    def least(self) -> int:
+        """A lower bound."""
+
     @property
-    def most(self) -> int | None: ...
+    def most(self) -> int | None:
+        """An upper bound, None where none is known."""
+
     @property
-    def sampled(self) -> tuple[int, ...]: ...
+    def sampled(self) -> tuple[int, ...]:
+        """The different numbers found at random values."""
+
     @property
-    def varies(self) -> bool: ...
+    def varies(self) -> bool:
+        """Whether these are proven to hold on open sets."""
 
 
 def count_in_words(found: Counted) -> str:
