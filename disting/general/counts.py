@@ -19,7 +19,7 @@ from dataclasses import replace
 from math import prod
 from typing import Any
 
-from flint import ctx, fmpz_mpoly, fmpz_poly
+from flint import ctx, fmpz, fmpz_mpoly, fmpz_poly
 
 from disting.algebra.symbols import factorise
 from disting.general.cases import cases_of
@@ -156,7 +156,8 @@ def count_roots_at(
 
 def _in_root(polynomial: fmpz_mpoly, at: int, point: Mapping[int, int]) -> fmpz_poly:
     """The polynomial in one variable that is left at a point of all others."""
-    terms = {int(e[at]): int(c) for e, c in polynomial.subs(dict(point)).to_dict().items()}
+    others: dict[str | int, int | fmpz] = {**point}
+    terms = {int(e[at]): int(c) for e, c in polynomial.subs(others).to_dict().items()}
     return fmpz_poly([terms.get(k, 0) for k in range(max(terms, default=0) + 1)])
 
 

@@ -26,16 +26,17 @@ import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import islice
 from math import prod
 
-from flint import fmpz_mpoly
+from flint import fmpz, fmpz_mpoly
 
 from disting.algebra.certainty import Certainty, about, residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.errors import InputError
 from disting.fibres.ideals.one_value import safety_of_count
 from disting.general.any_model import map_of
-from disting.general.cases import Search
+from disting.general.cases import Search, orders, search_cases
 from disting.general.counts import at_roots, count_roots_at, number_of_roots
 from disting.general.elimination import Case, inequalities
 from disting.general.fibre import Extent, solve
@@ -46,13 +47,13 @@ from disting.general.robust import CaseSearch, find_equivalent
 from disting.general.sections import sections
 from disting.general.symmetries import Permutation, exchange_of, generators_of, symmetries_of
 from disting.general.target import joint_equations, target
-from disting.general.vectors import Vector, are_same, fewest_equations, vector_of
+from disting.general.vectors import Vector, are_same, vector_of
 from disting.model.question import Domain, Question, Settings
 from disting.questions.identifiability.domains import OverDomains, Solutions
 from disting.questions.identifiability.parts import Level, Renaming
 
 CHEAP_UP_TO, TRIES = 8, 6  # parameters, and orders of the unknowns: a second or two
-POINTS = 24  # at which vectors are counted
+POINTS = 16  # at which vectors are counted
 LISTED = 2  # of them, where all vectors are listed by a Gröbner basis
 MOST_BITS = 14  # of a value at a point
 QUADRATIC = 2
@@ -138,16 +139,19 @@ def _over(
 
 
 def _solved(model: AnyModel, domain: Domain, tries: int) -> Search | None:
-    """A search all of whose cases are vectors of fractions, or of roots of one equation in one
-    unknown.
+    """The first search all of whose cases are vectors of fractions, or of roots of one equation in
+    one unknown, which no other order of the unknowns turns into fractions.
     """
     size = len(model.parameters)
-    search = fewest_equations(Orthant(size, size, domain), model, tries)
-    if search is None:
-        return None
-    equations = [case.equations for case in search.cases]
-    is_solved = all(len(e) == len(search.ring.occurring(e)) <= 1 for e in equations)
-    return search if is_solved else None
+    ring = Orthant(size, size, domain)
+    for order in islice(orders(ring.unknowns), tries):
+        try:
+            search = search_cases(ring, model, model, order)
+        except TooMuch:
+            continue
+        if all(len(c.equations) == len(ring.occurring(c.equations)) <= 1 for c in search.cases):
+            return search
+    return None
 
 
 def _by_cases(model: AnyModel, domain: Domain, group: _Group, search: Search) -> Solutions | None:
@@ -338,7 +342,9 @@ def _number_at(ring: Orthant, branch: _Branch, point: Point) -> int | None:
 
 def _value(polynomial: fmpz_mpoly, point: Point) -> int:
     """The value of a polynomial in the p alone."""
-    return int(polynomial.subs(dict(point)).leading_coefficient()) if polynomial else 0
+    at: dict[str | int, int | fmpz] = {**point}
+    value = polynomial.subs(at)
+    return int(value.leading_coefficient()) if value else 0
 
 
 def _exists(ring: Orthant, model: AnyModel, branch: _Branch, points: Sequence[Point]) -> bool:

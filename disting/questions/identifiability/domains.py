@@ -153,7 +153,8 @@ def find_over_domain(
     if domain is Domain.COMPLEX:
         return plain
     merged = _merge(found, over(solutions, domain))
-    same = (merged.levels, merged.least, merged.most) == (plain.levels, plain.least, plain.most)
+    bounds = (plain.least, plain.most) if not plain.freedom else (merged.least, merged.most)
+    same = (merged.levels, merged.least, merged.most) == (plain.levels, *bounds)
     return replace(merged, over_complex=None if same else plain)
 
 

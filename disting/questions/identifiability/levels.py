@@ -95,7 +95,7 @@ class ParameterIdentifiability:
         """
         head = plural(len(self.levels), "parameter")
         if self.level is Level.GLOBAL:
-            where = f" over {self.domain} values" if self.over_complex else ""
+            where = f" over {self.domain} values" if self._differs else ""
             return f"{head}, all globally identifiable{where}{self._beyond}."
         many = f"only {self.rank} determinable" if self.freedom else "all determinable"
         groups = {
@@ -105,11 +105,15 @@ class ParameterIdentifiability:
             "locally, perhaps globally": self.named(Level.UNKNOWN),
             "not": self.named(Level.NOT),
         }
-        over = f" over {self.domain} values" if self.freedom and self.over_complex else ""
+        over = f" over {self.domain} values" if self.freedom and self._differs else ""
         lists = [f"; {what}: {', '.join(names)}" for what, names in groups.items() if names]
         free = f"; {self.freedom} can be chosen freely" if self.freedom else self._count
         why = f" ({self.reason})" if self.reason else ""
         return f"{head}, {many}{over}{''.join(lists)}{free}{self._exchanged}{self._beyond}{why}."
+
+    @property
+    def _differs(self) -> bool:
+        return self.over_complex is not None
 
     @property
     def _count(self) -> str:
@@ -128,7 +132,7 @@ class ParameterIdentifiability:
     @property
     def _beyond(self) -> str:
         """The number over complex parameters, where it is another one."""
-        phrase = count_in_words(self.over_complex) if self.over_complex else ""
+        phrase = "" if self.over_complex is None else count_in_words(self.over_complex)
         return f"; {phrase}" if phrase and not self.freedom else ""
 
     def to_dict(self) -> dict[str, Any]:
