@@ -156,7 +156,7 @@ def count_roots_at(
 
 def _in_root(polynomial: fmpz_mpoly, at: int, point: Mapping[int, int]) -> fmpz_poly:
     """The polynomial in one variable that is left at a point of all others."""
-    others: dict[str | int, int | fmpz] = {**point}
+    others: dict[str | int, int | fmpz] = {i: x for i, x in point.items()}  # noqa: C416
     terms = {int(e[at]): int(c) for e, c in polynomial.subs(others).to_dict().items()}
     return fmpz_poly([terms.get(k, 0) for k in range(max(terms, default=0) + 1)])
 

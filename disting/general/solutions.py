@@ -342,7 +342,7 @@ def _number_at(ring: Orthant, branch: _Branch, point: Point) -> int | None:
 
 def _value(polynomial: fmpz_mpoly, point: Point) -> int:
     """The value of a polynomial in the p alone."""
-    at: dict[str | int, int | fmpz] = {**point}
+    at: dict[str | int, int | fmpz] = {i: x for i, x in point.items()}  # noqa: C416
     value = polynomial.subs(at)
     return int(value.leading_coefficient()) if value else 0
 
