@@ -16,7 +16,7 @@ from disting.general.model import Model
 from disting.general.solutions import CHEAP_UP_TO, SOLUTIONS
 from disting.model.chain import Chain
 from disting.model.question import Domain
-from disting.model.symmetry import Form, canonical
+from disting.model.symmetry import canonical
 from disting.questions.identifiability.analysis import IDENTIFIABILITY, in_names_of
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.identifiability.chain_domains import find_chain_over_domain, is_settled
@@ -38,15 +38,18 @@ def identify(
 ) -> list[Identified]:
     """Identifiability of each chain or model over a domain, in order."""
     chains = [s if isinstance(s, Chain) else as_chain(s) for s in subjects]
-    forms = {i: canonical(chain) for i, chain in enumerate(chains) if chain}
-    models = {i: without_names(s) for i, s in enumerate(subjects) if not isinstance(s, Chain)}
-    models = {i: model for i, model in models.items() if i not in forms}
+    forms = [canonical(chain).chain for chain in chains if chain]
+    models = {
+        i: without_names(s)
+        for i, s in enumerate(subjects)
+        if chains[i] is None and not isinstance(s, Chain)
+    }
     for question, asked in (
-        (IDENTIFIABILITY, [(form.chain,) for form in forms.values()]),
+        (IDENTIFIABILITY, [(form,) for form in forms]),
         (PARAMETERS, [(model,) for model in models.values()]),
     ):
         engine.answer_all(question, asked, executor=executor, progress=progress)
-    looked_for = [_asked_of_chain(form.chain, engine) for form in forms.values()]
+    looked_for = [_asked_of_chain(form, engine) for form in forms]
     looked_for += [
         model
         for model in models.values()
@@ -55,11 +58,20 @@ def identify(
     asked_models = [(model,) for model in looked_for if model is not None]
     engine.answer_all(SOLUTIONS, asked_models, executor=executor, progress=progress)
     return [
-        _of_chain(chains[i] or forms[i].chain, forms[i], domain, engine)
-        if i in forms
-        else _of_model(models[i], domain, engine)
-        for i in range(len(subjects))
+        _of_model(models[i], domain, engine)
+        if chain is None
+        else identify_chain(chain, domain, engine)
+        for i, chain in enumerate(chains)
     ]
+
+
+def identify_chain(chain: Chain, domain: Domain, engine: Engine) -> Identifiability:
+    """Identifiability of one chain over a domain."""
+    form = canonical(chain)
+    found = engine.answer(IDENTIFIABILITY, (form.chain,), engine.settings)
+    model = _asked_of_chain(form.chain, engine)
+    solutions = engine.answer(SOLUTIONS, (model,), engine.settings) if model else None
+    return in_names_of(find_chain_over_domain(found, solutions, domain), form, chain)
 
 
 def identify_measured(
@@ -100,10 +112,3 @@ def _asked_of_chain(chain: Chain, engine: Engine) -> AnyModel | None:
     if len(plain.parameters) > CHEAP_UP_TO:
         return None
     return without_names(Model.from_chain(plain))
-
-
-def _of_chain(chain: Chain, form: Form, domain: Domain, engine: Engine) -> Identifiability:
-    found = engine.answer(IDENTIFIABILITY, (form.chain,), engine.settings)
-    model = _asked_of_chain(form.chain, engine)
-    solutions = engine.answer(SOLUTIONS, (model,), engine.settings) if model else None
-    return in_names_of(find_chain_over_domain(found, solutions, domain), form, chain)
