@@ -265,7 +265,7 @@ class Format(StrEnum):
     PLAN = "disting plan 1"
     PLANS_OF_FIT = "disting plans of a fit 1"
     MODELS = "disting models 1"
-    GATE = "disting gate 1"
+    GATE = "disting gate 2"
 
     @property
     def short(self) -> str:

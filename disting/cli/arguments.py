@@ -25,6 +25,8 @@ MODEL = (
     " file.json:name, a model of your own"
 )
 
+DOMAINS = tuple(domain.value for domain in Domain)
+
 
 def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
     """Whole numbers from `low` to `high`."""
@@ -238,8 +240,7 @@ def add_deciding(parser: argparse.ArgumentParser) -> None:
         "generic parameters that the verdict is about (default: positive; complex, as in the paper,"
         " where conditions or a representation are named)"
     )
-    names = [domain.value for domain in Domain]
-    parser.add_argument("--domain", choices=names, default="", help=text)
+    parser.add_argument("--domain", choices=DOMAINS, default="", help=text)
     text = "prove by exact elimination what was computed at random points, where that ends in time"
     parser.add_argument("--prove", action="store_true", help=text)
 

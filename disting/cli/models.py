@@ -11,7 +11,15 @@ from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.network_files import recall
-from disting.cli.arguments import Listed, add_damped, add_work, is_damped, size_list_or_network
+from disting.catalogs.recalled_chains import recall_chains
+from disting.cli.arguments import (
+    DOMAINS,
+    Listed,
+    add_damped,
+    add_work,
+    is_damped,
+    size_list_or_network,
+)
 from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import Work, announce, engine_for
@@ -19,20 +27,19 @@ from disting.errors import InputError, enumeration
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.experiments.places import parse_experiment
-from disting.general.any_model import of_network, without_names
-from disting.general.identifiability import PARAMETERS
+from disting.general.any_model import of_network
 from disting.model.chain import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option
+from disting.model.question import Domain
 from disting.network.network import Network
-from disting.questions.identifiability.answer import Identifiability
 from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.questions.identifiability.parts import Level
 from disting.verdict.engine import Engine, Progress
+from disting.verdict.identifiable import Identified, identify, identify_measured
 
 NOT_ASKED = "·"
-Found = Identifiability | ParameterIdentifiability
 MOST_LISTED = 25  # masses: 140 thousand models, in seconds
 MOST_TERMS = 200  # of a transfer function that is printed
 AT_ONCE = 7  # masses; 314 models take five seconds
@@ -59,6 +66,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
     text = f"say degrees and ranks of more than {AT_ONCE} masses too, which takes a minute or more"
     parser.add_argument("--ranks", action="store_true", help=text)
+    text = "parameters over which it is said (default: positive, those of a machine)"
+    parser.add_argument("--domain", choices=DOMAINS, default=Domain.POSITIVE.value, help=text)
     add_damped(parser)
     add_work(parser)
 
@@ -71,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
         return _of_list(options.masses, options)
     if options.masses > MOST_LISTED:
         raise InputError(f"models of at most {MOST_LISTED} masses are listed")
-    family = Family(options.masses, is_damped(options))
+    family, domain = Family(options.masses, is_damped(options)), Domain(options.domain)
     also = [_one_model(text) for text in options.also]
     if also or (options.identifiability and family.n_masses not in SHIPPED_SIZES):
         work = Work.UNDER_EXPERIMENTS if also else Work.IDENTIFIABILITY
@@ -81,16 +90,20 @@ def run(options: argparse.Namespace) -> int:
         # no dependences are shown, which are dear
         plain = Engine(replace(engine.settings, subset_limit=0), engine.store)
         profiles = plain.profiles_of(family, executor=pool, progress=progress) if asked else ()
-        identifiabilities: Sequence[Found] = (
-            _under_experiments(family, also, engine, pool, progress)
-            if also
-            else _identifiabilities(family, engine, pool, progress, options.identifiability)
-        )
+        identifiabilities: Sequence[Identified] = ()
+        if also:
+            identifiabilities = _under_experiments(family, also, domain, engine, pool, progress)
+        elif options.identifiability or family.n_masses in SHIPPED_SIZES:
+            if family.n_masses in SHIPPED_SIZES:
+                recall_chains(catalog(family.n_masses, damped=family.damped), engine)
+            identifiabilities = identify(
+                list(family), domain, engine, executor=pool, progress=progress
+            )
     print("\n".join(_table(family, profiles, identifiabilities)))
     for gap in sorted({chain.gap for chain in family}):
         parameters = next(chain.parameters for chain in family if chain.gap == gap)
         print(f"parameters, gap {gap}: {' '.join(parameters)}")
-    _explain(bool(profiles), bool(identifiabilities), bool(also))
+    _explain(bool(profiles), bool(identifiabilities), bool(also), domain)
     print(LEGEND)
     for number, experiment in enumerate([Experiment(), *also], 1) if also else ():
         print(f"experiment {number}  {experiment.text}")
@@ -100,7 +113,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _explain(has_profiles: bool, has_sets: bool, several: bool) -> None:
+def _explain(has_profiles: bool, has_sets: bool, several: bool, domain: Domain) -> None:
     """What the columns mean."""
     print("force, sensor: what it acts or looks on, and against (0 the ground)")
     said = "" if has_profiles else f"; {NOT_ASKED} not asked (--ranks asks)"
@@ -110,7 +123,7 @@ def _explain(has_profiles: bool, has_sets: bool, several: bool) -> None:
         "" if has_sets else f", {NOT_ASKED} not asked (--identifiability asks)"
     )
     where = " in all experiments" if several else ""
-    print(f"sets parameter sets, real or complex, with the same behaviour{where}:\n     {said}")
+    print(f"sets {domain} parameter sets with the same behaviour{where}:\n     {said}")
 
 
 def _of_list(source: Listed, options: argparse.Namespace) -> int:
@@ -119,13 +132,13 @@ def _of_list(source: Listed, options: argparse.Namespace) -> int:
         raise InputError("--also belongs to chains: a model of a list has no masses to name")
     refuse_chain_options(options)
     models = listed_models(source)
-    asked = [(without_names(model),) for model in models]
     with engine_for(options) as (engine, pool, progress):
         if isinstance(source, str):
             recall(source, engine)
-        engine.answer_all(PARAMETERS, asked, executor=pool, progress=progress)
-        for model, question in zip(models, asked, strict=True):
-            print(f"{model.name}: {engine.answer(PARAMETERS, question, engine.settings).sentence}")
+        domain = Domain(options.domain)
+        found = identify(list(models), domain, engine, executor=pool, progress=progress)
+    for model, identified in zip(models, found, strict=True):
+        print(f"{model.name}: {identified.sentence}")
     return 0
 
 
@@ -140,16 +153,16 @@ def _of_network(network: Network, options: argparse.Namespace) -> int:
         )
     model = of_network(network)
     with engine_for(options) as (engine, _, _progress):
-        identifiability = engine.answer(PARAMETERS, (without_names(model),), engine.settings)
+        (identified,) = identify([model], Domain(options.domain), engine)
     print(f"{model.name}  {in_letters(model, MOST_TERMS, '')}")
     if network.unseen:
         print(f"what cannot be seen, as no way leads through it: {enumeration(network.unseen)}")
-    print(identifiability.sentence)
+    print(identified.sentence)
     return 0
 
 
 def _table(
-    family: Family, profiles: Sequence[Profile], identifiabilities: Sequence[Found]
+    family: Family, profiles: Sequence[Profile], identifiabilities: Sequence[Identified]
 ) -> Iterator[str]:
     """A line a model: its number, gap, ports, degrees, ranks and drawing; 80 columns hold five
     masses, drawings are not cut.
@@ -179,19 +192,6 @@ def _found(profile: Profile) -> tuple[str, str, str]:
     return f"{n}/{m}", str(len(profile.form)), str(profile.n_parameters)
 
 
-def _identifiabilities(
-    family: Family, engine: Engine, pool: Executor | None, progress: Progress, wanted: bool
-) -> Sequence[Identifiability]:
-    """From the shipped catalogue where there is one; else, as that takes a second a model,
-    where it is wanted.
-    """
-    if family.n_masses in SHIPPED_SIZES:
-        return [row.identifiability for row in catalog(family.n_masses, damped=family.damped).rows]
-    return (
-        engine.identifiabilities(list(family), executor=pool, progress=progress) if wanted else ()
-    )
-
-
 def _one_model(text: str) -> Experiment:
     """The experiment of an option that names masses of one model; raises InputError."""
     parsed = parse_experiment(text)
@@ -203,25 +203,27 @@ def _one_model(text: str) -> Experiment:
 def _under_experiments(
     family: Family,
     also: Sequence[Experiment],
+    domain: Domain,
     engine: Engine,
     pool: Executor | None,
     progress: Progress,
 ) -> list[ParameterIdentifiability]:
     """What the chains as they are and these experiments determine together."""
     experiments = tuple(dict.fromkeys([Experiment(), *also]))
-    asked = [(MeasuredChain(chain, experiments),) for chain in family]
-    engine.answer_all(IDENTIFIABLE, asked, executor=pool, progress=progress)
-    return [engine.answer(IDENTIFIABLE, measured, engine.settings) for measured in asked]
+    asked = [MeasuredChain(chain, experiments) for chain in family]
+    engine.answer_all(IDENTIFIABLE, [(m,) for m in asked], executor=pool, progress=progress)
+    return [identify_measured(measured, domain, engine) for measured in asked]
 
 
-def _sets(identifiability: Found) -> str:
-    """How many parameter sets have one behaviour."""
-    if identifiability.level is Level.NOT:
+def _sets(found: Identified) -> str:
+    """How many parameter sets have one behaviour: the numbers found at random values, where they
+    are known to depend on the values.
+    """
+    if found.level is Level.NOT:
         return "∞"
-    if identifiability.most is None:
+    if found.least == found.most:
+        return str(found.most)
+    if found.most is None:
         return "?"
-    return (
-        str(identifiability.most)
-        if identifiability.least == identifiability.most
-        else f"{identifiability.least}–{identifiability.most}"
-    )
+    low, high = (found.sampled[0], found.sampled[-1]) if found.varies else (found.least, found.most)
+    return f"{low}–{high}"

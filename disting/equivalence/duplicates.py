@@ -12,10 +12,9 @@ from disting.errors import ContradictionError, InputError, enumeration, of_type
 from disting.evidence.general import Explicit
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.general.any_model import as_model, on_one_variable, without_names
+from disting.general.any_model import as_model, on_one_variable
 from disting.general.closed_form import ClosedForm, confirm
 from disting.general.formulas import fit, of_way
-from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.synthesis import NoFormulas
@@ -27,9 +26,9 @@ from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Domain
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
-from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
+from disting.verdict.identifiable import Identified, identify
 from disting.verdict.network_placement import further_networks
 from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import AnyMenu, to_dict
@@ -94,14 +93,15 @@ class Gate(NotebookTable):
     """What is known of candidates before any of them is fitted.
 
     `groups`: names of the models that are the same, the one to be kept first; `duplicates`: the
-    others of them; `parameters`: by name of a kept model, which of its parameters are determined;
-    `next`: by name of the kept model of a group, what to measure to tell the group apart.
+    others of them; `parameters`: by name of a kept model, which of its parameters are determined
+    over the domain of the decisions; `next`: by name of the kept model of a group, what to measure
+    to tell the group apart.
     """
 
     decisions: Decisions
     groups: tuple[tuple[str, ...], ...]
     duplicates: tuple[Duplicate, ...]
-    parameters: Mapping[str, ParameterIdentifiability]
+    parameters: Mapping[str, Identified]
     next: Mapping[str, AnyMenu]
 
     def __repr__(self) -> str:
@@ -196,16 +196,13 @@ def gate(
     sizes = [len(m.parameters) for m in made]
     groups = [tuple(sorted(g, key=lambda i: (sizes[i], i))) for g in decided.classes()]
     dropped = {i for group in groups for i in group[1:]}
+    kept, domain = [m for i, m in enumerate(made) if i not in dropped], asked.view.domain
     menus = {made[g[0]].name: _menu([made[i] for i in g], engine, costs) for g in groups}
     return Gate(
         decided,
         tuple(tuple(made[i].name for i in group) for group in groups),
         tuple(duplicate(decided, matched, g[0], i) for g in groups for i in g[1:]),
-        {
-            m.name: engine.answer(PARAMETERS, (without_names(m),), engine.settings)
-            for i, m in enumerate(made)
-            if i not in dropped
-        },
+        {m.name: f for m, f in zip(kept, identify(kept, domain, engine), strict=True)},
         {name: menu for name, menu in menus.items() if menu},
     )
 

@@ -14,17 +14,17 @@ signs of the factors of resultants, or from the search for cases (see `cases`), 
 and x are unknown then.
 """
 
-from collections.abc import Iterator
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
+from math import prod
 from typing import Any
 
-from flint import ctx, fmpz_mpoly, fmpz_poly
+from flint import ctx, fmpz, fmpz_mpoly, fmpz_poly
 
 from disting.algebra.symbols import factorise
 from disting.general.cases import cases_of
 from disting.general.elimination import Case, inequalities
-from disting.general.orthant import Orthant, TooMuch, value_at
+from disting.general.orthant import Orthant, TooMuch
 from disting.model.question import Domain
 
 SIZE = 60_000  # of resultants: terms and degrees of both
@@ -115,23 +115,50 @@ def _moved(ring: Orthant, into: Orthant, polynomial: fmpz_mpoly, at: int) -> fmp
 
 def _counted(ring: Orthant, equation: fmpz_mpoly, asked: list[fmpz_mpoly], at: int) -> int | None:
     """The number at one point, every sign certified."""
-    plain, *others = (fmpz_poly(list(_at_point(ring, e, at))) for e in (equation, *asked))
-    bits = 128
+    point = {i: POINT[i % len(POINT)] for i in range(ring.n_given)}
+    return count_roots_at(ring, equation, [(g,) for g in asked], (), at, point)
+
+
+def count_roots_at(
+    ring: Orthant,
+    equation: fmpz_mpoly,
+    asked: Sequence[Sequence[fmpz_mpoly]],
+    nonzero: Sequence[fmpz_mpoly],
+    at: int,
+    point: Mapping[int, int],
+) -> int | None:
+    """How many real roots (positive ones, over positive parameters) an equation has at a point of
+    whole numbers, and near it, at which all products that are `asked` are positive; every sign
+    certified.
+
+    None at a special point: where roots are multiple or infinite, or what is asked or to be
+    `nonzero` is zero.
+    """
+    plain, *others = (_in_root(e, at, point) for e in (equation, *nonzero))
+    products = [[_in_root(g, at, point) for g in factors] for factors in asked]
+    if plain.degree() < int(equation.degrees()[at]) or plain.gcd(plain.derivative()).degree() > 0:
+        return None
+    is_positive, bits = ring.domain is Domain.POSITIVE, 128
     while bits <= BITS:
         with ctx.workprec(bits):
             isolated: list[Any] = plain.complex_roots()
             real = [root.real for root, _ in isolated if root.imag.is_zero()]
-            signs = [[_sign(x), *(_sign(g(x)) for g in others)] for x in real]
-        if all(all(row) for row in signs):
-            return sum(min(row) > 0 for row in signs)
+            signs = [[prod(_sign(g(x)) for g in factors) for factors in products] for x in real]
+            signs = [
+                [_sign(x), *row] if is_positive else row for x, row in zip(real, signs, strict=True)
+            ]
+            is_apart = all(_sign(g(x)) for g in others for x in real)
+        if is_apart and all(map(all, signs)):
+            return sum(min(row, default=1) > 0 for row in signs)
         bits *= 4
     return None
 
 
-def _at_point(ring: Orthant, polynomial: fmpz_mpoly, at: int) -> Iterator[int]:
-    """Coefficients of the powers of x at the point."""
-    point = {i: Fraction(POINT[i % len(POINT)]) for i in range(ring.n_given)}
-    return (int(value_at(c, point)) for c in ring.coefficients(polynomial, at))
+def _in_root(polynomial: fmpz_mpoly, at: int, point: Mapping[int, int]) -> fmpz_poly:
+    """The polynomial in one variable that is left at a point of all others."""
+    others: dict[str | int, int | fmpz] = {i: x for i, x in point.items()}  # noqa: C416
+    terms = {int(e[at]): int(c) for e, c in polynomial.subs(others).to_dict().items()}
+    return fmpz_poly([terms.get(k, 0) for k in range(max(terms, default=0) + 1)])
 
 
 def _sign(ball: Any) -> int:

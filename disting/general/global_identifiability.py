@@ -14,21 +14,19 @@ many independent ones as the rank are listed, the shortest first.
 """
 
 import json
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from itertools import islice
 
-from flint import fmpz_mpoly, nmod_mat
+from flint import nmod_mat
 
 from disting.algebra.certainty import Certainty, prime, residues
 from disting.algebra.symbols import RationalFunction
 from disting.general.behaviour import evaluate
-from disting.general.cases import ORDERS, Search, orders, search_cases
-from disting.general.elimination import Case
+from disting.general.cases import ORDERS
 from disting.general.expression import text_of
 from disting.general.identifiability import LocalIdentifiability, local_identifiability
 from disting.general.matrix_model import AnyModel
-from disting.general.orthant import Orthant, TooMuch
+from disting.general.orthant import Orthant
+from disting.general.vectors import count_vectors, fewest_equations, is_unique, vectors_of
 from disting.model.presentation import NotebookTable, summary
 from disting.model.question import Domain, Question, Settings
 
@@ -93,13 +91,13 @@ def global_identifiability(
     """
     local = local_identifiability(model, settings)
     ring = Orthant(len(model.parameters), len(model.parameters), Domain.COMPLEX)
-    search = _best(ring, model, tries)
-    vectors = _vectors(ring, model, search.cases) if search else []
-    count, infinite = _counted(ring, search.cases if search else (), vectors)
+    search = fewest_equations(ring, model, tries)
+    vectors = vectors_of(ring, model, search.cases) if search else []
+    count, infinite = count_vectors(ring, search.cases if search else (), vectors)
     unique = tuple(
         name
         for i, name in enumerate(model.parameters)
-        if vectors and _is_unique(ring, vectors, i, search)
+        if vectors and is_unique(ring, vectors, i, search)
     )
     return GlobalIdentifiability(
         local=local,
@@ -140,100 +138,6 @@ def _cheaply(model: AnyModel, settings: Settings) -> GlobalIdentifiability:
 
 
 IDENTIFIABILITY = Question("identifiability of general models", _cheaply, _encoded, _decoded)
-
-
-@dataclass(frozen=True, slots=True)
-class _Vector:
-    """Values of all unknowns, None for those that are free; the equation of a root among them,
-    and its position.
-    """
-
-    values: tuple[RationalFunction | None, ...]
-    equation: fmpz_mpoly | None
-    at: int
-
-
-def _best(ring: Orthant, model: AnyModel, tries: int) -> Search | None:
-    """The search with the fewest equations left."""
-    searches: list[Search] = []
-    for order in islice(orders(ring.unknowns), tries):
-        try:
-            searches.append(search_cases(ring, model, model, order))
-        except TooMuch:
-            continue
-        if not any(case.equations for case in searches[-1].cases):
-            break
-    return min(
-        searches, key=lambda s: sum(len(ring.occurring(c.equations)) for c in s.cases), default=None
-    )
-
-
-def _vectors(ring: Orthant, model: AnyModel, cases: Sequence[Case]) -> list[_Vector]:
-    """Those of all cases; none where they grow too large to be written down."""
-    try:
-        return [v for case in cases if (v := _vector(ring, model, case))]
-    except TooMuch:
-        return []
-
-
-def _vector(ring: Orthant, model: AnyModel, case: Case) -> _Vector | None:
-    """The vector of a case, None if the leading coefficient or a denominator vanishes there."""
-    solved = dict(case.solved)
-    equation = case.equations[0] if case.equations else None
-    lead = ring.lead(model)
-    for i, value in case.solved:
-        lead = ring.put(lead, i, value.num, value.den)[0]
-    for polynomial in (lead, *(v.den for v in solved.values())):
-        if polynomial.is_zero() or (equation is not None and (polynomial % equation).is_zero()):
-            return None
-    left = ring.occurring(case.equations)
-    return _Vector(tuple(solved.get(i) for i in ring.unknowns), equation, left[0] if left else -1)
-
-
-def _counted(
-    ring: Orthant, cases: Sequence[Case], vectors: Sequence[_Vector]
-) -> tuple[int | None, bool]:
-    """Number of vectors, and whether there are infinitely many."""
-    missing = [sum(v is None for v in x.values) for x in vectors]
-    equations = [len(c.equations) for c in cases]
-    if any(
-        m > (x.equation is not None) and max(equations) <= 1
-        for m, x in zip(missing, vectors, strict=True)
-    ):
-        return None, True
-    if not vectors or max(equations) > 1 or len({x.at for x in vectors if x.at >= 0}) > 1:
-        return None, False
-    if any(len(ring.occurring([x.equation])) > 1 for x in vectors if x.equation is not None):
-        return None, False
-    different = [x for i, x in enumerate(vectors) if not any(_same(x, y) for y in vectors[:i])]
-    return (
-        sum(1 if x.equation is None else int(x.equation.degrees()[x.at]) for x in different),
-        False,
-    )
-
-
-def _same(first: _Vector, second: _Vector) -> bool:
-    """Whether two cases have the same vectors: one equation, but for its sign, and values that are
-    equal at all its roots.
-
-    The equation h is irreducible, so what vanishes at one of its roots is divisible by it and
-    vanishes at all of them.
-    """
-    h, k = first.equation, second.equation
-    if h is None or k is None:
-        return h is None and k is None and first.values == second.values
-    if h not in (k, -k):
-        return False
-    pairs = [(v, w) for v, w in zip(first.values, second.values, strict=True) if v and w]
-    return all(((v.num * w.den - w.num * v.den) % h).is_zero() for v, w in pairs)
-
-
-def _is_unique(ring: Orthant, vectors: Sequence[_Vector], at: int, search: Search | None) -> bool:
-    """Whether an unknown is p in all cases; all of them are looked at, so cases that were left
-    out make it no less true.
-    """
-    p = RationalFunction(ring.generators[at], ring.number(1))
-    return search is not None and all(x.values[at] == p for x in vectors)
 
 
 def _combinations(

@@ -18,12 +18,16 @@ from disting.general.model_files import ModelList
 from disting.general.model_side import ComparedModel
 from disting.general.special_values import SpecialValues, special_values
 from disting.model.presentation import plural
+from disting.model.question import Domain
 from disting.network.notation import network_of, notations_of
+from disting.questions.identifiability.parts import Level
 from disting.report.domains import VIEWS, Over, over
 from disting.report.network_drawing import draw_network, scene_of
 from disting.report.page_drawing import Drawing
+from disting.report.words import sets_in_words
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.identifiable import Identified, identify
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
 
@@ -35,6 +39,7 @@ class JudgedList:
     family: tuple[AnyModel, ...]
     decisions: Mapping[View, Decisions]
     identifiabilities: tuple[GlobalIdentifiability, ...]
+    over_positive: tuple[Identified, ...]
     conditions: Mapping[tuple[int, int], Reach]
 
     def relation(self, left: int, right: int, view: View) -> Relation:
@@ -103,7 +108,8 @@ class NamedDrawing(Drawing):
 @dataclass(frozen=True, slots=True)
 class Card:
     """What pages say of a model: how it is called, its drawing where it has one, what it
-    determines, and in each of VIEWS the number of its group, or 0.
+    determines over complex and over positive parameters, and in each of VIEWS the number of its
+    group, or 0.
     """
 
     number: int
@@ -111,6 +117,7 @@ class Card:
     model: AnyModel
     drawing: NamedDrawing | None
     known: GlobalIdentifiability
+    over_positive: Identified
     groups: tuple[int, ...]
 
     @property
@@ -120,10 +127,14 @@ class Card:
 
     @property
     def sets(self) -> str:
-        """How many parameter vectors have one behaviour."""
-        if self.known.is_infinite or self.known.local.rank < len(self.model.parameters):
-            return "infinitely many"
-        return str(self.known.count or "not known")
+        """How many positive parameter vectors have one behaviour."""
+        return sets_in_words(self.over_positive)
+
+    @property
+    def is_same_over_complex(self) -> bool:
+        """Whether all parameters have one value, over complex parameters as well."""
+        found = self.over_positive
+        return found.level is Level.GLOBAL and found.over_complex is None
 
     @property
     def degrees(self) -> str:
@@ -182,6 +193,7 @@ class Listing:
             model=model,
             drawing=NamedDrawing(number, scene, label) if scene else None,
             known=self.found.identifiabilities[number - 1],
+            over_positive=self.found.over_positive[number - 1],
             groups=groups,
         )
 
@@ -206,8 +218,13 @@ def judge(
     global_identifiabilities = tuple(
         engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked
     )
+    over_positive = identify(
+        [s.subject for s in subjects], Domain.POSITIVE, engine, executor=executor, progress=progress
+    )
     conditions = _conditions(subjects, decided[View.POSITIVE], engine, executor, progress)
-    return JudgedList(the_models.models, decided, global_identifiabilities, conditions)
+    return JudgedList(
+        the_models.models, decided, global_identifiabilities, tuple(over_positive), conditions
+    )
 
 
 def _conditions(

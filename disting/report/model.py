@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from functools import cache
 
 from disting.catalogs import Catalog, ModelRow
+from disting.catalogs.recalled_chains import over_positive
 from disting.conditions.inclusion import Inclusion
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain
-from disting.questions.identifiability.parts import Level
+from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import draw
 from disting.report.environment import render
 from disting.report.experiment_drawing import additions
@@ -27,7 +28,7 @@ from disting.report.formulas import (
 )
 from disting.report.next_steps import advice, drawings_of, found_for, page_of
 from disting.report.page_drawing import Drawing, share
-from disting.report.words import plural, rule_in_words, short_title
+from disting.report.words import plural, rule_in_words, sets_in_words, short_title
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -41,17 +42,13 @@ class Model:
 
     @property
     def sets(self) -> str:
-        """How many parameter vectors have one behaviour."""
-        identifiability = self.row.identifiability
-        if identifiability.level is Level.NOT:
-            return "infinitely many"
-        if identifiability.most is None:
-            return "not known"
-        return (
-            str(identifiability.most)
-            if identifiability.least == identifiability.most
-            else f"{identifiability.least} to {identifiability.most}"
-        )
+        """How many positive parameter vectors have one behaviour."""
+        return sets_in_words(self.known)
+
+    @property
+    def known(self) -> Identifiability:
+        """What is determined over positive parameters."""
+        return over_positive(self.row)
 
     @property
     def ports(self) -> tuple[str, str]:
@@ -112,20 +109,22 @@ def _drawing(number: int, chain: Chain) -> Drawing:
 def folder_of(catalog: Catalog) -> str:
     """Where the pages of a catalogue's models are, as seen from the catalogue's page.
 
-    >>> from disting.catalogs import catalog
-    >>> folder_of(catalog(3, damped=True))
-    'models/3-damped'
+        >>> from disting.catalogs.recalled_chains import over_positive
+    from disting.catalogs import catalog
+        >>> folder_of(catalog(3, damped=True))
+        'models/3-damped'
     """
     return f"models/{catalog.name.removeprefix('chains-')}"
 
 
 def motion_of(catalog: Catalog) -> str:
     """Name of the page where a catalogue's models move, as seen from the catalogue's page; none
-    of a catalogue of one model.
+        of a catalogue of one model.
 
-    >>> from disting.catalogs import catalog
-    >>> motion_of(catalog(3, damped=True)), motion_of(catalog(1, damped=False))
-    ('motion-3-damped.html', '')
+        >>> from disting.catalogs.recalled_chains import over_positive
+    from disting.catalogs import catalog
+        >>> motion_of(catalog(3, damped=True)), motion_of(catalog(1, damped=False))
+        ('motion-3-damped.html', '')
     """
     if len(catalog.family) < 2:
         return ""
@@ -134,11 +133,12 @@ def motion_of(catalog: Catalog) -> str:
 
 def model_page(catalog: Catalog, number: int) -> str:
     """HTML of one model; beside it the style sheet of `write_report` is expected. Raises InputError
-    for a number that is no model's.
+        for a number that is no model's.
 
-    >>> from disting.catalogs import catalog
-    >>> "Model A2" in model_page(catalog(2, damped=True), 2)
-    True
+        >>> from disting.catalogs.recalled_chains import over_positive
+    from disting.catalogs import catalog
+        >>> "Model A2" in model_page(catalog(2, damped=True), 2)
+        True
     """
     model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
     seen = {other: relation_from(number, other, v) for other, v in verdicts.items()}

@@ -10,6 +10,8 @@ from disting.catalogs import Catalog, ModelRow
 from disting.conditions.rule import RULES
 from disting.model.presentation import plural as plural
 from disting.model.question import Domain
+from disting.questions.identifiability.parts import Level
+from disting.verdict.identifiable import Identified
 from disting.verdict.meaning import undetermined_sentence
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
@@ -139,3 +141,15 @@ def raise_exponents(text: str) -> str:
     """
     up = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
     return re.sub(r"\b2\^(-\d+)", lambda match: f"2{match[1].translate(up)}", text)
+
+
+def sets_in_words(found: Identified) -> str:
+    """How many parameter vectors over the domain have one behaviour: the numbers found at random
+    values, where they are known to depend on the values.
+    """
+    if found.level is Level.NOT:
+        return "infinitely many"
+    if found.most is None:
+        return "not known"
+    low, high = (found.sampled[0], found.sampled[-1]) if found.varies else (found.least, found.most)
+    return str(low) if low == high else f"{low} {'or' if high == low + 1 else 'to'} {high}"

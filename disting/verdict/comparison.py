@@ -18,17 +18,15 @@ from disting.algebra.determinants import OutOfTimeError
 from disting.behaviour.expansion import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
 from disting.conditions.side import AnySide
-from disting.errors import InputError, of_type
+from disting.errors import InputError, of_type, short
 from disting.evidence.conditions import Ranks
 from disting.experiments.experiment import Experiment, MeasuredChain
-from disting.experiments.identifiable import IDENTIFIABLE
-from disting.general.any_model import without_names
-from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model
 from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import read_together
+from disting.model.question import Domain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.answer import Identifiability
@@ -37,6 +35,7 @@ from disting.verdict.cascade import steps
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
+from disting.verdict.identifiable import identify, identify_measured
 from disting.verdict.query import Query
 from disting.verdict.result import Step, Verdict
 from disting.verdict.sides import (
@@ -216,17 +215,21 @@ def identifiability(
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
     experiments: Sequence[Experiment] = (),
+    domain: Domain | str = Domain.POSITIVE,
     engine: Engine | None = None,
 ) -> Identifiability | ParameterIdentifiability:
-    """What is determined of a chain or a general model: each parameter globally, locally or not at
-    all (`levels`), the number of determinable ones (`rank`) and the dimension of a generic fibre
-    (`freedom`).
+    """What is determined of a chain or a general model over a domain of parameters: each parameter
+    globally, up to exchanges, locally or not at all (`levels`), the number of determinable ones
+    (`rank`), the dimension of a generic fibre (`freedom`), and bounds of the number of parameter
+    vectors that fit (`least`, `most`).
 
+    `domain`: "complex", "real" or "positive" parameters, the last ones being those of a machine.
     `experiments`: all ways in which the chain is measured, with one parameter vector for all;
     `Experiment()` is that of the chain as it is. Without them more is told of the chain as it is:
     which combinations are determined, and all parameter vectors at a random point. A chain can be
-    named, such as "3:1+b2": `damped` and `sensor` say then how it is meant. `engine` brings
-    settings and a store. Raises InputError.
+    named, such as "3:1+b2": `damped` and `sensor` say then how it is meant; a network that is a
+    chain in the chain's own parameters is that chain. `engine` brings settings and a store. Raises
+    InputError.
 
     >>> from disting import Experiment, Family
     >>> a = Family(3, damped=True)
@@ -236,13 +239,15 @@ def identifiability(
     'not identifiable'
     >>> identifiability(a[3], experiments=[Experiment(), Experiment(sensor=2)]).sentence
     '7 parameters, all globally identifiable.'
+    >>> identifiability("R0-p(L1,R2)-p(R1,C1)").most, identifiability("R0-p(R1,C1)").level.value
+    (1, 'global')
     """
-    engine = engine or Engine()
+    engine, over = engine or Engine(), as_domain(domain)
     model = model_of(model, Sensor.ACCELERATION if sensor is None else as_sensor(sensor))
     if isinstance(model, Model | MatrixModel):
         if experiments:
             raise InputError(NOT_CHAINS)
-        return engine.answer(PARAMETERS, (without_names(model),), engine.settings)
+        return identify([model], over, engine)[0]
     if isinstance(model, str):
         (model,) = read_together([model], damped=damped, sensor=sensor)
     if not isinstance(model, Chain):
@@ -250,9 +255,18 @@ def identifiability(
             "identifiability is asked of a chain, such as Family(3)[4], a Model or a Network"
         )
     if not experiments:
-        return engine.identifiabilities([model])[0]
+        return identify([model], over, engine)[0]
     wrong = [e for e in experiments if not isinstance(e, Experiment)]
     if wrong:
         raise InputError("of one chain each experiment is one, such as Experiment(sensor=2)")
     measured = MeasuredChain(model, tuple(dict.fromkeys(experiments)))
-    return engine.answer(IDENTIFIABLE, (measured,), engine.settings)
+    return identify_measured(measured, over, engine)
+
+
+def as_domain(domain: Domain | str) -> Domain:
+    """The domain of this name; raises InputError for another one."""
+    try:
+        return Domain(domain)
+    except ValueError:
+        names = ", ".join(d.value for d in Domain)
+        raise InputError(f"domain is one of {names}, not {short(domain)}") from None

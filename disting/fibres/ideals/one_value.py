@@ -34,9 +34,10 @@ is not zero vanishes by accident. G divides the relation of the l_i, l_0 + u q_j
 other q; D is a derivative of it, which multiplies its coefficients by its degree at most.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, log2
+from operator import ge
 from time import process_time
 
 from disting.algebra.certainty import LEAST_SAFETY, about
@@ -93,6 +94,56 @@ def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Value
         return ValueCounts(reason=str(why))
     unique, several = (tuple(n for n in wanted if single[n] is kind) for kind in (True, False))
     return ValueCounts(unique, several, each * runs - ceil(log2(len(wanted) + 1)))
+
+
+def safety_of_count(model: PolynomialMap, known: int, *, seed: str) -> int:
+    """Bits of error probability of "a generic fibre has no other points than these", where so many
+    are `known` as images of one of them under renamings; 0 where that is not shown.
+
+    The algebra of the fibre over a random point has the dimension `known`. Another component X of
+    all pairs of one response would have a point above it, other than all that are known: for each
+    of these a difference h of two coordinates is not zero on X, and EMPTY, above, bounds the
+    probability that h has no inverse there.
+
+    >>> from disting.fibres.ideals.system import coefficient_map
+    >>> from disting.model.chain import Chain
+    >>> chain = Chain(3, act_plus=2, meas_plus=2, damped=False)
+    >>> safety_of_count(coefficient_map(chain.structure), 2, seed="doc") > 100
+    True
+    """
+    each = safety_of_one_value(model) - ceil(log2(known + 1))
+    if each < LEAST:
+        return 0
+    runs = ceil(LIMITS.safety / each)
+    deadline = process_time() + LIMITS.seconds
+    label = about(f"count:{seed}", model.content)
+    for run in range(runs):
+        ideal = fibre_ideal(model, model, f"{label}:{run}", equal_rank=True)
+        if ideal.fixed:
+            return 0
+        try:
+            basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, deadline)
+        except GivenUp:
+            return 0
+        leads = [basis.order.decode(row.codes[0]) for row in basis.rows]
+        if _dimension(leads, len(ideal.unknowns), known) != known:
+            return 0
+    return each * runs
+
+
+def _dimension(leads: Sequence[tuple[int, ...]], size: int, most: int) -> int:
+    """Number of monomials that no leading one divides, as far as it is at most `most`."""
+    start = (0,) * size
+    seen, waiting = {start}, [start]
+    while waiting and len(seen) <= most:
+        here = waiting.pop()
+        for i in range(size):
+            there = tuple(e + (i == j) for j, e in enumerate(here))
+            divided = any(all(map(ge, there, lead)) for lead in leads)
+            if there not in seen and not divided:
+                seen.add(there)
+                waiting.append(there)
+    return len(seen)
 
 
 def _at_point(

@@ -169,7 +169,7 @@ def rename(answer: Identifiability, names: Mapping[str, str], chain: Chain) -> I
     """`names` leads from the canonical parameters to those of `chain`, whose order is kept
     everywhere.
     """
-    place = {name: i for i, name in enumerate(chain.parameters)}
+    place, whole = {name: i for i, name in enumerate(chain.parameters)}, answer.over_complex
     order = [monomial(**{name: 1}) for name in chain.parameters]
     singles = sorted(
         (_combination(c, names, place) for c in answer.singles),
@@ -181,6 +181,8 @@ def rename(answer: Identifiability, names: Mapping[str, str], chain: Chain) -> I
         singles=tuple(singles),
         basis=tuple(_combination(c, names, place) for c in answer.basis),
         renamings=tuple(_renaming(r, names, place) for r in answer.renamings),
+        exchanges=tuple(_renaming(r, names, place) for r in answer.exchanges),
+        over_complex=None if whole is None else rename(whole, names, chain),
         point=tuple(
             sorted(((names[n], v) for n, v in answer.point), key=lambda pair: place[pair[0]])
         ),

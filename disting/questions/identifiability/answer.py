@@ -10,7 +10,12 @@ from typing import Any
 
 from disting.algebra.certainty import Certainty, Grade
 from disting.model.presentation import NotebookTable, plural, summary
-from disting.model.question import Answer
+from disting.model.question import Answer, Domain
+from disting.questions.identifiability.domains import (
+    count_in_words,
+    fields_over_domain,
+    plain_over_domain,
+)
 from disting.questions.identifiability.parts import (
     Alternative,
     Combination,
@@ -39,11 +44,13 @@ NUMBERS = (
 
 @dataclass(frozen=True, slots=True)
 class Identifiability(NotebookTable):
-    """Identifiability of one chain.
+    """Identifiability of one chain over a `domain` of parameters.
 
     `rank`: number of determinable parameters, with its grade. `least` and `most`: bounds of the
-    number of complex parameter vectors with one generic behaviour (`most` None: infinite or not
-    known). `count_grade`: grade of "at most `most`", and of "exactly" where both agree.
+    number of parameter vectors of the domain with one generic behaviour (`most` None: infinite or
+    not known), `sampled`, `varies`, `exchanges` and `over_complex` as of a
+    `ParameterIdentifiability`. `count_grade`: grade of "at most `most`", and of "exactly" where
+    both agree.
     `alternatives`: those listed at the random point `point` (name, fraction), the point itself
     first. `singles`: the locally identifiable parameters. `basis`: `rank` independent locally
     identifiable combinations, the most readable found. That both are identifiable, and that no
@@ -72,6 +79,11 @@ class Identifiability(NotebookTable):
     self_dual: bool
     point: tuple[tuple[str, str], ...]
     reason: str = ""
+    domain: Domain = Domain.COMPLEX
+    sampled: tuple[int, ...] = ()
+    varies: bool = False
+    exchanges: tuple[Renaming, ...] = ()
+    over_complex: "Identifiability | None" = None
 
     def __post_init__(self) -> None:
         if self.most is not None and self.least > self.most:
@@ -97,8 +109,11 @@ class Identifiability(NotebookTable):
 
     @property
     def levels(self) -> dict[str, Level]:
-        """By parameter: GLOBAL, LOCAL, NOT, or UNKNOWN where it is local and maybe more."""
-        of = {Answer.YES: Level.GLOBAL, Answer.NO: Level.LOCAL, Answer.UNKNOWN: Level.UNKNOWN}
+        """By parameter: GLOBAL, EXCHANGES, LOCAL, NOT, or UNKNOWN where it is local and maybe
+        more.
+        """
+        several = Level.EXCHANGES if self.level is Level.EXCHANGES else Level.LOCAL
+        of = {Answer.YES: Level.GLOBAL, Answer.NO: several, Answer.UNKNOWN: Level.UNKNOWN}
         singles = {c.text: of[c.unique] for c in self.singles}
         return {name: singles.get(name, Level.NOT) for name in self.parameters}
 
@@ -118,8 +133,8 @@ class Identifiability(NotebookTable):
         return sum(a.positive is Answer.YES for a in self.alternatives)
 
     def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON."""
-        return asdict(self)
+        """Plain data, ready for JSON; what is said of domains is left out where nothing is."""
+        return plain_over_domain(asdict(self))
 
     @staticmethod
     def from_dict(data: dict[str, Any]) -> "Identifiability":
@@ -157,6 +172,8 @@ def _listed(basis: tuple[Combination, ...]) -> str:
 
 
 def _rest(answer: Identifiability) -> str:
+    if answer.over_complex is not None:
+        return f"{_over_domain(answer)}; {_over_complex(answer.over_complex)}"
     if answer.level is Level.GLOBAL:
         return "no other non-zero parameters, real or complex, give the same behaviour"
     if answer.level is Level.UNKNOWN:
@@ -164,7 +181,22 @@ def _rest(answer: Identifiability) -> str:
             "finitely many parameter vectors give the same behaviour, how many is not known"
             f" ({answer.reason})"
         )
+    if answer.level is Level.EXCHANGES:
+        texts = " and ".join(r.text for r in answer.exchanges)
+        many = f"{_number(answer.least)} {answer.domain} parameter vectors"
+        return f"{many} give the same behaviour: unique up to exchanging {texts}"
     return f"{_count(answer)} give the same behaviour{_known(answer)}{_point(answer)}"
+
+
+def _over_domain(answer: Identifiability) -> str:
+    """The number over a domain in which it is another one than over complex parameters."""
+    if answer.level is Level.GLOBAL:
+        return f"no other {answer.domain} parameters give the same behaviour"
+    return count_in_words(answer) + _known(answer)
+
+
+def _over_complex(answer: Identifiability) -> str:
+    return count_in_words(answer) or "how many sets of complex values fit is not known"
 
 
 def _count(answer: Identifiability) -> str:
@@ -173,11 +205,9 @@ def _count(answer: Identifiability) -> str:
         return f"at least {_number(answer.least)} positive parameter vectors"
     if answer.most > answer.least:
         return f"{_number(answer.most)} parameter vectors (not all proven to exist)"
-    kind = (
-        "positive"
-        if all(a.certainty is Certainty.THEOREM for a in answer.alternatives)
-        else "complex"
-    )
+    by_theorem = all(a.certainty is Certainty.THEOREM for a in answer.alternatives)
+    is_positive = by_theorem or answer.domain is Domain.POSITIVE
+    kind = "positive" if is_positive else answer.domain.value
     return f"{_number(answer.most)} {kind} parameter vectors"
 
 
@@ -201,7 +231,8 @@ def decode(data: dict[str, Any]) -> dict[str, Any]:
     """Fields of an Identifiability; lists become tuples. Raises KeyError, TypeError or
     ValueError for what is none.
     """
-    return data | {name: _READ[name](data[name]) for name in _READ}
+    domains = fields_over_domain(data, Identifiability.from_dict)
+    return data | {name: _READ[name](data[name]) for name in _READ} | domains
 
 
 def _each(

@@ -1,5 +1,5 @@
-"""Identifiability of each single parameter of any model that is a coefficient map: globally,
-locally or not at all.
+"""Identifiability of each single parameter of any model that is a coefficient map: globally, up to
+exchanges, locally or not at all; over a domain of parameters (see `domains`).
 
 Parameter j is locally identifiable exactly if the unit vector e_j lies in the row space of the
 Jacobian at a generic point, that is if the Jacobian without column j has a smaller rank. Whether it
@@ -18,19 +18,30 @@ from disting.behaviour.sample import Representation, Sample, samples
 from disting.fibres.ideals import PolynomialMap, one_value
 from disting.model.presentation import plural, summary
 from disting.model.protocol import Model
-from disting.model.question import Settings
-from disting.questions.identifiability.parts import Level
+from disting.model.question import Domain, Settings
+from disting.questions.identifiability.domains import (
+    count_in_words,
+    fields_over_domain,
+    plain_over_domain,
+)
+from disting.questions.identifiability.parts import Level, Renaming
 
 
 @dataclass(frozen=True, slots=True)
 class ParameterIdentifiability:
-    """Identifiability of each parameter over non-zero complex parameters, for generic values.
+    """Identifiability of each parameter over a `domain` of parameters without zeros, for generic
+    values.
 
-    `levels` by parameter: GLOBAL: one value fits; LOCAL: several, finitely many;
-    NOT: infinitely many; UNKNOWN: finitely many, whether more than one is not known (`reason` says
+    `levels` by parameter: GLOBAL: one value fits; EXCHANGES: those of the parameters that
+    exchanges put in its place; LOCAL: several, finitely many, for some values at least; NOT:
+    infinitely many; UNKNOWN: finitely many, whether more than one is not known (`reason` says
     why). `rank`: number of determinable parameters. `least` and `most`: bounds of the number of
-    parameter vectors with one generic behaviour (`most` None: infinite or not known). All of it is
-    wrong with a probability of at most 2**-safety where the certainty is BOUNDED.
+    parameter vectors with one generic behaviour (`most` None: infinite or not known). `sampled`:
+    the different numbers found at random values of the domain; `varies`: whether the number is
+    proven to depend on the values. `exchanges`: renamings of parameters that keep the response and
+    generate all that are known. `over_complex`: the finding over complex parameters, where it is
+    another one. All of it is wrong with a probability of at most 2**-safety where the certainty is
+    BOUNDED.
 
     >>> from disting import identifiability
     >>> found = identifiability("1<>2, 1>0; in 1; out 1")  # a network
@@ -45,6 +56,11 @@ class ParameterIdentifiability:
     certainty: Certainty
     safety: int
     reason: str = ""
+    domain: Domain = Domain.COMPLEX
+    sampled: tuple[int, ...] = ()
+    varies: bool = False
+    exchanges: tuple[Renaming, ...] = ()
+    over_complex: "ParameterIdentifiability | None" = None
 
     def __repr__(self) -> str:
         return summary(self, self.sentence)
@@ -57,7 +73,7 @@ class ParameterIdentifiability:
     @property
     def level(self) -> Level:
         """Of all parameters together, as of a whole model."""
-        order = (Level.NOT, Level.UNKNOWN, Level.LOCAL, Level.GLOBAL)
+        order = (Level.NOT, Level.UNKNOWN, Level.LOCAL, Level.EXCHANGES, Level.GLOBAL)
         return next((level for level in order if self.named(level)), Level.GLOBAL)
 
     @property
@@ -75,41 +91,61 @@ class ParameterIdentifiability:
 
         >>> levels = {"a": Level.LOCAL, "b": Level.LOCAL, "c": Level.GLOBAL}
         >>> ParameterIdentifiability(levels, 3, 2, 2, Certainty.BOUNDED, 100).sentence
-        '3 parameters, all determinable; globally: c; locally: a, b; 2 sets of them fit.'
+        '3 parameters, all determinable; globally: c; locally: a, b; 2 sets of complex values fit.'
         """
-        n = len(self.levels)
-        head = plural(n, "parameter")
+        head = plural(len(self.levels), "parameter")
         if self.level is Level.GLOBAL:
-            return f"{head}, all globally identifiable."
-        free = f"; {self.freedom} can be chosen freely" if self.freedom else self._count
+            where = f" over {self.domain} values" if self._differs else ""
+            return f"{head}, all globally identifiable{where}{self._beyond}."
         many = f"only {self.rank} determinable" if self.freedom else "all determinable"
         groups = {
             "globally": self.named(Level.GLOBAL),
+            "up to exchange": self.named(Level.EXCHANGES),
             "locally": self.named(Level.LOCAL),
             "locally, perhaps globally": self.named(Level.UNKNOWN),
             "not": self.named(Level.NOT),
         }
+        over = f" over {self.domain} values" if self.freedom and self._differs else ""
         lists = [f"; {what}: {', '.join(names)}" for what, names in groups.items() if names]
+        free = f"; {self.freedom} can be chosen freely" if self.freedom else self._count
         why = f" ({self.reason})" if self.reason else ""
-        return f"{head}, {many}{''.join(lists)}{free}{why}."
+        return f"{head}, {many}{over}{''.join(lists)}{free}{self._exchanged}{self._beyond}{why}."
+
+    @property
+    def _differs(self) -> bool:
+        return self.over_complex is not None
 
     @property
     def _count(self) -> str:
-        if self.most is None:
-            return f"; at least {self.least} sets of them fit" if self.least > 1 else ""
-        between = "" if self.least == self.most else f"{self.least} to "
-        return f"; {between}{self.most} sets of them fit"
+        phrase = count_in_words(self)
+        return f"; {phrase}" if phrase else ""
+
+    @property
+    def _exchanged(self) -> str:
+        texts = " and ".join(renaming.text for renaming in self.exchanges)
+        if not texts:
+            return ""
+        if self.level is Level.EXCHANGES:
+            return f": unique up to exchanging {texts}"
+        return f"; exchanging {texts} changes nothing"
+
+    @property
+    def _beyond(self) -> str:
+        """The number over complex parameters, where it is another one."""
+        phrase = "" if self.over_complex is None else count_in_words(self.over_complex)
+        return f"; {phrase}" if phrase and not self.freedom else ""
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data, ready for JSON."""
-        return asdict(self)
+        """Plain data, ready for JSON; what is said of domains is left out where nothing is."""
+        return plain_over_domain(asdict(self))
 
     @staticmethod
     def from_dict(data: dict[str, Any]) -> "ParameterIdentifiability":
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
         levels = {name: Level(level) for name, level in data["levels"].items()}
         grade = {"certainty": Certainty(data["certainty"]), "levels": levels}
-        return ParameterIdentifiability(**(data | grade))
+        read = fields_over_domain(data, ParameterIdentifiability.from_dict)
+        return ParameterIdentifiability(**(data | grade | read))
 
     def __bool__(self) -> bool:
         raise TypeError("identifiability is not true or false; look at its levels")

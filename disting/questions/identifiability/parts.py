@@ -16,6 +16,7 @@ from disting.model.question import Answer
 
 Exponents = tuple[tuple[str, int], ...]
 """Parameter names with non-zero exponents, in the chain's order."""
+PAIR = 2  # names of an exchange
 MOST_TERMS = 6  # of a coefficient that is written out; longer ones are named
 
 
@@ -94,10 +95,12 @@ def _power(at: Mapping[str, Scalar], exponents: Exponents) -> Scalar:
 
 
 class Level(StrEnum):
-    """Structural identifiability over non-zero complex parameters, for generic values.
+    """Structural identifiability over a domain of parameters without zeros, for generic values.
 
-    GLOBAL: one parameter vector has this behaviour. LOCAL: several, but finitely many. NOT:
-    infinitely many. UNKNOWN: finitely many; whether more than one is not known.
+    GLOBAL: one parameter vector has this behaviour. EXCHANGES: several, each an exchange of
+    parameters of the others that keeps the response. LOCAL: several, but finitely many, for some
+    values at least. NOT: infinitely many. UNKNOWN: finitely many; whether more than one is not
+    known.
 
     >>> from disting import identifiability
     >>> identifiability("2:1").level is Level.GLOBAL
@@ -105,6 +108,7 @@ class Level(StrEnum):
     """
 
     GLOBAL = "global"
+    EXCHANGES = "up to exchanges"
     LOCAL = "local"
     NOT = "not identifiable"
     UNKNOWN = "unknown"
@@ -142,7 +146,7 @@ class Alternative:
 @dataclass(frozen=True, slots=True)
 class Renaming:
     """A symmetry of the structure onto itself: after these exchanges (old, new) the behaviour
-    is the same. A theorem.
+    is the same. A theorem, or an exact identity.
     """
 
     moved: tuple[tuple[str, str], ...]
@@ -150,9 +154,30 @@ class Renaming:
 
     @property
     def text(self) -> str:
-        """The exchanges: m1 <-> m3."""
-        pairs = {tuple(sorted(pair)) for pair in self.moved}
-        return ", ".join(f"{a} ↔ {b}" for a, b in sorted(pairs))
+        """The exchanges, a cycle of three and more from name to name.
+
+        >>> Renaming((("m1", "m3"), ("m3", "m1")), ()).text
+        'm1 ↔ m3'
+        >>> Renaming((("a", "b"), ("b", "c"), ("c", "a")), ()).text
+        'a → b → c → a'
+        """
+        return ", ".join(_cycle_text(cycle) for cycle in self.cycles)
+
+    @property
+    def cycles(self) -> tuple[tuple[str, ...], ...]:
+        """The names that take each other's places, in order."""
+        to, cycles = dict(self.moved), list[tuple[str, ...]]()
+        for name in sorted(to):
+            if not any(name in cycle for cycle in cycles):
+                cycle = [name]
+                while (following := to[cycle[-1]]) != name:
+                    cycle.append(following)
+                cycles.append(tuple(cycle))
+        return tuple(cycles)
+
+
+def _cycle_text(cycle: tuple[str, ...]) -> str:
+    return " ↔ ".join(cycle) if len(cycle) == PAIR else " → ".join((*cycle, cycle[0]))
 
 
 @dataclass(frozen=True, slots=True)
