@@ -20,7 +20,7 @@ import numpy as np
 from disting.errors import InputError
 from disting.evidence.limits import Minor
 from disting.fit.judge.exclusion import CLEARLY, basis_of, limit, statistic
-from disting.fit.judge.explanation import explain, merge, noises, scatters
+from disting.fit.judge.explanation import Level, explain, merge, needed_lines, noises, scatters
 from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
@@ -206,6 +206,7 @@ def _judged(
     ones = np.ones(len(residual))
     missed = expected_deviation(columns, ones)
     seen = explain(cost, residual, missed, scatter)
+    seen = replace(seen, needed=needed_lines(len(plant.parameters)))
     level = seen.chi2
     return FittedNetwork(
         network=plant.network,
@@ -217,6 +218,7 @@ def _judged(
         basis=basis_of(columns),
         noise=noises(cost, residual, ones, missed),
         explains=seen.explains,
+        apart=seen.level is Level.APART,
         misses=seen.misses,
     )
 
@@ -263,7 +265,9 @@ def _no_worse_than_contained(
         if own[i].cost > own[best].cost * (1 + NESTED):
             own[i] = replace(own[i], residual=own[best].residual)
         for k in (k for k in inner if own[k].explains and not own[i].explains):
-            own[i] = replace(own[i], chi2=own[k].chi2, explains=True, misses=own[k].misses)
+            own[i] = replace(
+                own[i], chi2=own[k].chi2, explains=True, apart=own[k].apart, misses=own[k].misses
+            )
     return own
 
 

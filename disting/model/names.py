@@ -160,7 +160,8 @@ def is_whole_name(text: str) -> bool:
 def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None:
     """The chain of such a name, with this damping and sensor; None where there is none.
 
-    >>> chain_of_whole_name("3:1", True, Sensor.VELOCITY) == Chain(3, sensor="velocity", damped=True)
+    >>> speed = Sensor.VELOCITY
+    >>> chain_of_whole_name("3:1", True, speed) == Chain(3, sensor=speed, damped=True)
     True
     >>> chain_of_whole_name("3:999", True, Sensor.VELOCITY) is None
     True

@@ -4,19 +4,25 @@ seen, chi2 per line.
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from math import inf
 
 import numpy as np
 
 from disting.fit.judge.exclusion import Exclusion
 from disting.fit.judge.explanation import (
     Explanation,
+    Level,
     chi2,
+    chi2_apart,
     explain,
+    level_of,
+    line_frequencies,
     merge,
     noises,
     scatters,
     yardsticks,
 )
+from disting.fit.judge.lone_lines import LoneLines
 from disting.fit.judge.practical import NoiseModel, Practical, practical
 from disting.fit.judge.structural import with_structure
 from disting.fit.noise.covariance import expected_deviation
@@ -47,8 +53,10 @@ class Candidate:
     """A fitted candidate; `reasons` say which of its parameters are not determined, `residual` is
     that on the test data, shape (n_y,), whitened, and `missed` what it is expected to be.
 
-    `chi2` per line, see `explain`; `noise` = covariance of the residuals on the training data,
-    from which all standard errors follow; `excluded`: by which other candidate, if by any.
+    `chi2` per line, and `chi2_apart` without the lines missed most, see `explain`; `noise` =
+    covariance of the residuals on the training data, from which all standard errors follow;
+    `excluded`: by which other candidate, if by any; `rests_on`: single lines on which its gain over
+    a structure that it contains rests, if it does.
     """
 
     chain: Chain
@@ -63,6 +71,8 @@ class Candidate:
     reasons: tuple[str, ...] = ()
     akaike_weight: float = 0.0
     excluded: Exclusion | None = None
+    rests_on: LoneLines | None = None
+    chi2_apart: float = inf
 
     def __repr__(self) -> str:
         excluded = f", excluded by {reference(self.excluded.by)}" if self.excluded else ""
@@ -85,6 +95,10 @@ class Candidate:
     def n_parameters(self) -> int:
         """N_p: all parameters that the fit was free to choose."""
         return len(self.practical.names)
+
+    def explains(self, seen: Scatter) -> bool:
+        """True if it explains the judged data, which scatter so, perhaps apart from something."""
+        return level_of(self.chi2, self.chi2_apart, seen) is not Level.NOT
 
     @property
     def order(self) -> tuple[float, int]:
@@ -214,6 +228,7 @@ def _candidate(
         whitened,
         missed,
         noise,
+        chi2_apart=chi2_apart(whitened, missed, line_frequencies(cost)),
     )
 
 

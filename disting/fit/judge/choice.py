@@ -2,11 +2,12 @@
 
 A candidate is excluded if it does not explain the data (`explanation`) while others do, or if
 another one shows that it misses more than noise (`exclusion`). Of those that are left the simplest
-one is selected, of equally simple ones that with the lowest cost on test. Under the paper's rule
-only candidates whose criteria hold are asked at all.
+one is selected, of equally simple ones that with the lowest cost on test. What a structure adds on
+single lines alone is not shown (`lone_lines`): such a structure is selected last. Under the paper's
+rule only candidates whose criteria hold are asked at all.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, log
 
@@ -14,9 +15,24 @@ import numpy as np
 
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate, Scatters, values_of
-from disting.fit.judge.exclusion import Exclusion, Fit, basis_of, exclusions, limit, statistic
-from disting.fit.judge.explanation import Explanation, explain, largest_cost, noises
+from disting.fit.judge.exclusion import (
+    Exclusion,
+    Fit,
+    basis_of,
+    exclusions,
+    limit,
+    rests_on_lone_lines,
+    statistic,
+)
+from disting.fit.judge.explanation import (
+    Explanation,
+    explain,
+    line_frequencies,
+    needed_lines,
+    noises,
+)
 from disting.fit.judge.larger import check_left, left_with_contained
+from disting.fit.judge.lone_lines import LoneLines
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
@@ -84,17 +100,23 @@ def choice(
     judging, seen = test or task.cost, scatters[1]
     asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
     asked = [c for c in asked if not c.practical.unidentifiable] or asked
-    explaining = [c for c in asked if c.chi2 <= largest_cost(seen)]
-    if not explaining:
-        best = asked[0] if asked else None
+    lines = sum(len(part.measured) for part in judging.parts)
+    explaining = [c for c in asked if c.explains(seen) and lines >= needed_lines(c.n_parameters)]
+    lone = _lone(asked, task, scatters[0], settings) if explaining else {}
+    if all(c.chain in lone for c in explaining):
+        best = next((c for c in asked if c.chain not in lone), None)
         said = _explained(best or fitted[0], judging, seen)
         better = _better(best, fitted, task, scatters) if best and rule is Rule.PAPER else ()
-        return Choice(tuple(fitted), said, best, better=better)
-    out = _excluded(explaining, task, test, scatters, settings)
+        whole = tuple(replace(c, rests_on=lone.get(c.chain)) for c in fitted)
+        return Choice(whole, said, best, better=better)
+    out, lone = _excluded(explaining, lone, task, test, scatters, settings)
     out = left_with_contained(out, explaining, task, scatters)
-    whole = tuple(replace(c, excluded=out.get(c.chain)) for c in fitted)
+    whole = tuple(replace(c, excluded=out.get(c.chain), rests_on=lone.get(c.chain)) for c in fitted)
     chains = {c.chain for c in explaining} - out.keys()
-    left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.order))
+    left = sorted(
+        (c for c in whole if c.chain in chains),
+        key=lambda c: (c.rests_on is not None, c.n_parameters, c.order),
+    )
     check_left(left, asked, task, scatters)
     selected = left[0]
     better = _better(selected, fitted, task, scatters) if rule is Rule.PAPER else ()
@@ -102,24 +124,34 @@ def choice(
 
 
 def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
-    return explain(judging, described.residual, described.missed, seen)
+    said = explain(judging, described.residual, described.missed, seen)
+    return replace(said, needed=needed_lines(described.n_parameters))
+
+
+def _lone(
+    candidates: Sequence[Candidate], task: Task, inside: Scatter, settings: Settings
+) -> dict[Chain, LoneLines]:
+    """Candidates whose gain on the data of the fit rests on single lines."""
+    trained = [trained_as(c, task, inside) for c in candidates]
+    return rests_on_lone_lines(trained, inside.freedom, settings)
 
 
 def _excluded(
     candidates: Sequence[Candidate],
+    lone: dict[Chain, LoneLines],
     task: Task,
     test: AnyCost | None,
     scatters: Scatters,
     settings: Settings,
-) -> Mapping[Chain, Exclusion]:
+) -> tuple[dict[Chain, Exclusion], dict[Chain, LoneLines]]:
     """Those that others exclude: on the data that no fit has seen, where there are such, since a
     machine that changes leaves traces that a rich candidate fits too; else on those of the fit.
+    Those whose gain rests on single lines, of the fit (`lone`) or of these data.
     """
     inside, outside = scatters
     if test is None:
-        return exclusions(
-            [trained_as(c, task, inside) for c in candidates], inside.freedom, settings
-        )
+        trained = [trained_as(c, task, inside) for c in candidates]
+        return exclusions(trained, inside.freedom, settings, lone=lone), lone
     other_task = replace(task, cost=test)
     values = {c.chain: values_of(c.estimate, task) for c in candidates}
 
@@ -130,7 +162,8 @@ def _excluded(
         return _fit_at(fit.chain, p, other_task, outside)
 
     tested = [_fit_at(chain, p, other_task, outside) for chain, p in values.items()]
-    return exclusions(tested, outside.freedom, settings, again)
+    lone = rests_on_lone_lines(tested, outside.freedom, settings) | lone
+    return exclusions(tested, outside.freedom, settings, again, lone), lone
 
 
 def trained_as(candidate: Candidate, task: Task, scatter: Scatter) -> Fit:
@@ -142,7 +175,8 @@ def _fit_at(chain: Chain, p: Real, task: Task, scatter: Scatter) -> Fit:
     residual, columns = WhitenedCost(task.cost, scatter).of(task.plant(chain), p)
     free = task.box(task.names(chain)).free
     noise = noises(task.cost, residual, np.ones(residual.size))
-    return Fit(chain, residual, basis_of(columns[:, free]), noise)
+    basis = basis_of(columns[:, free])
+    return Fit(chain, residual, basis, noise, line_frequencies(task.cost))
 
 
 def _better(

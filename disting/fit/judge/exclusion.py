@@ -22,15 +22,17 @@ of optima, so that no larger structure bounds T. There T is at most that of the 
 structure leaves where it is fitted to the test data too: tangents do not take all of it away.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import isfinite
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.stats import chi2, f as f_distribution
 
+from disting.fit.judge.lone_lines import LoneLines, lone_lines
 from disting.fit.judge.practical import NoiseModel
 from disting.fit.noise.covariance import VANISHING
 from disting.fit.search.containment import contains
@@ -66,13 +68,15 @@ class Residuals(Protocol):
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
     """Whitened residual r, shape (n_y,), of a fitted structure, an orthonormal basis of its
-    sensitivities, shape (n_y, n), and the noise that it leaves, in units of the scatter.
+    sensitivities, shape (n_y, n), the noise that it leaves, in units of the scatter, and the
+    frequency of each residual [rad/s], shape (n_y,), None where residuals are of no lines.
     """
 
     chain: Chain
     residual: Real
     basis: Real
     noise: NoiseModel
+    omega: Real | None = None
 
     @property
     def cost(self) -> float:
@@ -152,27 +156,26 @@ def exclusions(
     freedom: float,
     settings: Settings,
     again: Callable[[Fit], Fit] | None = None,
+    lone: Container[Chain] = (),
 ) -> dict[Chain, Exclusion]:
     """The structures that others exclude, each with the one that does so most clearly, by the data
-    that all were fitted to; `again`: by others, and a structure fitted to these too.
+    that all were fitted to; `again`: by others, and a structure fitted to these too. `lone`:
+    structures that exclude none.
     """
     exclusions: dict[Chain, Exclusion] = {}
     seen, second = again is None, dict[Chain, Fit]()
+    asked = [f for f in fitted if f.chain not in lone]
     for candidate in fitted:
-        larger = [f for f in fitted if contains(f.chain, candidate.chain)] if seen else []
+        larger = [f for f in asked if contains(f.chain, candidate.chain)] if seen else []
         clearest = 1.0  # T as a multiple of its limit
-        for other in fitted:
+        for other in asked:
             gain = candidate.cost - other.cost
             if gain <= 0:
                 continue
             size = statistic(candidate, other)
             if size <= limit(1, freedom):
                 continue
-            s = surplus(other.chain, candidate.chain, settings) if seen else 1
-            count = (
-                trials(candidate.chain, other.chain, len(candidate.residual) // 2) if seen else 1
-            )
-            most = limit(s, freedom, count)
+            most = _limit_beside(candidate, other, freedom, settings if seen else None)
             if size > clearest * most and again:
                 if candidate.chain not in second:
                     second[candidate.chain] = again(candidate)
@@ -184,6 +187,66 @@ def exclusions(
                 clearest = size / most
                 exclusions[candidate.chain] = Exclusion(other.chain, size, most)
     return exclusions
+
+
+def _limit_beside(candidate: Fit, other: Fit, freedom: float, settings: Settings | None) -> float:
+    """Critical value of T of a pair on the data of the fits; on other data, where `settings` are
+    None, that of a single direction.
+    """
+    if settings is None:
+        return limit(1, freedom)
+    count = trials(candidate.chain, other.chain, len(candidate.residual) // 2)
+    return limit(surplus(other.chain, candidate.chain, settings), freedom, count)
+
+
+def rests_on_lone_lines(
+    fitted: Sequence[Fit], freedom: float, settings: Settings
+) -> dict[Chain, LoneLines]:
+    """Structures whose gain over one that they contain rests on single lines, which T alone would
+    take for proof, each with these lines.
+    """
+    found = dict[Chain, LoneLines]()
+    for other in fitted:
+        for candidate in fitted:
+            is_gain = candidate.cost - other.cost > CLEARLY * limit(1, freedom)
+            if is_gain and other.chain not in found and contains(other.chain, candidate.chain):
+                most = limit(surplus(other.chain, candidate.chain, settings), freedom)
+                lines = gain_on_lone_lines(candidate, other, other.omega, most)
+                found |= {other.chain: lines} if lines else {}
+    return found
+
+
+def gain_on_lone_lines(
+    candidate: Residuals, other: Residuals, omega: Real | None, most: float
+) -> LoneLines | None:
+    """Lines on which the gain of another structure over a candidate rests; None where other lines
+    show it by more than `most`, or there is no gain that excludes.
+    """
+    if omega is None or statistic(candidate, other) <= most:
+        return None
+
+    def is_shown(kept: NDArray[np.bool_]) -> bool:
+        one, rest = _of_lines(candidate, kept), _of_lines(other, kept)
+        gain = float(one.residual @ one.residual - rest.residual @ rest.residual)
+        return statistic(one, rest) > most and gain > CLEARLY * most
+
+    return lone_lines(candidate.residual, other.residual, omega, is_shown)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _LeftOut:
+    """Residuals with zero for lines that are left out."""
+
+    residual: Real
+    basis: Real
+    noise: NoiseModel
+
+
+def _of_lines(residuals: Residuals, kept: NDArray[np.bool_]) -> _LeftOut:
+    rows = residuals.basis * kept[:, None]
+    left, sizes, _ = np.linalg.svd(rows, full_matrices=False)
+    basis = left[:, sizes > VANISHING * max(sizes, default=0.0)]
+    return _LeftOut(residuals.residual * kept, basis, residuals.noise)
 
 
 def surplus(model: Chain, rival: Chain, settings: Settings | None = None) -> int:

@@ -6,10 +6,20 @@ of the parameters included (`covariance.expected_deviation`),
 
     chi2 per line = mean (r / expected)^2
 
-is 1 for the true model and independent of what other candidates do. A candidate explains the data
-if it is at most `LARGEST`, more where the scatter itself is known from little (F test); none does
-where the data themselves are mostly noise: less than `FEW_CLEAR` of the lines scatter by less than
-20 %.
+is 1 for the true model and independent of what other candidates do. There are three levels:
+
+- a candidate explains the data if noise alone gives its chi2 more often than once in 1,000 times
+  (F test with the degrees of freedom of the scatter);
+- it explains them apart from something where chi2 is larger, but at most `LARGEST` (more where the
+  scatter is known from little) without the two neighbouring lines that it misses most. Machines do
+  a little that no chain does, and a bench may disturb single lines: a misfit of one line is no more
+  a proof against a structure than a gain at one line is one for another (`lone_lines`);
+- else it does not explain them, and none does where the data are mostly noise: less than
+  `FEW_CLEAR` of the lines scatter by less than 20 %.
+
+None explains data of too few lines. A structure of p parameters takes p of 2 n real residuals, and
+the scatter of a line is known from its `BESIDE` neighbours, so 2 p + `BESIDE` lines are needed:
+then three quarters of the residuals are left to speak against it.
 
 What is said of several responses one by one: how much each scatters, and what its residuals are
 like.
@@ -21,7 +31,8 @@ say.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from math import degrees, isfinite, pi
+from enum import StrEnum
+from math import degrees, inf, isfinite, pi
 
 import numpy as np
 from scipy.stats import chi2 as chi2_distribution, f as f_distribution
@@ -37,9 +48,19 @@ from disting.model.presentation import summary
 # chi2 per line up to which a model explains the data: what a machine does beside being a chain
 LARGEST = 3.0
 LEVEL = 0.01  # of the test that allows more
+CHANCE = 1e-3  # of a chi2 that noise alone gives
+BESIDE = 6  # neighbours of a line from which its scatter is known
 FEW_CLEAR = 0.2  # share of the lines that must scatter by less than 20 %
 SMOOTHED = 5  # lines over which what is missed is averaged before it is called a range
 RANGES = 3  # that are named, those that miss most
+
+
+class Level(StrEnum):
+    """How far a structure explains data."""
+
+    EXPLAINS = "explains"
+    APART = "explains apart from"
+    NOT = "does not explain"
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +103,8 @@ class Miss:
 class Explanation:
     """What the residuals of a candidate say of it: chi2 per line, correlation of neighbouring
     lines, what it misses where; `clear`: share of the lines that carry information in that one of
-    several responses that has most.
+    several responses that has most; `chi2_apart`: without the two neighbouring lines that it misses
+    most; `lines` of the data, and `needed` ones.
     """
 
     chi2: float
@@ -90,18 +112,30 @@ class Explanation:
     correlation: float
     misses: tuple[Miss, ...]
     clear: float | None = None
+    chi2_apart: float = inf
+    lines: int = 0
+    needed: int = 0
 
     def __repr__(self) -> str:
-        explains = "explains the data" if self.explains else "does not explain the data"
-        said = "the data are mostly noise" if self.noisy else explains
+        said = "the data are mostly noise" if self.noisy else f"{self.level.value} the data"
         return summary(self, f"chi2 {self.chi2:.3g}, {said}")
 
     @property
+    def level(self) -> Level:
+        """How far the candidate explains the data."""
+        if self.noisy or self.too_few:
+            return Level.NOT
+        return level_of(self.chi2, self.chi2_apart, self.scatter)
+
+    @property
     def explains(self) -> bool:
-        """Whether the candidate misses no more than the data scatter, and there is more than
-        noise.
-        """
-        return self.chi2 <= largest_cost(self.scatter) and not self.noisy
+        """True if the candidate explains the data, perhaps apart from something that is named."""
+        return self.level is not Level.NOT
+
+    @property
+    def too_few(self) -> bool:
+        """True if the data have fewer lines than the candidate needs."""
+        return self.lines < self.needed
 
     @property
     def noisy(self) -> bool:
@@ -109,12 +143,39 @@ class Explanation:
         return (self.scatter.clear if self.clear is None else self.clear) < FEW_CLEAR
 
 
+def level_of(whole: float, apart: float, own_scatter: Scatter) -> Level:
+    """How far a structure explains data of this scatter: by its chi2 per line and by that without
+    the two neighbouring lines that it misses most.
+    """
+    if whole <= noise_limit(own_scatter):
+        return Level.EXPLAINS
+    return Level.APART if apart <= largest_cost(own_scatter) else Level.NOT
+
+
+def noise_limit(own_scatter: Scatter) -> float:
+    """Chi2 per line that noise alone exceeds once in 1,000 times."""
+    return _critical(CHANCE, own_scatter)
+
+
 def largest_cost(own_scatter: Scatter) -> float:
-    """Largest chi2 per line of a model that explains data of this scatter."""
+    """Largest chi2 per line of a model that explains data of this scatter apart from something."""
+    return max(LARGEST, _critical(LEVEL, own_scatter))
+
+
+def _critical(level: float, own_scatter: Scatter) -> float:
     count = 2 * len(own_scatter.rho)
     if isfinite(own_scatter.freedom):
-        return max(LARGEST, float(f_distribution.isf(LEVEL, count, own_scatter.freedom)))
-    return max(LARGEST, float(chi2_distribution.isf(LEVEL, count)) / count)
+        return float(f_distribution.isf(level, count, own_scatter.freedom))
+    return float(chi2_distribution.isf(level, count)) / count
+
+
+def needed_lines(n_parameters: int) -> int:
+    """Lines without which a structure of so many parameters is not judged.
+
+    >>> needed_lines(5)
+    16
+    """
+    return 2 * n_parameters + BESIDE
 
 
 def chi2(residual: Real, missed: Real) -> float:
@@ -123,6 +184,28 @@ def chi2(residual: Real, missed: Real) -> float:
     """
     used = missed > 0
     return float(np.mean((residual[used] / missed[used]) ** 2)) if used.any() else 0.0
+
+
+def chi2_apart(residual: Real, missed: Real, omega: Real) -> float:
+    """chi2 per line of residuals without the two neighbouring lines that are missed most; `omega`:
+    frequency of each residual, shape (n_y,).
+    """
+    used = missed > 0
+    if not used.any():
+        return 0.0
+    power = (residual[used] / missed[used]) ** 2
+    lines, at = np.unique(omega[used], return_inverse=True)
+    if len(lines) < 3:
+        return float(power.mean())
+    size, count = np.bincount(at, power), np.bincount(at)
+    worst = int(np.argmax(size[:-1] + size[1:]))
+    rest = np.delete(np.arange(len(lines)), [worst, worst + 1])
+    return float(size[rest].sum() / count[rest].sum())
+
+
+def line_frequencies(cost: AnyCost) -> Real:
+    """Frequency of each residual [rad/s], shape (n_y,)."""
+    return np.concatenate([np.tile(part.measured.omega, 2) for part in cost.parts])
 
 
 def explanation(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) -> Explanation:
@@ -134,6 +217,8 @@ def explanation(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) 
         own_scatter,
         correlation(residual),
         _misses(residual, missed, cost, own_scatter),
+        chi2_apart=chi2_apart(residual, missed, line_frequencies(cost)),
+        lines=len(cost.measured),
     )
 
 
@@ -267,7 +352,13 @@ def explain(cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter) -
     largest = correlations(cost, residual)
     clearest = max(this_explanation.scatter.clear for this_explanation in each)
     return Explanation(
-        chi2(residual, missed), own_scatter, largest, tuple(misses[:RANGES]), clear=clearest
+        chi2(residual, missed),
+        own_scatter,
+        largest,
+        tuple(misses[:RANGES]),
+        clear=clearest,
+        chi2_apart=chi2_apart(residual, missed, line_frequencies(cost)),
+        lines=sum(one.lines for one in each),
     )
 
 

@@ -15,7 +15,6 @@ import numpy as np
 
 from disting.fit.judge.candidate import Candidate, Scatters, judge, values_of
 from disting.fit.judge.exclusion import Exclusion
-from disting.fit.judge.explanation import largest_cost
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.containment import contains
 from disting.fit.search.data import WhitenedCost
@@ -39,17 +38,17 @@ def as_good_as_contained(
     """Candidates of which none misses data that one explains which it contains; in the order of
     the cost on test.
     """
-    most = largest_cost(scatters[1])
+    seen = scatters[1]
     own = {c.chain: c for c in fitted}
     for c in sorted(fitted, key=lambda c: c.n_parameters):
-        if c.chi2 <= most:
+        if c.explains(seen):
             continue
-        inner = (own[s] for s in own if own[s].chi2 <= most and contains(c.chain, s))
+        inner = (own[s] for s in own if own[s].explains(seen) and contains(c.chain, s))
         for contained in sorted(inner, key=lambda s: s.j_train)[:1]:
             limit = limit_in(c.chain, contained, task, scatters[0])
             if limit is not None:
                 ends = _from_limit(c, contained, limit, task, test, scatters, settings)
-                own[c.chain] = next(end for end in ends if end.chi2 <= most)
+                own[c.chain] = next(end for end in ends if end.explains(seen))
     return sorted(own.values(), key=lambda c: c.order)
 
 
@@ -116,6 +115,7 @@ def _from_limit(
         there,
         j_test=contained.j_test,
         chi2=contained.chi2,
+        chi2_apart=contained.chi2_apart,
         residual=contained.residual,
         missed=contained.missed,
     )

@@ -28,6 +28,7 @@ class FittedNetwork:
     `same`: other candidates that give the same responses for all positive values; `relative`:
     standard deviations of the logarithms of the values, infinite of what the data or the network do
     not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it;
+    `apart`: it explains the data apart from its `misses`;
     `contains`: the simplest network left that it contains, "" if there is none.
     """
 
@@ -41,6 +42,7 @@ class FittedNetwork:
     noise: NoiseModel = field(repr=False)
     same: tuple[str, ...] = ()
     explains: bool = False
+    apart: bool = False
     excluded_by: str = ""
     contains: str = ""
     misses: tuple[Miss, ...] = ()
@@ -66,6 +68,7 @@ class FittedNetwork:
             "rank": self.rank,
             "chi2": self.chi2,
             "explains": self.explains,
+            "apart": self.apart,
             "excluded_by": self.excluded_by,
             "contains": self.contains,
             "same": list(self.same),
@@ -125,7 +128,9 @@ class NetworkSelection(NotebookTable):
             larger = enumeration([f.network.name for f in self.containing], BAR)
             contain = "contains" if len(self.containing) == 1 else "contain"
             more += f" Nor do they exclude {larger}, which {contain} one of these."
-        return f"{chosen.network.name} is the simplest that explains the data{twins}.{more}"
+        missed = "; ".join(miss.sentence for miss in chosen.misses) or "a small misfit"
+        apart = f" apart from {missed}" if chosen.apart else ""
+        return f"{chosen.network.name} is the simplest that explains the data{apart}{twins}.{more}"
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""

@@ -17,7 +17,7 @@ from disting.evidence.conditions import capital
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.judge.explanation import largest_cost
+from disting.fit.judge.explanation import Level, largest_cost, noise_limit
 from disting.fit.judge.members import Member, Twin
 from disting.fit.judge.modes import Result
 from disting.fit.results.selection import Selection
@@ -26,6 +26,7 @@ from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
 from disting.report.fit.links import Link, Site, Step, step_to, steps_of
 from disting.report.fit.responses import drawing, fits_of, with_all_sensors
+from disting.report.fit.sentences import misfit_in_words
 from disting.report.fit.words import (
     between,
     error_in_percent,
@@ -187,10 +188,15 @@ def answer(selection: Selection, results: Sequence[ParameterRow]) -> Answer:
 def _title(selection: Selection) -> str:
     if selection.selected is None:
         return "No model is admissible"
+    best = capital(name(selection.described.chain))
+    if selection.explanation.level is Level.EXPLAINS:
+        return f"{best}: this explains the measurement"
     if selection.explanation.explains:
-        return f"{capital(name(selection.described.chain))}: this explains the measurement"
+        return f"{best}: this explains the measurement apart from a part that it misses"
     if selection.explanation.noisy:
         return "The measurement is mostly noise"
+    if selection.explanation.too_few:
+        return f"{selection.explanation.lines} lines are too few to judge a structure"
     return "No fitted structure explains the measurement"
 
 
@@ -207,12 +213,20 @@ def _plain(selection: Selection) -> str:
             " excluded. More lines, a wider band or known parameters help, and so do thresholds"
             " chosen less strict on purpose."
         )
+    if selection.explanation.too_few:
+        return (
+            f"The best of {fitted} is {best}. To judge it takes {selection.explanation.needed}"
+            " lines, two for each of its parameters and six more: do not use its values."
+        )
     if not selection.explanation.explains:
         return (
             f"The best of {fitted} is {best}, and it misses more than the measurement"
             " scatters: do not use its values. What is missed, and what may be wrong, stands below."
         )
-    return " ".join((f"Of {fitted} it is the simplest that the data allow.", *_beside(selection)))
+    missed = selection.explanation
+    apart = f" It misses {misfit_in_words(missed)}." if missed.level is Level.APART else ""
+    simplest = f"Of {fitted} it is the simplest that the data allow.{apart}"
+    return " ".join((simplest, *_beside(selection)))
 
 
 def _beside(selection: Selection) -> Iterator[str]:
@@ -242,8 +256,8 @@ def _beside(selection: Selection) -> Iterator[str]:
 def _misfit(selection: Selection) -> KeyFigure:
     said = selection.explanation
     meaning = (
-        f"chi2 per line: 1 is noise alone, above {readable(largest_cost(said.scatter), 2)} a"
-        " structure does not explain the data"
+        f"chi2 per line: 1 is noise alone, at most {readable(noise_limit(said.scatter), 2)}; above"
+        f" {readable(largest_cost(said.scatter), 2)} a structure does not explain the data"
     )
     return KeyFigure("misfit", readable(said.chi2), meaning)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from disting.files import Format
 from disting.fit.judge.candidate import Candidate
-from disting.fit.judge.explanation import Explanation, explanations
+from disting.fit.judge.explanation import Explanation, Level, explanations
 from disting.fit.judge.members import Member
 from disting.fit.judge.quantity import QuantityReading
 from disting.fit.judge.reading import assumed_quantity
@@ -18,6 +18,12 @@ from disting.fit.search.candidates import listed_form, reference
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit.sentences import places, suspicions
+
+STATUS = {
+    Level.EXPLAINS: "explained",
+    Level.APART: "explained apart from misses",
+    Level.NOT: "not explained",
+}
 
 
 def selection_to_dict(selection: Selection) -> dict[str, Any]:
@@ -38,7 +44,8 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
         "status": _status(selection),
         "question": selection.question,
         "quantities": [_quantity_to_dict(reading) for reading in selection.quantities],
-        "explained": _status(selection) == "explained",
+        "explained": selection.explanation.explains and not selection.question,
+        "misses": [miss.sentence for miss in selection.explanation.misses],
         "chi2_per_line": selection.explanation.chi2,
         "scatter": selection.explanation.scatter.typical,
         "scatter_source": selection.explanation.scatter.source,
@@ -61,7 +68,10 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
 def _status(selection: Selection) -> str:
     if selection.question:
         return "quantity not settled"
-    return "explained" if selection.explanation.explains else "not explained"
+    said = selection.explanation
+    if said.too_few:
+        return "too few lines"
+    return STATUS[said.level]
 
 
 def _quantity_to_dict(reading: QuantityReading) -> dict[str, Any]:

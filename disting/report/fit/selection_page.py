@@ -8,7 +8,7 @@ from disting.files import __version__
 from disting.fit.judge.alternatives import Alternative
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.judge.explanation import largest_cost
+from disting.fit.judge.explanation import largest_cost, noise_limit
 from disting.fit.judge.modes import Result
 from disting.fit.judge.reading import read_in_words
 from disting.fit.results.selection import Selection
@@ -247,7 +247,8 @@ def _scatter(selection: Selection) -> str:
     said = selection.explanation
     return (
         f"A line scatters by {percent(said.scatter.typical)}, known from {said.scatter.source}."
-        f" Measured by it, chi2 per line is {readable(said.chi2)}: 1 is noise alone, above"
+        f" Measured by it, chi2 per line is {readable(said.chi2)}: 1 is noise alone, which stays"
+        f" below {readable(noise_limit(said.scatter), 2)}; above"
         f" {readable(largest_cost(said.scatter), 2)} the data are not explained."
     )
 

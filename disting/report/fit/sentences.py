@@ -6,7 +6,7 @@ Structures are named as the commands read them, such as 2:1+b2+delay.
 
 from collections.abc import Iterator
 
-from disting.fit.judge.explanation import largest_cost
+from disting.fit.judge.explanation import BESIDE, Explanation, Level, noise_limit
 from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
@@ -141,8 +141,15 @@ def _verdict(selection: Selection) -> str:
         f"the lines scatter by {100 * said.scatter.typical:.2g} %, known from {said.scatter.source}"
     )
     size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone; {scattered}"
-    if said.explains:
+    if said.level is Level.EXPLAINS:
         return f"{best} explains this data ({size})"
+    if said.explains:
+        return f"{best} explains this data apart from {misfit_in_words(said)} ({size})"
+    if said.too_few:
+        return (
+            f"{said.lines} lines are too few to judge {best}, the best candidate: at least"
+            f" {said.needed} are needed, two for each of its parameters and {BESIDE} more"
+        )
     if said.noisy:
         return (
             f"none of the candidates explains this data: it is mostly noise, only"
@@ -150,9 +157,17 @@ def _verdict(selection: Selection) -> str:
             f" ({said.scatter.source}); the best one is {best}"
         )
     which = "none of the candidates"
-    if any(c.chi2 <= largest_cost(said.scatter) for c in selection.candidates):
+    if any(c.explains(said.scatter) for c in selection.candidates):
         which = "none of the candidates that may be selected"
     return f"{which} explains this data; the best one is {best} ({size})"
+
+
+def misfit_in_words(said: Explanation) -> str:
+    """What a structure misses that explains the data apart from it."""
+    if said.misses:
+        return "; ".join(m.sentence for m in said.misses)
+    most = noise_limit(said.scatter)
+    return f"small differences over the band: noise alone stays below a chi2 of {most:.2g}"
 
 
 def _explained(selection: Selection) -> Iterator[str]:
@@ -180,11 +195,23 @@ def _explained(selection: Selection) -> Iterator[str]:
         differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements
     )
     yield from (
+        *lone(selection),
         *machine_change(selection),
         *correlated_residuals(selection),
         *weak(selection),
         *doubtful_deviations(selection),
     )
+
+
+def lone(selection: Selection) -> Iterator[str]:
+    """Structures whose gain rests on single lines, in a sentence."""
+    resting = [(c, c.rests_on) for c in selection.candidates if c.rests_on is not None]
+    for c, lines in resting[:1]:
+        more = f"; so do {len(resting) - 1} more" if len(resting) > 1 else ""
+        yield (
+            f"what {reference(c.chain)} adds {lines.sentence}{more}: that is not shown by the data"
+            " and excludes no other structure"
+        )
 
 
 def _unexplained(selection: Selection) -> Iterator[str]:
