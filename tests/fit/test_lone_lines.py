@@ -34,9 +34,9 @@ def disturbed(size, lines, seed=3):
     return FrequencyResponse(data.omega, moved)
 
 
-@pytest.mark.parametrize("lines", [(70,), (62, 63)])
-def test_a_disturbed_line_makes_no_mass(lines):
-    found = select(disturbed(8.0, lines), TWO_AND_THREE)
+@pytest.mark.parametrize(("size", "lines"), [(12.0, (62, 63)), (20.0, (70,)), (20.0, (62, 63))])
+def test_a_disturbed_line_makes_no_mass(size, lines):
+    found = select(disturbed(size, lines), TWO_AND_THREE)
     assert found.selected.chain.n_masses == 2
     kept = [m.candidate.chain for m in (*found.members, *found.containing)]
     assert DRIVE in kept
