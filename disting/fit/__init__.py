@@ -21,6 +21,8 @@ What is in a `Selection`, with the records that it holds:
 ('2:1+b1', ())
 >>> found.members[0].twins, found.alternatives, found.readings  # of Twin, Alternative, Reading
 ((), (), ())
+>>> found.quantities, found.question  # each a QuantityReading, where nothing settles it
+((), '')
 >>> found.relied_on[0].name, found.explanation.misses  # of Statement, Miss
 ('total inertia', ())
 >>> type(best.practical).__name__, type(found.explanation.scatter).__name__
@@ -89,6 +91,7 @@ from disting.fit.judge.practical import (
     importance as importance,
     practical as practical,
 )
+from disting.fit.judge.quantity import QuantityReading as QuantityReading
 from disting.fit.judge.readings import Reading as Reading
 from disting.fit.noise.covariance import Noise as Noise
 from disting.fit.noise.scatter import Scatter as Scatter

@@ -88,7 +88,11 @@ def select(
     `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
     and `fixed`, are fitted once; `most_lines`: of a response with more so many are fitted, and its
     `reading` says so; `controller`: one whose margins are told (`reliance`); `method` as in
-    `estimates`. An engine with a store resumes interrupted work. Raises InputError.
+    `estimates`. An engine with a store resumes interrupted work. Raises InputError, also for an
+    impedance, to which no chain is fitted.
+
+    Where the sensor quantity of `train` is assumed and another one explains the data as well,
+    nothing is selected: `question` of the result asks for it, `quantities` are the readings.
 
     `further`: responses of the same machine that are fitted together with `train`, one parameter
     vector for all; each counts in units of its own scatter (`Weights`). Candidates without their

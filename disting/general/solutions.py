@@ -47,7 +47,7 @@ from disting.general.robust import CaseSearch, find_equivalent
 from disting.general.sections import sections
 from disting.general.symmetries import Permutation, exchange_of, generators_of, symmetries_of
 from disting.general.target import joint_equations, target
-from disting.general.vectors import Vector, are_same, vector_of
+from disting.general.vectors import Vector, are_same, plain_vector, vector_of
 from disting.model.question import Domain, Question, Settings
 from disting.questions.identifiability.domains import OverDomains, Solutions
 from disting.questions.identifiability.parts import Level, Renaming
@@ -202,7 +202,10 @@ def _branches(ring: Orthant, model: AnyModel, cases: Sequence[Case]) -> list[_Br
     """The different vectors that may be admissible; raises TooMuch."""
     branches = list[_Branch]()
     for case in cases:
-        vector = vector_of(ring, model, case)
+        try:
+            vector = vector_of(ring, model, case)
+        except TooMuch:
+            vector = plain_vector(ring, case)
         if vector is None or any(are_same(vector, b.vector) for b in branches):
             continue
         asked = _asked(ring, case)

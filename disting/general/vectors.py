@@ -51,16 +51,25 @@ def vectors_of(ring: Orthant, model: AnyModel, cases: Sequence[Case]) -> list[Ve
 
 
 def vector_of(ring: Orthant, model: AnyModel, case: Case) -> Vector | None:
-    """The vector of a case, None if the leading coefficient or a denominator vanishes there."""
-    solved = dict(case.solved)
-    equation = case.equations[0] if case.equations else None
-    lead = ring.lead(model)
+    """The vector of a case, None if the leading coefficient or a denominator vanishes there; raises
+    TooMuch.
+    """
+    solved, vector = dict(case.solved), plain_vector(ring, case)
+    equation, lead = vector.equation, ring.lead(model)
     for i, value in case.solved:
         lead = ring.put(lead, i, value.num, value.den)[0]
     for polynomial in (lead, *(v.den for v in solved.values())):
         if polynomial.is_zero() or (equation is not None and (polynomial % equation).is_zero()):
             return None
-    left = ring.occurring(case.equations)
+    return vector
+
+
+def plain_vector(ring: Orthant, case: Case) -> Vector:
+    """The vector of an open case, whose `nonzero` polynomials keep the leading coefficient and the
+    denominators from being zero (see `cases`).
+    """
+    solved, left = dict(case.solved), ring.occurring(case.equations)
+    equation = case.equations[0] if case.equations else None
     return Vector(tuple(solved.get(i) for i in ring.unknowns), equation, left[0] if left else -1)
 
 

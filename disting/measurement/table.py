@@ -161,4 +161,4 @@ def _seconds(table: Table, at: int) -> float:
 
 def is_time(header: str) -> bool:
     """Whether a column is the time."""
-    return re.match(r"(t|time|zeit)\b", header.lower()) is not None
+    return re.match(r"(t|time|zeit|timestamp|zeitstempel)\b", header.lower()) is not None

@@ -160,10 +160,9 @@ def is_whole_name(text: str) -> bool:
 def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None:
     """The chain of such a name, with this damping and sensor; None where there is none.
 
-    >>> speed = Sensor.VELOCITY
-    >>> chain_of_whole_name("3:1", True, speed) == Chain(3, sensor=speed, damped=True)
-    True
-    >>> chain_of_whole_name("3:999", True, Sensor.VELOCITY) is None
+    >>> chain_of_whole_name("2:1+lag", False, Sensor.VELOCITY).parameters
+    ('m1', 'm2', 'k12', 'T1')
+    >>> chain_of_whole_name("3:999", False, Sensor.VELOCITY) is None
     True
     """
     indices = INDICES.fullmatch(text)

@@ -48,7 +48,7 @@ def naming_of(name: str, model: Chain | Network) -> Naming:
 
     >>> from disting.network.notation import network_of
     >>> cell = network_of("R0-p(R1,C1)")
-    >>> [str(naming_of(name, cell)) for name in ("Rs-p(R,C)", "R5-p(C7,R2)", "p(R0,R1-C1)")]
+    >>> [str(naming_of(name, cell)) for name in ("my cell", "R5-p(C7,R2)", "p(R0,R1-C1)")]
     ['free', 'denoted', 'false']
     """
     order = model.sensor.order if isinstance(model, Chain) else model.order

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 
+from disting.algebra.symbols import RationalFunction
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.experiments.matrix import matrix_of
+from disting.experiments.listing import without_dead_time
+from disting.experiments.machine_model import expand, shape
 from disting.general.any_model import as_chain, without_names
 from disting.general.identifiability import PARAMETERS
-from disting.general.matrix_model import AnyModel
+from disting.general.matrix_model import AnyModel, MatrixModel, of_ratios
 from disting.general.model import Model
 from disting.general.solutions import CHEAP_UP_TO, SOLUTIONS
 from disting.model.chain import Chain
@@ -82,6 +84,21 @@ def identify_measured(
     small = len(measured.chain.parameters) <= CHEAP_UP_TO
     model = matrix_of(measured) if _is_open(found) and small else None
     return _over(found, model, domain, engine)
+
+
+def matrix_of(measured: MeasuredChain) -> MatrixModel:
+    """The transfer functions of all experiments that are not zero, one row for each, without a dead
+    time, in the chain's parameters.
+
+    >>> from disting.experiments.experiment import Experiment
+    >>> two = MeasuredChain(Chain(2, damped=False), (Experiment(), Experiment(sensor=1)))
+    >>> matrix_of(two).shape
+    (2, 1)
+    """
+    plain = without_dead_time(measured)
+    entries = [entry for entry in plain.entries if shape(entry).numerator]
+    ratios = [[RationalFunction(*expand(entry))] for entry in entries]
+    return of_ratios(ratios, plain.chain.parameters, "measured")
 
 
 def _is_open(found: ParameterIdentifiability) -> bool:

@@ -192,7 +192,7 @@ def _kind_of(name: str, model: Chain | AnyModel) -> str:
     """What the name of a model is; a chain without a number is named by its indices."""
     if isinstance(model, Chain):
         return "a chain without a number" if name.startswith("(") else NUMBERED
-    return FREE_NAMES if naming_of_model(model) is Naming.FREE else "as the name denotes"
+    return FREE_NAMES if naming_of_model(model) is Naming.FREE else "as denoted by the notation"
 
 
 def _checks(

@@ -110,8 +110,8 @@ def test_a_mirror_image_that_all_experiments_show_keeps_two_sets():
     chain = Chain(3, act_plus=1, meas_plus=3, damped=False)
     middle = identifiability(chain, experiments=[Experiment(), Experiment(inertias={2: SIZE})])
     assert middle.named(Level.GLOBAL) == ("m2",)
-    assert middle.named(Level.LOCAL) == ("m1", "m3", "k12", "k23")
-    assert middle.least == 2
+    assert middle.named(Level.EXCHANGES) == ("m1", "m3", "k12", "k23")
+    assert (middle.least, middle.most) == (2, 2)
     end = identifiability(chain, experiments=[Experiment(), Experiment(inertias={1: SIZE})])
     assert end.level is Level.GLOBAL and (end.least, end.most) == (1, 1)
 

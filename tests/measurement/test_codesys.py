@@ -74,6 +74,17 @@ def test_input_and_output_are_known_by_their_names(tmp_path):
     assert "input PLC_PRG.lrTorque" in done.stdout and "Traceback" not in done.stderr
 
 
+def test_the_table_that_codesys_saves_as_text(tmp_path):
+    """A line of the program, one of the project, names with the time first, blanks between."""
+    rows = [f"{k} {TORQUE[k]:.6f} {ANGLE[k]:.6f}" for k in range(COUNT)]
+    head = ["Editor V3.5 Trace: Trace", "C:\\Sample.project"]
+    names = "Zeitstempel(ms) PLC_PRG.lrTorque PLC_PRG.lrAngle"
+    path = tmp_path / "a.txt"
+    path.write_text("\n".join([*head, names, *rows]))
+    found = read_time_series(path, "PLC_PRG.lrTorque", "PLC_PRG.lrAngle")
+    assert found.sampling_rate == pytest.approx(1000) and len(found) == COUNT
+
+
 GAP = PERIOD * np.delete(np.arange(COUNT + 5), range(50, 55))
 
 

@@ -199,8 +199,8 @@ def test_levels_of_exponents():
     assert one.sentence == "4 parameters, all globally identifiable."
     two = identifiability("R0-p(R1,P1)-p(R2,P2)")
     assert two.sentence == (
-        "7 parameters, all determinable; globally: R0; locally: P1, P2, R1, R2, n1, n2; 2 sets of"
-        " them fit."
+        "7 parameters, all determinable; globally: R0; up to exchange: P1, P2, R1, R2, n1, n2;"
+        " 2 sets of positive values fit: unique up to exchanging P1 ↔ P2, R1 ↔ R2, n1 ↔ n2."
     )
     lost = identifiability("R1 1 2; P1 2 0; P2 2 3")
     assert (lost.levels["n2"].value, lost.rank) == ("not identifiable", 3)

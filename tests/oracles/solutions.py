@@ -115,4 +115,7 @@ def _sign(polynomial, g, low, high):
 def points(parameters, draw, count):
     """Random positive fractions of different sizes."""
     for _ in range(count):
-        yield {name: Fraction(draw.randint(1, 60), draw.randint(1, 9)) for name in parameters}
+        yield {
+            name: Fraction(draw.randint(1, 997), draw.choice((7, 11, 13, 17, 19)))
+            for name in parameters
+        }

@@ -4,13 +4,14 @@ import shutil
 from dataclasses import replace
 from pathlib import Path
 
-from disting import Engine
+from disting import Engine, Sensor
 from disting.catalogs import catalog
 from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.network_files import recall
 from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
 from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
+from disting.fit.judge.quantity import QuantityReading
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.joint import FurtherResponse
@@ -71,6 +72,7 @@ def kinds(masses: int) -> dict[str, str]:
         "fit": "fit/fit.html",
         "fit of two responses": "alone/joint/fit.html",
         "fit, nothing explains": "alone/nothing/fit.html",
+        "fit, the quantity is open": "alone/quantity/fit.html",
     }
 
 
@@ -107,18 +109,40 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
 
 
 def fits(whole: bool) -> list[tuple[str, Selection, FrequencyResponse, FrequencyResponse]]:
-    """Where the pages of three fits lie, and what they show: an answer, two responses, none."""
+    """Where the pages of fits lie, and what they show: an answer, two responses, none, the
+    question for the sensor quantity.
+    """
     train, test = response(0, 2, 1), response(1, 3, 2)
     some = figure_1((1, 2)) if whole else [replace(DRIVE, dead_time=late) for late in (False, True)]
     second = Setup("2")
     further = FurtherResponse(data(second, 2, 0.01), second, data(second, 3, 0.03))
     both = data(Setup(), 10, 0.01), data(Setup(), 11, 0.03)
     pair = [DRIVE, replace(DRIVE, ground_dampers=(1, 2))]
+    found = select(train, some, test=test)
     return [
-        ("fit", select(train, some, test=test), train, test),
+        ("fit", found, train, test),
+        ("alone/quantity", asking(found), train, test),
         ("alone/joint", select(both[0], pair, test=both[1], further=[further]), *both),
         ("alone/nothing", select(train, figure_1((1,))[:2], test=test), train, test),
     ]
+
+
+def asking(found: Selection) -> Selection:
+    """The selection, if a speed had explained its data as well."""
+    best = found.described.estimate
+    readings = (
+        QuantityReading(Sensor.ACCELERATION, best, 1.0, is_assumed=True, integrates=True),
+        QuantityReading(Sensor.VELOCITY, best, 1.02),
+    )
+    return replace(
+        found,
+        selected=None,
+        members=(),
+        containing=(),
+        relied_on=(),
+        alternatives=(),
+        quantities=readings,
+    )
 
 
 def _write_fit(selection: Selection, out: Path, train: FrequencyResponse, one: FigureFiles) -> None:

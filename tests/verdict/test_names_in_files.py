@@ -19,7 +19,7 @@ from disting.network.notation.entries import entry_of
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Status
 from tests.cli.process import called
-from tests.fit.test_predictions import FREE, VALUES, fit_file, member
+from tests.fit.test_predictions import FREE, VALUES, fit_file, member, twin_values
 from tests.verdict.lies import ENGINE, FREE as UNUSED, leaves, plain, put
 
 A = Family(3, damped=True)
@@ -292,3 +292,16 @@ def test_a_network_that_is_read_back_keeps_its_notation() -> None:
     for text in (*NAMES[13:], "R0-p(R1,C1)-W1", "1=2*i, 2=3; F1; S3", "1>2, 2>0; in 1; out 1, 2"):
         read = of_network(network_of(text))
         assert verify(plain(read, read)).status is not Status.FAILS
+
+
+def test_what_a_fit_names_as_equivalent_has_the_fitted_response(tmp_path: Path) -> None:
+    """Of an equivalent a file has the name and the values, and nothing else."""
+    values = twin_values()
+    path = fit_file(tmp_path / "f.json", member(FREE, VALUES, **{"3:11": values}))
+    assert [s.name for s in named_by(path).left] == ["3:1", "3:11"]
+    others = [f"3:{n}" for n in range(1, 12) if n != 11]
+    assert any(set(A[int(name[2:])].parameters) == set(values) for name in others)
+    for name in (*others, "3:1+b1", "3:11+b1", "2:1"):
+        fit_file(path, member(FREE, VALUES, **{name: values}))
+        with pytest.raises(InputError, match=rf"f\.json: '{re.escape(name)}' does not denote"):
+            named_by(path)

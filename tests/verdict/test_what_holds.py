@@ -40,7 +40,10 @@ def test_free_names_are_said_to_be_free():
     assert found.models == f"pump and tank: {FREE_NAMES}"
     beside = verify(plain("2:1", models[0]))
     assert beside.models == f"2:1: a numbered chain; pump: {FREE_NAMES}"
-    assert verify(plain("R1-C1", "p(R1,C1)")).models == "R1-C1 and p(R1,C1): as the name denotes"
+    assert (
+        verify(plain("R1-C1", "p(R1,C1)")).models
+        == "R1-C1 and p(R1,C1): as denoted by the notation"
+    )
 
 
 def test_a_chain_without_a_number_is_not_said_to_have_one():

@@ -111,7 +111,7 @@ def safety_of_count(model: PolynomialMap, known: int, *, seed: str) -> int:
     >>> safety_of_count(coefficient_map(chain.structure), 2, seed="doc") > 100
     True
     """
-    each = safety_of_one_value(model) - ceil(log2(known + 1))
+    each = safety_of_one_value(model) - ceil(log2(known + 1)) - 1  # and values that are equal
     if each < LEAST:
         return 0
     runs = ceil(LIMITS.safety / each)

@@ -6,11 +6,13 @@ smaller one is true. What behaves exactly the same for the fitted values stands 
 this force and sensor tell it from the selected one.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from disting.errors import InputError, enumeration
 from disting.files import Format, read_json
@@ -24,15 +26,19 @@ from disting.fit.results.model_file import (
 from disting.fit.results.networks import BAR
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.containment import contains
+from disting.fit.search.plant import Plant
 from disting.fit.search.starts import Parameters
+from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
-from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
+from disting.network.denotation import MisnamedError, Naming, naming_of, refuse_misnamed
 from disting.network.network import Network
 from disting.network.notation.entries import network_of_entry
 from disting.verdict.result import Relation
 
+ALIKE = 1e-3  # relative difference of responses of equal structures, computed in floats
+BAND = (1.0, 1e4, 30)  # [rad/s], where structures with one response cannot differ either
 MOST_COUNTED = 10**7  # such as the lines of a response
 REASON = "the same responses for all positive values"
 
@@ -175,10 +181,15 @@ def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[S
         return other
 
     for member in members:
-        chain, _ = model_from_dict(member)
+        chain, fitted_values = model_from_dict(member)
         for twin in member["equivalents"]:
             other = add(twin["name"], chain)
-            own[other].extend(_whole(twin["parameters"], other))
+            whole = list(_whole(twin["parameters"], other))
+            if twin["parameters"] and not whole:
+                refuse_misnamed(twin["name"], Naming.FALSE)
+            if len(plain.get("responses", [None])) == 1:  # of several not each has this sensor
+                _refuse_other_response(twin["name"], (chain, fitted_values), other, whole)
+            own[other].extend(whole)
             free[other] = max(free.get(other, 0), _count(twin.get("free_choices", 0)))
     for value in plain["alternatives"]:
         if value["relation"] == Relation.INDISTINGUISHABLE:
@@ -187,6 +198,24 @@ def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[S
         yield Survivor(
             chain, chain in fitted, tuple(all_values), tuple(like[chain]), free.get(chain, 0)
         )
+
+
+def _refuse_other_response(
+    name: str, fitted: tuple[Chain, Parameters], other: Chain, values: Sequence[Parameters]
+) -> None:
+    """Raises MisnamedError unless the structure of this name has the fitted response at its values:
+    a file names it, and has nothing else of it.
+    """
+    omega = np.geomspace(*BAND)
+    wanted = _response(*fitted, omega)
+    for one in values:
+        if not np.allclose(_response(other, one, omega), wanted, rtol=ALIKE, atol=0):
+            refuse_misnamed(name, Naming.FALSE)
+
+
+def _response(chain: Chain, values: Parameters, omega: Real) -> Complex:
+    plant = Plant(chain.structure, omega)
+    return plant.response(np.array([values[name] for name in plant.parameters]))
 
 
 def _listed(name: str, chain: Chain) -> Chain:

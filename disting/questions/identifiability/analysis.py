@@ -53,8 +53,8 @@ def identifiability(
     damped: bool | None = None,
     sensor: Sensor | str | None = None,
 ) -> Identifiability:
-    """Which parameters of the chain its behaviour determines, and how many parameter vectors have
-    the same behaviour.
+    """Find which parameters of the chain its behaviour determines over complex parameters, and how
+    many parameter vectors have the same behaviour. `disting.identifiability` has other domains.
 
     It is the same for all chains of one canonical form, up to names. A chain can be named, such as
     "3:1+b2": `damped` and `sensor` say then how it is meant. Raises InputError for a text that
