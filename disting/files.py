@@ -251,7 +251,7 @@ def _opened(path: Path) -> Iterator[BinaryIO]:
 class Format(StrEnum):
     """What a JSON says at "format"."""
 
-    VERDICT = "disting verdict 1"
+    VERDICT = "disting verdict 2"
     EVERYWHERE = "disting verdicts for every place 1"
     VERDICTS = "disting verdicts 1"
     CATALOGUE = "disting catalogue 1"

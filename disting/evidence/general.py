@@ -90,10 +90,16 @@ class Explicit(OverDomain):
         return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters{values}."
 
 
+def primed(name: str) -> str:
+    """Name of a parameter of the model that a map searches, beside those of the given one."""
+    return f"{name}'"
+
+
 def _told(formula: Formula, small: Labels) -> str:
     _, where, values, root = formula
-    said = ", ".join(f"{name} = {value}" for name, value in values if name not in small)
-    said = f"values near {said}, {enumeration(small)} being small" if small else said
+    said = ", ".join(f"{primed(name)} = {value}" for name, value in values if name not in small)
+    vanishing = enumeration(map(primed, small))
+    said = f"values near {said}, {vanishing} being small" if small else said
     which = "a" if where else "the first"  # of several, where the inequalities name one
     said += f" with {root[0]} {which} root of {root[1]} from {root[2]} to {root[3]}" if root else ""
     return said + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")

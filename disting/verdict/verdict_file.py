@@ -36,6 +36,7 @@ from disting.verdict.result import Relation, Verdict
 from disting.verdict.sides import Sides, both_places, models_of_names, sides_of
 
 FORMAT = Format.VERDICT.value
+UNPRIMED = "disting verdict 1"  # explicit maps named the parameters of both models alike
 PLAIN = ("left", "right", "relation")  # by which a verdict without its models is known
 MOST_POINTS, MOST_SUBSETS, MOST_MARKOV, LONGEST_SEED = 100, 10**9, 1000, 1000
 MOST_EXPERIMENTS = 50
@@ -143,7 +144,7 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
     keys that it has not, MisnamedError for a name that denotes another model; `beside` = those
     keys that stand there for another reason.
     """
-    if not isinstance(data, dict) or data.get("format") != FORMAT:
+    if not isinstance(data, dict) or data.get("format") not in (FORMAT, UNPRIMED):
         is_verdict = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
         what = "holds a verdict without its models" if is_verdict else "is no file of a verdict"
         raise InputError(f"it {what}; 'disting compare N:I M:J --json' writes one")
@@ -168,6 +169,9 @@ def difference(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> str
     nothing. `sides` are what its models are, beside each other.
     """
     again = as_file(stored)
+    if data.get("format") == UNPRIMED:
+        again |= {"format": UNPRIMED, "sentence": again["sentence"].replace("'", "")}
+        data = data | {"sentence": str(data.get("sentence", "")).replace("'", "")}
     missing = object()
     fields = [
         name
