@@ -16,8 +16,7 @@ from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
 from disting.model.question import Domain
-from disting.network.network import Network
-from disting.network.notation import NOTATIONS, network_of, notations_of
+from disting.network.notation import NOTATIONS, notations_of
 
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
@@ -89,14 +88,10 @@ def size_or_list(text: str) -> int | Listed:
     return _list(text) or MASSES(text)
 
 
-def size_list_or_network(text: str) -> int | Listed | Network:
-    """One number of masses, a list of models, or a network in a notation."""
-    if _list(text) is None and notations_of(text):
-        try:
-            return network_of(text)
-        except InputError as problem:
-            raise argparse.ArgumentTypeError(str(problem)) from None
-    return size_or_list(text)
+def size_list_or_text(text: str) -> int | Listed | str:
+    """One number of masses, a list of models, or a text that is a network in some notation."""
+    is_network = _list(text) is None and notations_of(text)
+    return text if is_network else size_or_list(text)
 
 
 def size_or_family(text: str) -> int | str:
@@ -254,7 +249,7 @@ def add_also(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
 
 
-def add_notation(parser: argparse.ArgumentParser) -> None:
+def add_notation(parser: argparse.ArgumentParser | argparse._ArgumentGroup) -> None:
     """--notation."""
     text = "how a network is written, where its signs do not tell it"
     parser.add_argument("--notation", choices=NOTATIONS, default="", help=text)

@@ -3,7 +3,14 @@
 import argparse
 from pathlib import Path
 
-from disting.cli.arguments import add_damped, add_json, add_work, frequency_range, quantity_word
+from disting.cli.arguments import (
+    add_damped,
+    add_json,
+    add_notation,
+    add_work,
+    frequency_range,
+    quantity_word,
+)
 from disting.cli.fit_values import (
     bound,
     known_value,
@@ -179,6 +186,7 @@ def _structures(group: argparse._ArgumentGroup) -> None:
         " file of models, or a family such as cells-4; may be repeated"
     )
     group.add_argument("--models", action="append", default=[], metavar="NETWORK", help=text)
+    add_notation(group)
     group.add_argument(
         "--masses",
         type=masses,

@@ -41,7 +41,7 @@ def run(options: argparse.Namespace) -> int:
     foreign = sorted({word.partition("=")[0] for word in options.words} & UNKNOWN)
     if foreign:
         raise InputError(f"of networks --models knows no {enumeration(foreign)}: leave them away")
-    networks = _networks(options.models)
+    networks = _networks(options.models, options.notation)
     keep_apart(network.name for network in networks)
     measured = _measured(options, networks)
     first = measured[0]
@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
     return 0 if selection.left else 1
 
 
-def _networks(texts: Sequence[str]) -> list[Network]:
+def _networks(texts: Sequence[str], notation: str) -> list[Network]:
     """Those of texts, of files of models, of families; raises InputError."""
     networks = list[Network]()
     for text in texts:
@@ -65,7 +65,7 @@ def _networks(texts: Sequence[str]) -> list[Network]:
                 raise InputError(f"{unknown[0]} is no network: describe it by its elements")
             networks += [replace(m.network, name=m.name) for m in models if m.network is not None]
         else:
-            networks.append(network_of(text))
+            networks.append(network_of(text, notation))
     names = [network.name for network in networks]
     doubled = sorted({name for name in names if names.count(name) > 1})
     if doubled:

@@ -16,9 +16,10 @@ from disting.cli.arguments import (
     DOMAINS,
     Listed,
     add_damped,
+    add_notation,
     add_work,
     is_damped,
-    size_list_or_network,
+    size_list_or_text,
 )
 from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
@@ -34,6 +35,7 @@ from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option
 from disting.model.question import Domain
 from disting.network.network import Network
+from disting.network.notation import network_of
 from disting.questions.identifiability.levels import ParameterIdentifiability
 from disting.questions.identifiability.parts import Level
 from disting.verdict.engine import Engine, Progress
@@ -53,7 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " what can be determined of each"
     )
     metavar = "N|FILE.json|FAMILY|NETWORK"
-    parser.add_argument("masses", type=size_list_or_network, metavar=metavar, help=text)
+    parser.add_argument("masses", type=size_list_or_text, metavar=metavar, help=text)
     parser.add_argument(
         "--identifiability",
         action="store_true",
@@ -68,14 +70,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--ranks", action="store_true", help=text)
     text = "parameters over which it is said (default: positive, those of a machine)"
     parser.add_argument("--domain", choices=DOMAINS, default=Domain.POSITIVE.value, help=text)
+    add_notation(parser)
     add_damped(parser)
     add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """List the models of one size, or of a file; or tell of a network."""
-    if isinstance(options.masses, Network):
-        return _of_network(options.masses, options)
+    if isinstance(options.masses, str):
+        return _of_network(network_of(options.masses, options.notation), options)
     if isinstance(options.masses, Listed):
         return _of_list(options.masses, options)
     if options.masses > MOST_LISTED:

@@ -107,7 +107,7 @@ def test_what_is_fuzzed_is_good(text):
         ("[12345F]=[2S]", "numbered from 1"),
         (
             "R0-p(C1,R1-Ws1)",
-            "no verdicts are known for this element; take C, W",
+            "is not supported: its impedance is no fraction",
         ),
         ("[1F]=[2FS]", "each once"),
         ("[1F]=[1S]", "each mass once"),

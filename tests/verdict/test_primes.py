@@ -42,5 +42,7 @@ def test_a_file_of_the_format_without_primes_still_holds():
     assert verify(data).status is Status.HOLDS
     older = data | {"format": UNPRIMED, "sentence": data["sentence"].replace("'", "")}
     assert verify(older).status is Status.HOLDS
-    assert not verify(data | {"sentence": older["sentence"]}).status is Status.HOLDS
-    assert not verify(older | {"sentence": older["sentence"].replace("k10 + k12", "k12")}).status is Status.HOLDS
+    assert verify(data | {"sentence": older["sentence"]}).status is not Status.HOLDS
+    assert (
+        verify(older | {"sentence": older["sentence"].replace("k10 + k12", "k12")}).status is not Status.HOLDS
+    )

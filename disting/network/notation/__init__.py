@@ -8,8 +8,10 @@ from disting.network.network import Network
 from disting.network.notation.circuit import (
     AUTOEIS,
     BOUKAMP,
+    FITTER,
     IMPEDANCE,
     LINE,
+    VALUES,
     circuit,
     dialects_of,
     netlist,
@@ -17,7 +19,7 @@ from disting.network.notation.circuit import (
 from disting.network.notation.compartments import CALL, compartments
 from disting.network.notation.machine import DRAWN, machine
 
-DIALECTS = {d.name: d for d in (IMPEDANCE, AUTOEIS, BOUKAMP)}
+DIALECTS = {d.name: d for d in (IMPEDANCE, AUTOEIS, BOUKAMP, FITTER)}
 NOTATIONS = (*DIALECTS, "spice", "machine", "compartments")
 LONGEST = 5_000  # characters
 
@@ -29,6 +31,7 @@ def notations_of(text: str) -> list[str]:
     >>> notations_of("R0-[R1,C1]"), notations_of("1>2; in 1; out 2"), notations_of("3:1+b2")
     (['autoeis'], ['compartments'], [])
     """
+    text = VALUES.sub("", text) if len(text) <= LONGEST else text
     if len(text) > LONGEST or re.fullmatch(r"\s*(A|\d+:)\d+(\+\w+)*\s*", text):
         return []
     if any(LINE.fullmatch(part.strip()) for part in re.split(r"[;\n]", text)):
@@ -50,7 +53,8 @@ def network_of(
     quantity: Sensor | str = Sensor.ACCELERATION,
 ) -> Network:
     """The network that a text describes, in the notation that is named or that its signs show:
-    "impedance", "autoeis", "boukamp", "spice", "machine", "compartments". `quantity`: what the
+    "impedance", "autoeis", "boukamp", "impedancefitter", "spice", "machine", "compartments".
+    `quantity`: what the
     sensors of a machine show unless the text says it. `name`: the text, unless another one is
     given. Raises InputError with the place and what to write instead.
 

@@ -6,10 +6,13 @@ Lines end with a semicolon or where the text does.
 
     impedance.py, many tools    R0-p(R1,C1)-W1       - series, p(,) parallel
     AutoEIS, EquivalentCircuits R0-[R1,C1]-W1        - series, [,] parallel
-    Boukamp (CDC)               R(RC)W, R(C[RW])     side by side and [ ] series, ( ) parallel
+    ImpedanceFitter             R0 + parallel(R1, C1) + W1
+    Boukamp (CDC), pyimpspec    R(RC)W, R(C[RW])     side by side and [ ] series, ( ) parallel
 
-An element is R, L, C, W or P and a number; Boukamp's may have none and are numbered. P, a constant
-phase element, is CPE of impedance.py and Q of Boukamp. The port is at both ends of the circuit.
+An element is R, L, C, W or P and a number, or a word that begins with a small letter or an
+underscore: Rct, Cdl, CPE_f3. Boukamp's may have none and are numbered. P, a constant phase element,
+is CPE of impedance.py and Q of Boukamp. Behind an element pyimpspec writes values in braces,
+R{R=20}, which say nothing of a structure. The port is at both ends of the circuit.
 """
 
 import re
@@ -24,13 +27,29 @@ from disting.network.network import Network
 
 LINE = re.compile(r"([RLCWP]\w*)\s+(\w+)\s+(\w+)(?:\s+\S+)*", re.ASCII)
 PORT = re.compile(r"(?:port|[VI]\w*)\s+(\w+)\s+(\w+)(?:\s+\S+)*", re.ASCII | re.IGNORECASE)
-WORDS = re.compile(r"\s*(p\(|[-,()\[\]]|[A-Za-z]+\d*|\S)")
+WORDS = re.compile(r"\s*(p\(|parallel\(|[-+,()\[\]]|[A-Za-z]\w*|\S)", re.ASCII)
 # where elements stand side by side
-LETTER = re.compile(r"\s*([()\[\]]|CPE\d*|[A-Z][a-z]*\d*|\S)")
-ELEMENT = re.compile(r"(CPE|[RLCWPQ])(\d*)", re.ASCII)
+LETTER = re.compile(r"\s*([()\[\]]|(?:CPE|TLM[A-Z]?|[A-Z][a-z]*)\d*(?:_\w+)?|\S)", re.ASCII)
+VALUES = re.compile(r"\{[^{}]*\}")  # of pyimpspec, behind an element
+ELEMENT = re.compile(r"(CPE|[RLCWPQ])(\d*|[a-z_]\w*)", re.ASCII)
 OURS = {"CPE": "P", "Q": "P"}  # what other programs call an element
 DEEPEST = 30
-IRRATIONAL = ("Wo", "Ws", "G", "T", "O")  # elements of other programs
+IRRATIONAL = "its impedance is no fraction of polynomials in the root of s"
+UNSUPPORTED = {
+    "Wo": ("finite-length Warburg element with an open end", IRRATIONAL),
+    "Ws": ("finite-length Warburg element with a short", IRRATIONAL),
+    "T": ("diffusion of finite length (porous electrode)", IRRATIONAL),
+    "O": ("finite-length Warburg element with a short", IRRATIONAL),
+    "G": ("Gerischer element", "its impedance has the root of s + k"),
+    "Gs": ("finite-length Gerischer element", IRRATIONAL),
+    "La": ("inductor with an exponent", "its impedance grows with an unknown power of s"),
+    "K": ("relaxation R/(1 + s tau)", "write p(R1,C1) in its place"),
+    "Zarc": ("resistor beside a constant phase element", "write p(R1,P1) in its place"),
+    "TLMQ": ("transmission line", IRRATIONAL),
+    "TLM": ("transmission line", IRRATIONAL),
+    "H": ("Havriliak-Negami relaxation", "its impedance has a power of 1 + (s tau)^n"),
+}  # elements of other programs, and why there are no verdicts on them
+KNOWN = re.compile(rf"({'|'.join(sorted(UNSUPPORTED, key=len, reverse=True))})(?:\d+|_\w+)?")
 
 
 def netlist(text: str, name: str) -> Network:
@@ -67,24 +86,28 @@ def netlist(text: str, name: str) -> Network:
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """How a notation writes parallel parts and series in brackets; `dashes`: series has dashes,
-    parallel parts commas.
+    """How a notation writes parallel parts and series in brackets; `dashes`: series has a sign
+    `joint` between its parts, parallel parts have commas.
     """
 
     name: str
     parallel: tuple[str, str]
     series: tuple[str, str] = ("", "")
     dashes: bool = True
+    joint: str = "-"
 
 
 IMPEDANCE = Dialect("impedance", ("p(", ")"))
 AUTOEIS = Dialect("autoeis", ("[", "]"))
+FITTER = Dialect("impedancefitter", ("parallel(", ")"), joint="+")
 BOUKAMP = Dialect("boukamp", ("(", ")"), ("[", "]"), dashes=False)
 
 
 def dialects_of(text: str) -> list[Dialect]:
     """The dialects in which a text may be written, by its signs alone."""
-    plain = text.replace(" ", "")
+    plain = VALUES.sub("", text).replace(" ", "")
+    if "parallel(" in plain or "+" in plain:
+        return [FITTER]
     if "p(" in plain:
         return [IMPEDANCE]
     if "-" in plain or "," in plain:
@@ -101,7 +124,9 @@ def circuit(text: str, dialect: Dialect, name: str) -> Network:
     R0 1 2, R1 2 0, C1 2 0
     """
     token = WORDS if dialect.dashes else LETTER
-    reader = _Reader(dialect, list(token.finditer(text.rstrip())), text)
+    # blanks in the place of values keep the places of what follows
+    plain = VALUES.sub(lambda values: " " * len(values[0]), text).rstrip()
+    reader = _Reader(dialect, list(token.finditer(plain)), plain)
     whole = reader.series()
     if reader.next:
         raise reader.problem("what stands before it is whole; remove it or join it")
@@ -159,10 +184,14 @@ class _Reader:
     def series(self) -> Part:
         """Parts up to a bracket, a comma or the end."""
         parts = [self.part()]
-        while self.next == "-" if self.dialect.dashes else self.next not in ("", ")", "]"):
+        while self._goes_on(self.dialect.joint):
             self.at += self.dialect.dashes
             parts.append(self.part())
         return Series(tuple(parts)) if len(parts) > 1 else parts[0]
+
+    def _goes_on(self, sign: str) -> bool:
+        """True if a further part follows, behind a sign or side by side."""
+        return self.next == sign if self.dialect.dashes else self.next not in ("", ")", "]")
 
     def part(self) -> Part:
         """An element, or what is in brackets."""
@@ -185,7 +214,7 @@ class _Reader:
     def parallel(self) -> Part:
         """Parts between commas, or side by side."""
         parts = [self.series() if self.dialect.dashes else self.part()]
-        while self.next == "," if self.dialect.dashes else self.next not in ("", ")", "]"):
+        while self._goes_on(","):
             self.at += self.dialect.dashes
             parts.append(self.series() if self.dialect.dashes else self.part())
         if len(parts) < 2:
@@ -194,20 +223,18 @@ class _Reader:
 
     def element(self) -> str:
         """The name of an element; one without a number gets one."""
-        name = ELEMENT.fullmatch(self.next)
+        known, name = KNOWN.fullmatch(self.next), ELEMENT.fullmatch(self.next)
+        if known:
+            what, reason = UNSUPPORTED[known[1]]
+            raise self.problem(f"{known[1]} ({what}) is not supported: {reason}")
         if not name:
             opening, closing = self.dialect.parallel
-            example = f"R0-{opening}R1,C1{closing}" if self.dialect.dashes else "R(RC)"
-            said = (
-                "write R, L, C, W (Warburg) or P (constant phase) and a number here, as in"
+            joint = self.dialect.joint
+            example = f"R0{joint}{opening}R1,C1{closing}" if self.dialect.dashes else "R(RC)"
+            raise self.problem(
+                "write R, L, C, W (Warburg) or P (constant phase) and a number or a name, as in"
                 f" {example}"
             )
-            if self.next.rstrip("0123456789") in IRRATIONAL:
-                said = (
-                    "no verdicts are known for this element; take C, W or P for it, as in"
-                    f" {example}"
-                )
-            raise self.problem(said)
         self.at += 1
         letter = OURS.get(name[1], name[1])
         if name[2]:
@@ -216,9 +243,10 @@ class _Reader:
         return f"{letter}{self.unnumbered[letter]}"
 
     def problem(self, remedy: str) -> InputError:
-        """What is wrong at the next token."""
+        """Error at the next token."""
         if not self.next:
-            return InputError(f"the circuit ends too early: {remedy}")
+            return InputError(f"cannot parse the circuit, it ends too early: {remedy}")
         at = self.tokens[self.at]
-        place = f"character {at.start(1) + 1} ({at[1]})"
-        return InputError(f"the circuit goes wrong at {place}: {remedy}")
+        return InputError(
+            f"cannot parse the circuit at position {at.start(1) + 1} ({short(at[1])}): {remedy}"
+        )

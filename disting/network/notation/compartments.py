@@ -1,6 +1,7 @@
-"""Compartments as arrows: `1>2, 2>1, 2>0; in 1; out 1`, 0 being the outside; and as the lists of
-StructuralIdentifiability.jl: `linear_compartment_model([[2], [1]], inputs=[1], outputs=[1],
-leaks=[2])`, where entry i has the compartments to which i flows.
+"""Compartments as arrows: `1>2, 2>1, 2>0; in 1; out 1`, 0 being the outside, or as paths of them,
+`1<>2>0; in 1; out 1`; and as the lists of StructuralIdentifiability.jl: `linear_compartment_model(
+[[2], [1]], inputs=[1], outputs=[1], leaks=[2])`, where entry i has the compartments to which i
+flows.
 
 The flow from i to j is a_ij times what is in i. Inputs enter compartments, outputs show what is in
 them.
@@ -22,7 +23,8 @@ LISTS = (
 LIST = re.compile(r"(inputs|outputs|leaks)\s*=\s*(\[[\d\s,]*\])", re.ASCII)
 # numbers of up to four digits, as of nodes in files
 PORTS = re.compile(r"(in|out)\s+(\d{1,4}(?:\s*,\s*\d{1,4})*)", re.ASCII)
-ARROW = re.compile(r"\s*(\d{1,4})\s*(<?>)\s*(\d{1,4})\s*", re.ASCII)
+PATH = re.compile(r"\s*\d{1,4}(?:\s*<?>\s*\d{1,4})+\s*", re.ASCII)
+ARROW = re.compile(r"(?=(?<!\d)(\d{1,4})\s*(<?>)\s*(\d{1,4}))", re.ASCII)  # each of a path
 
 
 def compartments(text: str, name: str) -> Network:
@@ -30,6 +32,9 @@ def compartments(text: str, name: str) -> Network:
 
     >>> print(*compartments("1>2, 2>1, 2>0; in 1; out 1", "drug").elements, sep=", ")
     v 1, v 2, a12 1 2, a21 2 1, a20 2 0
+    >>> path = compartments("1<>2>3>0; in 1; out 3", "")
+    >>> path == compartments("1>2, 2>1, 2>3, 3>0; in 1; out 3", "")
+    True
     """
     call = CALL.fullmatch(text)
     if call:
@@ -40,15 +45,15 @@ def compartments(text: str, name: str) -> Network:
         if port:
             ports.setdefault(port[1], []).extend(map(int, port[2].split(",")))
             continue
-        for arrow in part.split(","):
-            match = ARROW.fullmatch(arrow)
-            if not match:
+        for path in part.split(","):
+            if not PATH.fullmatch(path):
                 raise InputError(
-                    f"{short(arrow.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
+                    f"{short(path.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
                     " 1; out 1 (out 1, 2 of two)"
                 )
-            a, b = int(match[1]), int(match[3])
-            flows += [(a, b), (b, a)] if match[2] == "<>" else [(a, b)]
+            for first, arrow, second in ARROW.findall(path):
+                a, b = int(first), int(second)
+                flows += [(a, b), (b, a)] if arrow == "<>" else [(a, b)]
     return of_flows(flows, ports.get("in", []), ports.get("out", []), name)
 
 
