@@ -12,6 +12,7 @@ from disting import Experiment, Family, Model, everywhere_file, read_models, ver
 from disting.errors import InputError
 from disting.fit.plan.fit_file import left_by, named_by
 from disting.fit.results.model_file import read_model
+from disting.fit.search.candidates import reference
 from disting.general.any_model import of_network
 from disting.network import network_of
 from disting.network.denotation import FREE_NAMES

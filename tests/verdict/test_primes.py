@@ -44,5 +44,6 @@ def test_a_file_of_the_format_without_primes_still_holds():
     assert verify(older).status is Status.HOLDS
     assert verify(data | {"sentence": older["sentence"]}).status is not Status.HOLDS
     assert (
-        verify(older | {"sentence": older["sentence"].replace("k10 + k12", "k12")}).status is not Status.HOLDS
+        verify(older | {"sentence": older["sentence"].replace("k10 + k12", "k12")}).status
+        is not Status.HOLDS
     )
