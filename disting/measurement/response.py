@@ -22,6 +22,7 @@ from disting.measurement.arrays import (
     spread,
 )
 from disting.measurement.distortion import Distortion
+from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import agree, unit_as
 from disting.measurement.window import Window
 from disting.model.chain import Sensor, as_sensor
@@ -67,7 +68,8 @@ class FrequencyResponse(NotebookTable):
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
     are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
-    in any unit, shape (n_f,), or None. Frequencies out of order are sorted, with a note. Raises
+    in any unit, shape (n_f,), or None; `columns` = those of the file as they were understood.
+    Frequencies out of order are sorted, with a note. Raises
     InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
@@ -91,6 +93,7 @@ class FrequencyResponse(NotebookTable):
     freedom: float | None = None
     window: Window | None = None
     drive: Real | None = None
+    columns: tuple[ReadColumn, ...] = ()
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -275,9 +278,14 @@ class FrequencyResponse(NotebookTable):
         """The same response with further doubts; repetitions are left out."""
         return replace(self, doubts=tuple(dict.fromkeys([*self.doubts, *doubts])))
 
-    def read_as(self, words: str) -> "FrequencyResponse":
-        """The same response with words on which columns were read as what."""
-        return replace(self, reading=words)
+    def read_as(
+        self, words: str, columns: Sequence[ReadColumn] | None = None
+    ) -> "FrequencyResponse":
+        """The same response with words on which columns were read as what, and their records where
+        these are given.
+        """
+        kept = self.columns if columns is None else tuple(columns)
+        return replace(self, reading=words, columns=kept)
 
 
 def as_sign(value: int) -> int:

@@ -2,14 +2,14 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.column_words import NAME, Column, Role
+from disting.measurement.column_words import NAME, Column, Role, Why
 from disting.measurement.columns import (
     Group,
     choose,
@@ -27,6 +27,7 @@ from disting.measurement.response import (
 )
 from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import Table
+from disting.measurement.understanding import Use, record_columns, sentence
 from disting.measurement.units import FREQUENCIES, LEVELS, PHASES, gain, known_unit, ratio
 from disting.model.chain import Sensor
 
@@ -90,8 +91,11 @@ def frequency_response(
         for group in used
     ]
     unit = taken_unit(grid, table.column(at), roles[at].unit)
-    words = f"frequency in {unit} (column {at + 1}), {reading.words}"
-    return mean_of(responses, outliers=outliers).noted(*notes).doubted(*doubts).read_as(words)
+    asked = frequency_unit is not None and not ours
+    uses = reading.uses | {at: Use(Role.FREQUENCY, unit, _why_unit(roles[at], unit, asked))}
+    read = record_columns(table.headers, table.values, roles, uses)
+    response = mean_of(responses, outliers=outliers).noted(*notes).doubted(*doubts)
+    return response.read_as(sentence(read), read)
 
 
 def response_columns(table: Table, columns: Sequence[str] | None = None) -> tuple[int, ...]:
@@ -104,7 +108,8 @@ def response_columns(table: Table, columns: Sequence[str] | None = None) -> tupl
 @dataclass(slots=True)
 class _Reading:
     """How numbers become a response; what is assumed goes to `notes`, what looks wrong to
-    `doubts`. `guess`: nobody said what the columns are but their headers.
+    `doubts`, the columns that are used to `uses`. `guess`: nobody said what the columns are but
+    their headers.
     """
 
     table: Table
@@ -114,7 +119,7 @@ class _Reading:
     guess: bool
     notes: list[str]
     doubts: list[str]
-    words: str = ""
+    uses: dict[int, Use] = field(default_factory=dict)
 
     def numbers(self, group: Group) -> Complex:
         """The response of a group of columns."""
@@ -122,19 +127,30 @@ class _Reading:
         if Role.REAL in columns:
             real, imaginary = columns[Role.REAL], columns[Role.IMAGINARY]
             scale = self._scale(real), self._scale(imaginary)
-            self.words = f"real part (column {real + 1}), imaginary part (column {imaginary + 1})"
+            level = self.magnitude_unit and Why.OPTION
+            for at, role in ((real, Role.REAL), (imaginary, Role.IMAGINARY)):
+                self.uses[at] = Use(role, self.magnitude_unit or "", level or Why.NOTHING)
             return np.asarray(
                 self._signed(real) * scale[0] + 1j * self._signed(imaginary) * scale[1]
             )
         at = columns[Role.PHASE]
         unit = self._phase_unit(at)
         size, level = self._size(columns[Role.GAIN], guess=self.guess and unit == "deg")
-        phrase = "" if level == "1" else f" in {level}"
-        self.words = (
-            f"gain{phrase} (column {columns[Role.GAIN] + 1}), phase in"
-            f" {'degrees' if unit == 'deg' else unit} (column {at + 1})"
-        )
+        self.uses[columns[Role.GAIN]] = self._gain_use(columns[Role.GAIN], level)
+        asked = self.phase_unit is not None
+        self.uses[at] = Use(Role.PHASE, unit, _why_unit(self.roles[at], unit, asked))
         return np.asarray(size * np.exp(1j * PHASES[unit] * self._signed(at)))
+
+    def _gain_use(self, at: int, level: str) -> Use:
+        """Use of a column of gains: as its header states, else at the level that was taken."""
+        if self.magnitude_unit is not None:
+            return Use(Role.GAIN, level, Why.OPTION)
+        if self.roles[at].unit:
+            return Use(Role.GAIN)
+        if level != "1":
+            return Use(Role.GAIN, level, Why.BY_NUMBERS)
+        is_said = LINEAR.search(self.table.headers[at].lower()) is not None
+        return Use(Role.GAIN, level, Why.WORD if is_said else Why.ASSUMED)
 
     def _signed(self, at: int) -> Real:
         """The numbers of a column, reversed where its header has a minus before its name."""
@@ -152,6 +168,7 @@ class _Reading:
         if role is Role.DEVIATION and level_of(self.roles[at]) in LEVELS[2:]:
             self.doubts.append(f"{self.table.named(at)} is in dB or Np and is not used")
             return None
+        self.uses[at] = Use(role)
         return self.table.column(at) * (0.01 if level_of(self.roles[at]) == "%" else 1.0)
 
     def _known(self, at: int) -> None:
@@ -266,6 +283,15 @@ def _grid(
     grid, said = in_omega(table.column(at), column.unit or None, asked, table.named(at))
     (doubts if column.unit else notes).extend([said] if said else [])
     return grid
+
+
+def _why_unit(column: Column, taken: str, asked: bool) -> Why:
+    """Reason for the unit `taken` of frequencies or phases."""
+    if asked:
+        return Why.OPTION
+    if column.unit == taken:
+        return Why.OPTION if column.why is Why.OPTION else Why.UNIT
+    return Why.ASSUMED if taken == "Hz" and not column.unit else Why.BY_NUMBERS
 
 
 def _units(

@@ -24,6 +24,7 @@ from disting.measurement.trend import (
     describe,
     undo_difference,
 )
+from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import motion
 from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import plural, summary
@@ -83,7 +84,8 @@ class TimeSeries:
     content.
 
     `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked
-    for, or None; `left_out` says what else the file has. Raises InputError for samples that are not
+    for, or None; `left_out` says what else the file has; `columns` = those of the file as they were
+    understood. Raises InputError for samples that are not
     finite, constant signals and unequal lengths.
 
     >>> from disting.simulation import demo
@@ -102,6 +104,7 @@ class TimeSeries:
     notes: tuple[str, ...] = ()
     reference: Real | None = None
     left_out: str = ""
+    columns: tuple[ReadColumn, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("u", "y", *(["reference"] if self.reference is not None else [])):
@@ -199,6 +202,7 @@ class TimeSeries:
             notes=(*self.notes, *the_response.notes, *([doubt] if doubt else [])),
             reading=f"record in time, input {self.input}, output {self.output}{closed}"
             + (self.left_out and f"; {self.left_out}"),
+            columns=self.columns,
         )
         return response if sensor is None else response.to_quantity(sensor)
 
