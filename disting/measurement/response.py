@@ -22,6 +22,7 @@ from disting.measurement.arrays import (
     spread,
 )
 from disting.measurement.distortion import Distortion
+from disting.measurement.method import Method
 from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import agree, unit_as
 from disting.measurement.window import Window
@@ -68,7 +69,8 @@ class FrequencyResponse(NotebookTable):
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
     are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
-    in any unit, shape (n_f,), or None; `columns` = those of the file as they were understood.
+    in any unit, shape (n_f,), or None; `columns` = those of the file as they were understood;
+    `method` = how it was estimated from a record in time, or None.
     Frequencies out of order are sorted, with a note. Raises
     InputError for what is no frequency response (module `checks`).
 
@@ -94,6 +96,7 @@ class FrequencyResponse(NotebookTable):
     window: Window | None = None
     drive: Real | None = None
     columns: tuple[ReadColumn, ...] = ()
+    method: Method | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")

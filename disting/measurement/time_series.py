@@ -227,9 +227,10 @@ class TimeSeries:
         # a Hann window gives the first sample no weight: its difference is unknown and free
         response = estimate(np.concatenate([[speed.slope], steps]), 1)
         is_moving = abs(speed.slope) > MOVING * float(steps.std())
-        return undo_difference(response, self.sampling_rate).noted(
-            self._describe_output(speed) if is_moving else None
-        )
+        trends = (self._describe_output(speed),) if is_moving else ()
+        method = response.method and replace(response.method, trends=trends)
+        plain = undo_difference(response, self.sampling_rate).noted(*trends)
+        return replace(plain, method=method)
 
     def _describe_input(self, trend: Trend) -> str:
         return describe(trend, self.sampling_rate, None, "input", self.input)

@@ -93,13 +93,13 @@ def check(
             " sensor quantity"
         )
     for data in filter(None, (train, test)):
-        _check_units(data)
+        check_range(data)
     for extra in further:  # each against its own test data
         if extra.test is not None and test is None:
             raise InputError("test data of a further response need test data of the first one too")
         _check_pair(extra.measured, extra.test)
         for data in filter(None, (extra.measured, extra.test)):
-            _check_units(data)
+            check_range(data)
     thinned = None if test is None else test.thinned(most)
     return (
         train.thinned(most),
@@ -119,9 +119,9 @@ def _check_pair(train: FrequencyResponse, test: FrequencyResponse | None) -> Non
         )
 
 
-def _check_units(data: FrequencyResponse) -> None:
-    """Numbers whose squares and products floating point holds; beyond these no unit of
-    measurement is sensible.
+def check_range(data: FrequencyResponse) -> None:
+    """Raise InputError for numbers whose squares and products floating point does not hold; beyond
+    these no unit of measurement is sensible.
     """
     for name, values, unit in (
         ("frequencies", data.omega, "rad/s"),
