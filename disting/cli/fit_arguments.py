@@ -128,7 +128,7 @@ def _reading(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--read", type=reader_option, action="append", default=[], metavar="NAME=VALUE", help=text
     )
-    text = "another measurement of the same response; mean and scatter of all are taken; may be repeated"
+    text = "the same response measured again; mean and scatter of all are taken; may be repeated"
     group.add_argument(
         "--repeat", type=Path, action="append", default=[], metavar="FILE", help=text
     )

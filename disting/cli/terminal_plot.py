@@ -1,5 +1,5 @@
-"""Plots of plain characters for a terminal or a pipe: eight dots to a character by braille signs, or
-two to a character where only ASCII can be written.
+"""Plots of plain characters for a terminal or a pipe: eight dots to a character by braille signs,
+or two to a character where only ASCII can be written.
 """
 
 from collections.abc import Iterator
@@ -45,7 +45,7 @@ def signs_of(encoding: str) -> Signs:
 def bode_lines(
     hertz: Values, response: NDArray[np.complex128], width: int, signs: Signs, unit: str
 ) -> Iterator[str]:
-    """Return the lines of a Bode diagram; `hertz`, `response`: shape (n,), `width` in characters."""
+    """Return the lines of a Bode diagram of `width` characters; `hertz`, `response`: shape (n,)."""
     room = width - LABEL - 1
     size, phase = np.abs(response), np.degrees(np.unwrap(np.angle(response)))
     x = np.log(hertz)
@@ -88,8 +88,8 @@ def curve(
     """Return `height` rows of `width` characters with a line through the points, shape (n,) each;
     `box`: the left, right, lower and upper edge, by default those of the points.
 
-    >>> print(*curve(np.arange(3.0), np.array([0.0, 1.0, 0.0]), 4, 1), sep="\\n")
-    ⡠⠊⠑⢄
+    >>> curve(np.arange(8.0), np.zeros(8), 4, 1), curve(np.arange(4.0), np.arange(4.0), 2, 1)
+    (['⠒⠒⠒⠒'], ['⡠⠊'])
     """
     left, right, low, high = box or (x.min(), x.max(), y.min(), y.max())
     across = _places(x, left, right, 2 * width)

@@ -36,7 +36,7 @@ def look_lines(seen: "Look", width: int = WIDTH) -> Iterator[str]:
     yield printable(origin or seen.file)
     yield from column_table(seen, width)
     yield ""
-    for name, text in _facts(seen):
+    for name, text in fact_rows(seen):
         yield from _folded(name, text, width)
 
 
@@ -99,7 +99,7 @@ def _aligned(rows: Sequence[Sequence[str]], width: int) -> Iterator[str]:
         yield from (" " * margin + rest for rest in folded[1:])
 
 
-def _facts(seen: "Look") -> Iterator[tuple[str, str]]:
+def fact_rows(seen: "Look") -> Iterator[tuple[str, str]]:
     """Name and sentence of each fact."""
     response, record = seen.response, seen.record
     if record is not None:

@@ -210,9 +210,10 @@ def look(
     """Return a measured file as it is read, with what is assumed and what is in doubt.
 
     `options` as for `read`; `repeat`: further files with the same response, of which the mean is
-    taken, `outliers` as in `mean_of`; `changes`: applied to the response one after the other, such as
-    `in_si` or a band. What a fit refuses is shown as far as it is understood, the reason among the doubts. Raises InputError for
-    a file that is absent or cannot be parsed, and for an unknown option.
+    taken, `outliers` as in `mean_of`; `changes`: applied to the response one after the other, such
+    as `in_si` or a band. What a fit refuses is shown as far as it is understood, the reason among
+    the doubts. Raises InputError for a file that is absent or cannot be parsed, and for an unknown
+    option.
 
     >>> from tempfile import TemporaryDirectory
     >>> rows = ["f [Hz],Re,Im", *(f"{f},1,{f}" for f in range(1, 20))]
@@ -234,8 +235,8 @@ def look(
     if response is not None and _is_impedance(columns, response):
         refusals.append(IMPEDANCE)
         response = as_impedance(response)
-    for change in changes if response is not None else ():
-        response = _changed(response, change, refusals)
+    if response is not None:
+        response = _changed(response, changes, refusals)
     seen = Look(file.name, columns, response, record, refusals=tuple(refusals))
     return _with_statistics(seen, options, bool(repeat))
 
@@ -285,12 +286,16 @@ def _mean(
         return responses[0]
 
 
-def _changed(response: FrequencyResponse, change: Change, refusals: list[str]) -> FrequencyResponse:
-    try:
-        return change(response)
-    except InputError as reason:
-        refusals.append(str(reason))
-        return response
+def _changed(
+    response: FrequencyResponse, changes: Sequence[Change], refusals: list[str]
+) -> FrequencyResponse:
+    """The response after all changes but those that are refused."""
+    for change in changes:
+        try:
+            response = change(response)
+        except InputError as reason:
+            refusals.append(str(reason))
+    return response
 
 
 def _columns(file: Source, options: Options, record: TimeSeries | None) -> tuple[ReadColumn, ...]:

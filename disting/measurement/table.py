@@ -125,8 +125,17 @@ def time_series(
     uses |= {u: Use(Role.INPUT), y: Use(Role.OUTPUT)}
     uses |= {} if reference is None else {table.at(reference): Use(Role.REFERENCE)}
     columns = signal_columns(table, uses, is_clock_given=time is not None)
-    rest = (notes, wanted, table.left_out, columns)
-    return TimeSeries(*samples, sampling_rate, quantity, *labels, origin, *rest)
+    return TimeSeries(
+        *samples,
+        sampling_rate,
+        quantity,
+        *labels,
+        origin,
+        notes,
+        wanted,
+        table.left_out,
+        columns,
+    )
 
 
 def signal_columns(

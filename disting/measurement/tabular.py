@@ -127,9 +127,9 @@ class _Reading:
         if Role.REAL in columns:
             real, imaginary = columns[Role.REAL], columns[Role.IMAGINARY]
             scale = self._scale(real), self._scale(imaginary)
-            level = self.magnitude_unit and Why.OPTION
-            for at, role in ((real, Role.REAL), (imaginary, Role.IMAGINARY)):
-                self.uses[at] = Use(role, self.magnitude_unit or "", level or Why.NOTHING)
+            asked = Why.OPTION if self.magnitude_unit else Why.NOTHING
+            for part, role in ((real, Role.REAL), (imaginary, Role.IMAGINARY)):
+                self.uses[part] = Use(role, self.magnitude_unit or "", asked)
             return np.asarray(
                 self._signed(real) * scale[0] + 1j * self._signed(imaginary) * scale[1]
             )
@@ -137,8 +137,8 @@ class _Reading:
         unit = self._phase_unit(at)
         size, level = self._size(columns[Role.GAIN], guess=self.guess and unit == "deg")
         self.uses[columns[Role.GAIN]] = self._gain_use(columns[Role.GAIN], level)
-        asked = self.phase_unit is not None
-        self.uses[at] = Use(Role.PHASE, unit, _why_unit(self.roles[at], unit, asked))
+        why = _why_unit(self.roles[at], unit, self.phase_unit is not None)
+        self.uses[at] = Use(Role.PHASE, unit, why)
         return np.asarray(size * np.exp(1j * PHASES[unit] * self._signed(at)))
 
     def _gain_use(self, at: int, level: str) -> Use:

@@ -93,10 +93,12 @@ def record_format(columns: Iterable[tuple[str, Role, str]]) -> tuple[ReadColumn,
     )
 
 
-def with_unit(columns: Sequence[ReadColumn], role: Role, unit: str) -> tuple[ReadColumn, ...]:
-    """Return the columns with a unit that the caller gives for those of a role."""
+def with_unit(
+    columns: Sequence[ReadColumn], role: Role, unit: str, why: Why = Why.OPTION
+) -> tuple[ReadColumn, ...]:
+    """Return the columns with this unit for those of a role, and its reason."""
     return tuple(
-        replace(column, unit=unit, unit_why=Why.OPTION)
+        replace(column, unit=unit, unit_why=why)
         if column.role is role and column.is_used
         else column
         for column in columns

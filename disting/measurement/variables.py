@@ -133,7 +133,8 @@ def series_from_variables(
         split_index(output)[0]: Use(Role.OUTPUT),
         (split_index(reference)[0] or ""): Use(Role.REFERENCE),
     }
-    asked = (sampling_rate, time, *(split_index(n)[0] for n in (input, output, reference)))
+    asked = {split_index(n)[0] for n in (input, output, reference, time)}
+    asked |= {sampling_rate} if isinstance(sampling_rate, str) else set()
     read = record_variables(arrays, {n: use for n, use in uses.items() if n}, asked)
     title = f"{origin}, {output} per {input}"
     return TimeSeries(*samples, rate, quantity, *signals, title, notes, wanted, columns=read)
