@@ -11,6 +11,8 @@ from disting.model.chain import Sensor
 
 ASSUMED = {ASSUMED_ACCELERATION: Sensor.ACCELERATION, ASSUMED_POSITION: Sensor.POSITION}
 OTHER_UNITS = {"Hz": "rad/s", "rad/s": "Hz", "deg": "rad", "rad": "deg", "dB": "1", "1": "dB"}
+OHMS = ("ohm", "ohms", "ω", "v/a")  # Ω in small letters is ω
+OF_RESPONSE = (Role.REAL, Role.IMAGINARY, Role.GAIN, Role.RESPONSE)
 UNIT_OPTIONS = {Role.FREQUENCY: "frequency", Role.PHASE: "phase", Role.GAIN: "magnitude"}
 
 
@@ -39,6 +41,18 @@ def assumptions(columns: Sequence[ReadColumn], quantity: Sensor | None) -> tuple
     used = [column for column in columns if column.is_used]
     of_quantity = [] if quantity is None else [_of_quantity(quantity)]
     return (*of_quantity, *_of_columns(used), *_of_units(used))
+
+
+def shows_impedance(columns: Sequence[ReadColumn], response: FrequencyResponse | None) -> bool:
+    """Return True for a voltage per current: by the units of the signals, or of a column that is
+    used.
+    """
+    if response is not None and (response.output.unit, response.input.unit) == ("V", "A"):
+        return True
+    return any(
+        column.is_used and column.role in OF_RESPONSE and column.unit.lower() in OHMS
+        for column in columns
+    )
 
 
 def _of_quantity(quantity: Sensor) -> Assumption:

@@ -5,7 +5,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from disting.errors import printable
-from disting.measurement.assumptions import assumed_quantity, assumptions
+from disting.measurement.assumptions import assumed_quantity, assumptions, shows_impedance
 from disting.measurement.column_words import Role, Why
 from disting.measurement.excitation import Excitation
 from disting.measurement.method import Method
@@ -40,24 +40,25 @@ def look_lines(seen: "Look", width: int = WIDTH) -> Iterator[str]:
         yield from _folded(name, text, width)
 
 
-def short_lines(response: FrequencyResponse) -> Iterator[str]:
-    """Return two to six lines on a response: its file, columns, quantity and lines, assumptions.
+def short_lines(response: FrequencyResponse, shows: str = "") -> Iterator[str]:
+    """Return two to four lines on a response: its file, columns, quantity and lines, assumptions.
+    `shows`: its quantity, where the sensor does not tell it, such as an impedance.
 
     >>> from disting.measurement import from_arrays
     >>> print(*short_lines(from_arrays(range(1, 9), [1j] * 8)), sep="\\n")
     arrays
-    sensor: acceleration; 8 lines from 1 to 8 Hz
+    shows: acceleration; 8 lines from 1 to 8 Hz
     """
     if response.origin:
         yield printable(response.origin)
     if response.reading:
-        yield f"columns: {response.reading}"
-    yield f"sensor: {_sensor(response)}; {_lines(response)}"
-    assumed = assumptions(response.columns, assumed_quantity(response))
-    yield from (f"assumed: {assumption}" for assumption in assumed[:MOST_ASSUMED])
-
-
-MOST_ASSUMED = 3  # of the short form
+        yield f"columns: {printable(response.reading)}"
+    shows = shows or ("impedance" if shows_impedance(response.columns, response) else "")
+    yield f"shows: {shows or _sensor(response)}; {_lines(response)}"
+    quantity = None if shows else assumed_quantity(response)
+    assumed = [f"{a.what} (else {a.option})" for a in assumptions(response.columns, quantity)]
+    if assumed:
+        yield f"assumed: {'; '.join(assumed)}"
 
 
 def column_table(seen: "Look", width: int) -> Iterator[str]:

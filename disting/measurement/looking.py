@@ -13,13 +13,19 @@ import numpy as np
 
 from disting.errors import InputError, printable
 from disting.files import Format
-from disting.measurement.assumptions import Assumption, assumed_quantity, assumptions
+from disting.measurement.assumptions import (
+    OF_RESPONSE,
+    Assumption,
+    assumed_quantity,
+    assumptions,
+    shows_impedance,
+)
 from disting.measurement.column_words import Role, Why
 from disting.measurement.distortion import shares
 from disting.measurement.excitation import InputBand, excitation
 from disting.measurement.files import open_record
 from disting.measurement.formats import Options, UnknownOption, format_of
-from disting.measurement.impedance import VOLT, as_impedance
+from disting.measurement.impedance import as_impedance
 from disting.measurement.look_text import look_lines
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import FrequencyResponse
@@ -31,12 +37,10 @@ from disting.measurement.units import drive
 from disting.model.chain import Sensor
 from disting.model.presentation import NotebookTable
 
-OHMS = ("ohm", "ohms", "Ω", "V/A")
 INPUTS = {"Nm": "torque", "N": "force", "A": "current", "V": "voltage"}
-OF_RESPONSE = (Role.REAL, Role.IMAGINARY, Role.GAIN, Role.RESPONSE)
 IMPEDANCE = (
     "this is an impedance, which no chain of masses has: fit circuits to it, such as disting fit"
-    " FILE --models circuits-3"
+    " FILE --models circuits-4"
 )
 # marks of notes that the list of assumptions or the facts of a record state as well
 REPEATED = (
@@ -79,7 +83,7 @@ class Look(NotebookTable):
     @property
     def is_impedance(self) -> bool:
         """Return True if the response is a voltage per current."""
-        return _is_impedance(self.columns, self.response)
+        return shows_impedance(self.columns, self.response)
 
     @property
     def quantity(self) -> Sensor | None:
@@ -232,7 +236,7 @@ def look(
     if response is not None and repeat:
         response = _mean([response, *_others(repeat, options, refusals)], outliers, refusals)
     columns = response.columns if response is not None else _columns(file, options, record)
-    if response is not None and _is_impedance(columns, response):
+    if response is not None and shows_impedance(columns, response):
         refusals.append(IMPEDANCE)
         response = as_impedance(response)
     if response is not None:
@@ -340,16 +344,6 @@ def _source(response: FrequencyResponse, known_from: str, is_mean: bool) -> str:
     else:
         origin = "a column of the file"
     return f"{known_from} ({origin})"
-
-
-def _is_impedance(columns: Sequence[ReadColumn], response: FrequencyResponse | None) -> bool:
-    if response is not None and (response.output.unit, response.input.unit) == (VOLT, "A"):
-        return True
-    return any(column.is_used and _is_ohm(column) for column in columns)
-
-
-def _is_ohm(column: ReadColumn) -> bool:
-    return column.role in OF_RESPONSE and column.unit.lower() in {ohm.lower() for ohm in OHMS}
 
 
 def _assumes(note: str) -> bool:

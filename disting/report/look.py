@@ -117,8 +117,8 @@ def bode(response: FrequencyResponse) -> FigureFiles:
         panels[0].set_ylim(low, high)
         logarithmic(panels[0].yaxis, low, high)
         of = response_unit(response)
-        shown = f"[{of}]" if of else f"{response.sensor} per input"
-        panels[0].set_ylabel(f"Amplitude {shown}")
+        shown = f" [{of}]" if of else f", {response.sensor} per input"
+        panels[0].set_ylabel(f"Amplitude{shown}")
         _uncertain(panels[1], series, phase, phase - np.degrees(wide), phase + np.degrees(wide))
         degrees(panels[1].yaxis, float(np.ptp(phase)))
         panels[1].set_ylabel("Phase")
