@@ -15,7 +15,7 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.look_text import WIDTH, look_lines
 from disting.measurement.looking import Look, look, name_units
 
-NARROWEST, WIDEST = 50, 160  # characters of a line
+NARROWEST, WIDEST = 60, 160  # characters of a line
 
 
 def run(options: argparse.Namespace) -> int:
@@ -60,7 +60,7 @@ def _plot(seen: Look, width: int) -> Iterator[str]:
     response = seen.response
     if response is None:
         return
-    signs = signs_of(getattr(sys.stdout, "encoding", None) or "ascii")
+    signs = signs_of(getattr(sys.stdout, "encoding", None) or "utf-8")
     units = response.output.unit, response.input.unit
     unit = printable("/".join(units)) if all(units) else ""
     yield ""

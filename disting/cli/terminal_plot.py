@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 Values = NDArray[np.float64]
 DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))  # of a braille sign, by row, column
 BRAILLE = 0x2800
-LABEL = 9  # characters left of an axis
+LABEL = 10  # characters left of an axis
 
 
 @dataclass(frozen=True, slots=True)

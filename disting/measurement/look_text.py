@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from disting.measurement.looking import Look
 
 WIDTH = 80
-WIDEST = 22  # characters of a name or a unit
+WIDEST, NARROWEST = 22, 8  # characters of a name or a unit
 MOST = 12  # columns that are not used, of which more are only counted
-LEAST = 24  # characters that a column of reasons keeps
+LEAST = 16  # characters that a column of reasons keeps
 HEADS = ("#", "name", "unit", "role", "quantity", "begins with", "why")
 NUMBERS = HEADS.index("begins with")
 STARTS = (Role.REAL, Role.GAIN)  # roles of the first columns of a response
@@ -66,7 +66,8 @@ def column_table(seen: "Look", width: int) -> Iterator[str]:
     used = [column for column in seen.columns if column.is_used]
     others = [column for column in seen.columns if not column.is_used]
     shown = sorted([*used, *others[:MOST]], key=lambda column: column.number)
-    rows = [HEADS, *(_row(seen, column) for column in shown)]
+    widest = max(WIDEST - max(WIDTH - width, 0), NARROWEST)
+    rows = [HEADS, *(_row(seen, column, widest) for column in shown)]
     wide = list(_aligned(rows, width))
     without = [tuple("" if i == NUMBERS else cell for i, cell in enumerate(row)) for row in rows]
     fits = max(map(len, wide)) <= width and len(wide) == len(rows)
@@ -75,11 +76,11 @@ def column_table(seen: "Look", width: int) -> Iterator[str]:
         yield f"and {len(others) - MOST} more that are not used"
 
 
-def _row(seen: "Look", column: ReadColumn) -> tuple[str, ...]:
+def _row(seen: "Look", column: ReadColumn, widest: int) -> tuple[str, ...]:
     return (
         str(column.number or ""),
-        _cut(printable(column.name) or "-"),
-        _cut(printable(column.unit)),
+        _cut(printable(column.name) or "-", widest),
+        _cut(printable(column.unit), widest),
         column.role.value if column.is_used else "not used",
         seen.quantity_of(column),
         ", ".join(f"{value:.5g}" for value in column.values),
@@ -165,5 +166,5 @@ def _record(record: TimeSeries, method: Method | None) -> str:
     return f"{text}; {plural(method.periods, 'period')} of {method.period} samples{dropped}"
 
 
-def _cut(text: str) -> str:
-    return text if len(text) <= WIDEST else f"{text[: WIDEST - 1]}…"
+def _cut(text: str, widest: int) -> str:
+    return text if len(text) <= widest else f"{text[: widest - 1]}…"
