@@ -266,6 +266,7 @@ class Format(StrEnum):
     PLANS_OF_FIT = "disting plans of a fit 1"
     MODELS = "disting models 1"
     GATE = "disting gate 2"
+    LOOK = "disting look 1"
 
     @property
     def short(self) -> str:

@@ -167,6 +167,13 @@ COMMANDS = (
         brief="BRIEF",
     ),
     Command(
+        "look",
+        "what is read from a measured file, and what is assumed of it; fits nothing",
+        "look",
+        add="add_look_arguments",
+        arguments="fit_arguments",
+    ),
+    Command(
         "plan",
         "how much measuring tells two structures apart",
         "plan",

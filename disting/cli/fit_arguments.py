@@ -79,6 +79,23 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     add_work(p, jobs=(0, "one for each core if there are many candidates"))
 
 
+def add_look_arguments(p: argparse.ArgumentParser) -> None:
+    """Arguments of `disting look`: those by which a fit reads a file."""
+    p.add_argument(
+        "file",
+        type=Path,
+        metavar="FILE",
+        help="measured frequency response, or force and motion in time",
+    )
+    _reading(p.add_argument_group("data"))
+    _quantities(p.add_argument_group("quantities"))
+    group = p.add_argument_group("output")
+    group.add_argument(
+        "--out", type=written_folder, metavar="DIR", help="write a page with figures and JSON there"
+    )
+    add_json(group, "what was read")
+
+
 def _responses(group: argparse._ArgumentGroup) -> None:
     """Measured responses of the drive, which are fitted together or tested against."""
     group.add_argument(
@@ -119,7 +136,7 @@ def _reading(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--read", type=reader_option, action="append", default=[], metavar="NAME=VALUE", help=text
     )
-    text = "another measurement of TRAIN; mean and scatter of all are taken; may be repeated"
+    text = "the same response measured again; mean and scatter of all are taken; may be repeated"
     group.add_argument(
         "--repeat", type=Path, action="append", default=[], metavar="FILE", help=text
     )

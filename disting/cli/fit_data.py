@@ -148,11 +148,7 @@ def read_mean(
     """The response in `files`, the mean of several, with the units and factors of the command
     line; `which` of `count` sensors, in one file `together`.
     """
-    units = dict(options.unit)
-    settings = dict(options.read) | ({"column": options.column} if options.column else {})
-    settings |= {f"{name}_unit": units[name] for name in OF_READER if name in units}
-    settings |= {"sensor": options.quantity} if options.quantity else {}
-    settings |= {"hold": options.hold} if options.hold else {}
+    settings = reader_settings(options)
     settings |= {"outliers": "drop"} if options.outliers == "drop" and len(files) == 1 else {}
     if count > 1:
         settings = _of_one(settings, which, count)
@@ -163,6 +159,21 @@ def read_mean(
         [read(file, **own) for file, own in zip(files, each, strict=True)],
         outliers=options.outliers,
     )
+    return in_units(response, options)
+
+
+def reader_settings(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the options of `disting.measurement.read` that a command line names."""
+    units = dict(options.unit)
+    settings = dict(options.read) | ({"column": options.column} if options.column else {})
+    settings |= {f"{name}_unit": units[name] for name in OF_READER if name in units}
+    settings |= {"hold": options.hold} if options.hold else {}
+    return settings | ({"sensor": options.quantity} if options.quantity else {})
+
+
+def in_units(response: FrequencyResponse, options: argparse.Namespace) -> FrequencyResponse:
+    """Return a response with the units and factors of the command line. Raises InputError."""
+    units = dict(options.unit)
     response = scale(response, options.scale) if options.scale is not None else response
     response = in_si(response, input=units.get("input"), output=units.get("output"))
     return (

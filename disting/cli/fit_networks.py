@@ -16,6 +16,7 @@ from disting.fit.networks import fit_networks
 from disting.fit.results.networks import BAR, FittedNetwork, NetworkSelection
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
+from disting.measurement.look_text import short_lines
 from disting.model.chain import Sensor
 from disting.model.structure import Sort
 from disting.network.families import FAMILIES
@@ -95,7 +96,8 @@ def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[
 
 def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[str]:
     """The answer, then a line a network, then values."""
-    yield f"{measured.origin}: {measured.reading or f'{len(measured)} lines'}"
+    is_circuit = selection.fits[0].network.sort is Sort.CIRCUIT
+    yield from short_lines(measured, "impedance" if is_circuit else "")
     scatter = selection.scatter
     yield f"scatter of a line: {100 * scatter.typical:.2g} %, from {scatter.source}"
     yield ""

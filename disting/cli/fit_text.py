@@ -11,9 +11,9 @@ from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import explanations
 from disting.fit.judge.members import Disagreement, Member
 from disting.fit.judge.modes import Result, physical
-from disting.fit.judge.reading import read_in_words
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
+from disting.measurement.look_text import short_lines
 from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
@@ -47,7 +47,8 @@ OTHERWISE = {
 
 def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The result for people: what they must know in at most five lines, then the rest."""
-    yield from (read_in_words(part.measured) for part in selection.task.cost.parts)
+    for part in selection.task.cost.parts:
+        yield from short_lines(part.measured)
     yield ""
     yield from first_lines(selection)
     yield ""

@@ -26,7 +26,7 @@ from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.containment import limit_of
 from disting.fit.search.cost import Case, Cost, comparable
-from disting.fit.search.data import WhitenedCost, check_units
+from disting.fit.search.data import WhitenedCost, check_range
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NESTED, NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
@@ -134,7 +134,7 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
             " sampling rate too (--band)"
         )
     for response in data:
-        check_units(response)
+        check_range(response)
         if response.is_impedance and any(n.sort is not Sort.CIRCUIT for n in networks):
             raise InputError(f"{response.origin or 'data'}: {NO_MOTION}")
     asked = [measured_as(network, data[0]) for network in networks]

@@ -16,6 +16,7 @@ from disting.measurement.files import (
     read_time_series as read_time_series,
     write_csv as write_csv,
 )
+from disting.measurement.looking import Look as Look, look as look
 from disting.measurement.objects import (
     from_arrays as from_arrays,
     from_control as from_control,

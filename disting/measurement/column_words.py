@@ -6,7 +6,7 @@ A unit stands in brackets behind the name, behind a stroke, a comma or "in", or 
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from disting.measurement.units import (
@@ -34,18 +34,43 @@ class Role(StrEnum):
     DEVIATION = "standard deviation"
     SIGNAL = "level of a signal"
     SPECTRUM = "power spectrum"
+    RESPONSE = "complex response"
+    INPUT = "input"
+    OUTPUT = "output"
+    REFERENCE = "reference"
+    CLOCK = "clock"
     OTHER = "not used"
+
+
+class Why(StrEnum):
+    """Reason for the role or the unit of a column."""
+
+    WORD = "header word"
+    UNIT = "unit"
+    OPTION = "option"
+    FORMAT = "file format"
+    ASSUMED = "assumed"
+    BY_NAME = "assumed by its name"
+    BY_NUMBERS = "assumed by its numbers"
+    ELSEWHERE = "another response"
+    NOTHING = ""
+
+    @property
+    def is_assumed(self) -> bool:
+        """Return True if neither the file nor the caller states it."""
+        return self in (Why.ASSUMED, Why.BY_NAME, Why.BY_NUMBERS)
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
     """Role and unit of a column: "" where none is stated; `unknown` = a stated unit that is not
-    known.
+    known; `why`: reason for the role.
     """
 
     role: Role
     unit: str = ""
     unknown: str = ""
+    why: Why = field(default=Why.NOTHING, compare=False)
 
     @property
     def in_words(self) -> str:
@@ -122,7 +147,14 @@ def meaning(header: str) -> Column:
     if SPECTRAL.search(header):
         return Column(Role.SPECTRUM)
     name, stated = split_unit(header)
-    role = _role(name) or _role_of_unit(stated or header)
+    word = _role(name)
+    column = _meaning(header, name, stated, word or _role_of_unit(stated or header))
+    reason = Why.WORD if word else Why.UNIT
+    return replace(column, why=Why.NOTHING if column.role is Role.OTHER else reason)
+
+
+def _meaning(header: str, name: str, stated: str | None, role: Role) -> Column:
+    """Role and unit of a column of this name, stated unit and first role."""
     if LOGARITHM.search(header) and Role.FREQUENCY in (role, _role(stated or "")):
         return Column(Role.FREQUENCY, unknown=header.strip())
     if stated is None:

@@ -3,12 +3,12 @@
 import re
 import shlex
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from disting.errors import InputError, enumeration, short
-from disting.measurement.column_words import Column, Role, meaning
+from disting.measurement.column_words import Column, Role, Why, meaning
 from disting.measurement.response import ASSUMED_ACCELERATION
 from disting.measurement.table import Table
 from disting.measurement.units import (
@@ -61,7 +61,7 @@ class Group:
 def columns_of(table: Table, asked: Sequence[str] | None, notes: list[str]) -> list[Column]:
     """Role and unit of every column: by the words that the caller gives, else by the headers."""
     if asked is not None:
-        return _given(table, asked)
+        return [replace(column, why=Why.OPTION) for column in _given(table, asked)]
     if any(table.headers):
         return [meaning(header) for header in table.headers]
     if len(table.headers) != 3:
@@ -71,7 +71,8 @@ def columns_of(table: Table, asked: Sequence[str] | None, notes: list[str]) -> l
             f"{table.origin} has {len(table.headers)} columns, no header",
         )
     notes.append("no header: columns taken as frequency [Hz], real part, imaginary part")
-    return [Column(Role.FREQUENCY, "Hz"), WORDS["re"], WORDS["im"]]
+    assumed = (Column(Role.FREQUENCY, "Hz"), WORDS["re"], WORDS["im"])
+    return [replace(column, why=Why.ASSUMED) for column in assumed]
 
 
 def frequency_column(table: Table, columns: Sequence[Column]) -> int:

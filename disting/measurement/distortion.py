@@ -95,14 +95,22 @@ def distortion(
     return the_distortion, _said(the_distortion, np.abs(response))
 
 
-def _said(the_distortion: Distortion, size: Real) -> str:
-    """Medians in percent of the response; "" where there is nothing but rounding."""
+def shares(the_distortion: Distortion, size: Real) -> dict[str, float]:
+    """Return the median of each kind of distortion, and of the noise, as a share of the response;
+    `size` = |G| at the lines of the distortion, shape (n,). Empty where it is rounding.
+    """
     medians = {
         name: float(np.median(values[lines] / size[lines]))
         for name, values, lines in the_distortion.kinds
         if np.count_nonzero(lines) >= FEWEST
     }
-    if max(medians.values(), default=0.0) < ROUNDING:
+    return medians if max(medians.values(), default=0.0) >= ROUNDING else {}
+
+
+def _said(the_distortion: Distortion, size: Real) -> str:
+    """Medians in percent of the response; "" where there is nothing but rounding."""
+    medians = shares(the_distortion, size)
+    if not medians:
         return ""
     phrase = ", ".join(f"{name} {100 * share:.2g} %" for name, share in medians.items())
     return (

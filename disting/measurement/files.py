@@ -6,6 +6,7 @@ Which signals of a record are input and output, from their names.
 import inspect
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from disting.measurement.response import FrequencyResponse, Signal
 from disting.measurement.source import Source, source
 from disting.measurement.tabular import ESCAPED, MARK
 from disting.measurement.time_series import TimeSeries
+from disting.measurement.understanding import by_name
 
 FORMULA = re.compile(
     rf"(?<=[,;])[=+@-]|(?<=[,;] )[=+@-]|{ESCAPED.pattern[:2]}(?={ESCAPED.pattern[2:]})"
@@ -114,14 +116,8 @@ def read(path: str | Path, **options: Any) -> FrequencyResponse:
     (19, np.complex128(-1-1j))
     """
     file = source(path)
-    file_format = format_of(file)
-    if options.keys() & set(SERIES) or (
-        file_format.records and file_format.records.held(file, options)
-    ):
-        return _through_time(file, _records(file, file_format), options)
-    hold = options.pop("hold", None)
-    response = file_format.response(file, options)
-    return response if hold is None else response.held(hold)
+    record = open_record(file, options)
+    return record[1]() if record else read_response(file, options)
 
 
 def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[int, ...] | None:
@@ -191,7 +187,29 @@ def _signals(file: Source, records: Records, entry: Options) -> tuple[Options, t
     return entry | {"input": input, "output": output}, (note,)
 
 
-def _through_time(file: Source, records: Records, options: Options) -> FrequencyResponse:
+def read_response(file: Source, options: Options) -> FrequencyResponse:
+    """Return the response of a file that holds no record in time. Raises InputError."""
+    rest = {name: value for name, value in options.items() if name != "hold"}
+    response = format_of(file).response(file, rest)
+    return response.held(options["hold"]) if "hold" in options else response
+
+
+def open_record(
+    file: Source, options: Options
+) -> tuple[TimeSeries, Callable[[], FrequencyResponse]] | None:
+    """Return the record in time of a file and what makes a response of it; None for a file that
+    holds a frequency response. Raises InputError.
+    """
+    file_format = format_of(file)
+    is_record = options.keys() & set(SERIES) or (
+        file_format.records and file_format.records.held(file, options)
+    )
+    return _through_time(file, _records(file, file_format), options) if is_record else None
+
+
+def _through_time(
+    file: Source, records: Records, options: Options
+) -> tuple[TimeSeries, Callable[[], FrequencyResponse]]:
     ours = {"to", *_keywords(TimeSeries.response)} - {"sensor"}
     estimate = {name: value for name, value in options.items() if name in ours}
     rest, notes = _signals(
@@ -199,7 +217,9 @@ def _through_time(file: Source, records: Records, options: Options) -> Frequency
     )
     wanted = estimate.pop("to", None)
     input, output = rest.pop("input"), rest.pop("output")
-    return records.read(file, input, output, rest).response(wanted, **estimate).noted(*notes)
+    series = records.read(file, input, output, rest)
+    series = replace(series, columns=by_name(series.columns)) if notes else series
+    return series, lambda: series.response(wanted, **estimate).noted(*notes)
 
 
 def _keywords(reader: Callable[..., Any]) -> set[str]:

@@ -4,13 +4,14 @@ A new format is a row of `FORMATS`; a file is of the first one that it fits.
 """
 
 import inspect
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from disting.errors import InputError, enumeration
 from disting.measurement.codesys import read_codesys_trace
-from disting.measurement.column_words import Role, matching, meaning
+from disting.measurement.column_words import Column, Role, matching, meaning
+from disting.measurement.columns import columns_of
 from disting.measurement.exports import read_export
 from disting.measurement.impedance import is_impedance, read_impedance
 from disting.measurement.matlab import responses, variables
@@ -18,13 +19,22 @@ from disting.measurement.matlab_models import chosen_response, from_object
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.sinumerik import read_trace
 from disting.measurement.source import Source
-from disting.measurement.table import Table, is_time, time_series
+from disting.measurement.table import Table, is_time, signal_columns, time_series
 from disting.measurement.tabular import frequency_response, response_columns
 from disting.measurement.text_table import decode, table
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.uff import read_uff
+from disting.measurement.understanding import (
+    ReadColumn,
+    Use,
+    record_columns,
+    record_variables,
+)
 from disting.measurement.variables import (
+    HERTZ_NAMES,
+    OMEGA_NAMES,
     RATE_NAMES,
+    RESPONSE_NAMES,
     STEP_NAMES,
     TIME_NAMES,
     from_variables,
@@ -38,7 +48,22 @@ T = TypeVar("T")
 Options = dict[str, Any]
 NAMED = {"frequency", "response"}  # options that only a frequency response of a MATLAB file has
 CLOCKS = {*RATE_NAMES, *STEP_NAMES, *TIME_NAMES}
+NAMES_OF_SIGNALS = {
+    "time": Role.CLOCK,
+    "input": Role.INPUT,
+    "output": Role.OUTPUT,
+    "reference": Role.REFERENCE,
+}
+USUAL = {
+    Role.FREQUENCY: (*HERTZ_NAMES, *OMEGA_NAMES),
+    Role.RESPONSE: RESPONSE_NAMES,
+    Role.CLOCK: (*RATE_NAMES, *STEP_NAMES, *TIME_NAMES),
+}
 HEAD = 520  # bytes; what a MATLAB file of version 7.3 is known by stands behind 512
+
+
+class UnknownOption(InputError):
+    """An option that the reader of a format does not have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +81,8 @@ class Records:
 class Format:
     """One format: `fits` = whether a file is of it, by its name and first bytes; `response` reads
     a frequency response; `records` = None where no time series are read; `begin`: columns (from 1)
-    at which the responses begin, of a format that has some.
+    at which the responses begin, of a format that has some; `columns`: those of a file whose
+    response is refused, as far as they are understood.
 
     Readers raise InputError for what they cannot read, and for options that they do not know.
     """
@@ -66,6 +92,7 @@ class Format:
     response: Callable[[Source, Options], FrequencyResponse]
     records: Records | None = None
     begin: Callable[[Source, Sequence[str] | None], tuple[int, ...]] | None = None
+    columns: Callable[[Source, Options], tuple[ReadColumn, ...]] | None = None
 
 
 def format_of(file: Source) -> Format:
@@ -156,6 +183,40 @@ def _is_text_record(file: Source, options: Options) -> bool:
     )
 
 
+def _text_columns(file: Source, options: Options) -> tuple[ReadColumn, ...]:
+    table = _table(file)
+    if options.keys() & NAMES_OF_SIGNALS.keys() or _is_text_record(file, options):
+        return signal_columns(table, dict(_signal_uses(table, options)))
+    try:
+        roles = columns_of(table, options.get("columns"), [])
+    except InputError:
+        roles = [Column(Role.OTHER)] * len(table.headers)
+    return record_columns(table.headers, table.values, roles)
+
+
+def _signal_uses(table: Table, options: Options) -> Iterator[tuple[int, Use]]:
+    """The clock, and the signals that the options name, of a table of time series."""
+    clocks = [at for at, header in enumerate(table.headers) if is_time(header)]
+    yield from ((at, Use(Role.CLOCK)) for at in clocks[:1])
+    for name, role in NAMES_OF_SIGNALS.items():
+        if name in options:
+            try:
+                yield table.at(options[name]), Use(role)
+            except InputError:
+                continue  # the refusal names the columns
+
+
+def _matlab_columns(file: Source, options: Options) -> tuple[ReadColumn, ...]:
+    stored = responses(file)
+    names = [name for name in variables(file) if not any(s.startswith(f"{name}.") for s in stored)]
+    names += stored
+    signals = ((role, options.get(name)) for name, role in NAMES_OF_SIGNALS.items())
+    usual = ((role, next((n for n in kind if n in names), None)) for role, kind in USUAL.items())
+    uses = {split_index(n)[0] or "": Use(role) for role, n in (*usual, *signals) if n}
+    known = {name: use for name, use in uses.items() if name in names}
+    return record_variables(names, known, tuple(options.values()))
+
+
 def check(reader: Callable[..., T], options: Options, file: Source) -> Callable[..., T]:
     """The reader, if it knows all these options; else InputError, naming those that it knows."""
     names = {
@@ -163,7 +224,7 @@ def check(reader: Callable[..., T], options: Options, file: Source) -> Callable[
     }
     unknown = sorted(set(options) - names)
     if unknown:
-        raise InputError(
+        raise UnknownOption(
             f"{file.name}: unknown option {enumeration(unknown)}; known for this format:"
             f" {', '.join(sorted(names))}"
         )
@@ -176,6 +237,7 @@ FORMATS = (
         fits=_is_matlab,
         response=_from_matlab,
         records=Records(_matlab_series, variables, _is_matlab_record),
+        columns=_matlab_columns,
     ),
     Format(
         name="impedance",
@@ -189,5 +251,6 @@ FORMATS = (
         response=_from_text,
         records=Records(_text_series, lambda file: _table(file).headers, _is_text_record),
         begin=_begin,
+        columns=_text_columns,
     ),
 )

@@ -11,9 +11,11 @@ from dataclasses import replace
 import numpy as np
 
 from disting.errors import InputError
+from disting.measurement.column_words import Role
 from disting.measurement.response import CURRENT, VOLTAGE, FrequencyResponse
 from disting.measurement.source import Source
 from disting.measurement.text_table import decode
+from disting.measurement.understanding import record_format
 from disting.model.chain import Sensor
 
 HEADS = (b"ZPLOT", b"EXPLAIN", b"EC-Lab ASCII")
@@ -21,6 +23,7 @@ FREQUENCY = re.compile(r"freq", re.IGNORECASE)
 REAL = re.compile(r"zreal|re\(z\)|z'\(a\)|z'(?!')", re.IGNORECASE)
 IMAGINARY = re.compile(r"-?\s*(zimag|im\(z\)|z'')", re.IGNORECASE)
 TURNED = "the imaginary part was mostly positive: taken as -Im, as impedances are often written"
+ROLES = (Role.FREQUENCY, Role.REAL, Role.IMAGINARY)
 MOSTLY = 0.5  # share of the lines
 
 
@@ -54,6 +57,7 @@ def read_impedance(file: Source) -> FrequencyResponse:
         output=VOLTAGE,
         origin=file.name,
         reading=f"frequency in Hz, {headers[1]}, {headers[2]}",
+        columns=record_format(zip(headers, ROLES, ("Hz", "ohm", "ohm"), strict=True)),
         is_impedance=True,
     )
 

@@ -11,7 +11,7 @@ import numpy as np
 from disting.errors import InputError, enumeration, short
 from disting.measurement import mat5
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.column_words import matching
+from disting.measurement.column_words import Role, Why, matching
 from disting.measurement.mat5_objects import OBJECT, STRUCT, Objects, Reference, objects, tree
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
@@ -21,6 +21,7 @@ from disting.measurement.response import (
 )
 from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.source import Take
+from disting.measurement.understanding import record_format, with_unit
 from disting.measurement.variables import real_part
 from disting.model.chain import Sensor, as_sensor
 
@@ -118,7 +119,11 @@ def from_object(
     unit = taken_unit(omega, stored_response.frequency)
     words = f"frequency in {unit}, complex response of the object {name}"
     assumed = None if sensor else ASSUMED_ACCELERATION
-    return chosen.noted(assumed).doubted(*([noted] if noted else [])).read_as(words)
+    parts = [(f"{name}.Frequency", Role.FREQUENCY, unit), (f"{name}.Response", Role.RESPONSE, "")]
+    parts += [] if deviation is None else [(f"{name}.Covariance", Role.DEVIATION, "")]
+    read = chosen.noted(assumed).doubted(*([noted] if noted else []))
+    why = Why.OPTION if frequency_unit else Why.BY_NUMBERS if noted else Why.FORMAT
+    return read.read_as(words, with_unit(record_format(parts), Role.FREQUENCY, unit, why))
 
 
 def chosen_response(stored: Mapping[str, ResponseObject], asked: str | None, origin: str) -> str:

@@ -23,6 +23,7 @@ from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import distortion
+from disting.measurement.method import Method
 from disting.measurement.repeats import leave_out
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.trend import Trend, trend_between_periods, trend_of_one_period
@@ -78,6 +79,7 @@ def estimate(
         notes.append(f"{len(chosen)} excited lines detected in the input")
     else:
         chosen = _given(lines, spacing, exciting.shape[1])
+    removed = list[str]()
     if detrend:
         u, y, removed = _without_trends(u, y, length, chosen, detrend)
         notes += removed
@@ -91,7 +93,8 @@ def estimate(
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
     refuse_few(omega, notes, band)
     response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
-    return replace(response, notes=(*notes, *response.notes), distortion=between)
+    method = Method(length, len(inputs), transient, trends=tuple(removed))
+    return replace(response, notes=(*notes, *response.notes), distortion=between, method=method)
 
 
 def refuse_few(omega: Real, notes: Sequence[str], band: tuple[float, float] | None) -> None:

@@ -23,6 +23,8 @@ from disting.measurement.arrays import (
 )
 from disting.measurement.distortion import Distortion
 from disting.measurement.hold import Hold, as_period
+from disting.measurement.method import Method
+from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import AMPERE, VOLT, agree, unit_as
 from disting.measurement.window import Window
 from disting.model.chain import Sensor, as_sensor
@@ -80,8 +82,10 @@ class FrequencyResponse(NotebookTable):
     are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
     in any unit, shape (n_f,), or None; `is_impedance`: G is a voltage per current [ohm], of which
     `sensor` says nothing; `hold` = how the input is held between samples, or None: the lines show G
-    through it then, and a fit compares models so. Frequencies out of order are sorted, with a note.
-    Raises InputError for what is no frequency response (module `checks`).
+    through it then, and a fit compares models so; `columns` = those of the file as they were
+    understood; `method` = how it was estimated from a record in time, or None. Frequencies out of
+    order are sorted, with a note. Raises InputError for what is no frequency response (module
+    `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -106,6 +110,8 @@ class FrequencyResponse(NotebookTable):
     drive: Real | None = None
     is_impedance: bool = False
     hold: Hold | None = None
+    columns: tuple[ReadColumn, ...] = ()
+    method: Method | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -312,9 +318,14 @@ class FrequencyResponse(NotebookTable):
         """The same response with further doubts; repetitions are left out."""
         return replace(self, doubts=tuple(dict.fromkeys([*self.doubts, *doubts])))
 
-    def read_as(self, words: str) -> "FrequencyResponse":
-        """The same response with words on which columns were read as what."""
-        return replace(self, reading=words)
+    def read_as(
+        self, words: str, columns: Sequence[ReadColumn] | None = None
+    ) -> "FrequencyResponse":
+        """The same response with words on which columns were read as what, and their records where
+        these are given.
+        """
+        kept = self.columns if columns is None else tuple(columns)
+        return replace(self, reading=words, columns=kept)
 
 
 def as_sign(value: int) -> int:

@@ -4,15 +4,17 @@ Time series from a table of columns.
 """
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
-from disting.measurement.column_words import matching, split_unit
+from disting.measurement.column_words import Column, Role, Why, matching, split_unit
 from disting.measurement.response import Signal, as_sign
 from disting.measurement.time_series import TimeSeries, said
+from disting.measurement.understanding import ReadColumn, Use, record_columns
 from disting.measurement.units import TIMES, drive, known_unit, motion
 from disting.model.chain import Sensor
 
@@ -95,6 +97,7 @@ def time_series(
     `reference` = the column of what a controller was asked for, where the record is of a closed
     loop.
     """
+    uses: dict[int, Use] = {}
     if sampling_rate is None:
         at = (
             table.at(time)
@@ -107,15 +110,43 @@ def time_series(
                 f" {table.listed()}"
             )
         sampling_rate = rate_of(table.column(at) * _seconds(table, at), table.origin)
+        stated = _time_unit(table.headers[at])
+        uses[at] = Use(Role.CLOCK, stated or "s", Why.UNIT if stated else Why.ASSUMED)
     u, y = table.at(input), table.at(output)
     labels = split_header(table.headers[u]), split_header(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
     quantity, notes = said(sensor, labels[1].unit)
     wanted = None if reference is None else table.column(table.at(reference))
     samples = table.column(u), table.column(y) * as_sign(sign)
+    uses |= {u: Use(Role.INPUT), y: Use(Role.OUTPUT)}
+    uses |= {} if reference is None else {table.at(reference): Use(Role.REFERENCE)}
+    columns = signal_columns(table, uses, is_clock_given=time is not None)
     return TimeSeries(
-        *samples, sampling_rate, quantity, *labels, origin, notes, wanted, table.left_out
+        *samples,
+        sampling_rate,
+        quantity,
+        *labels,
+        origin,
+        notes,
+        wanted,
+        table.left_out,
+        columns,
     )
+
+
+def signal_columns(
+    table: Table, uses: Mapping[int, Use], *, is_clock_given: bool = False
+) -> tuple[ReadColumn, ...]:
+    """Return a record of each column of a table of signals, such as time series; `uses`: those that
+    were read, by their numbers from 0.
+    """
+    roles = []
+    for at, header in enumerate(table.headers):
+        use = uses.get(at, Use(Role.OTHER))
+        by_header = use.role is Role.CLOCK and not is_clock_given
+        why = Why.WORD if by_header else Why.OPTION if at in uses else Why.NOTHING
+        roles.append(Column(use.role, split_header(header).unit, why=why))
+    return record_columns(table.headers, table.values, roles, uses)
 
 
 def split_header(header: str) -> Signal:
@@ -147,9 +178,7 @@ def _seconds(table: Table, at: int) -> float:
     """What a time of 1 in the unit of a column is in seconds; raises InputError for a stated unit
     that is not known.
     """
-    header = table.headers[at]
-    last = header.split()[-1] if header.split() else ""
-    unit = split_unit(header)[1] or (last if known_unit(last, TIMES) else "s")
+    unit = _time_unit(table.headers[at]) or "s"
     name = known_unit(unit, TIMES)
     if name is None:
         raise InputError(
@@ -157,6 +186,12 @@ def _seconds(table: Table, at: int) -> float:
             f" known are {', '.join(TIMES)}: give --read sampling_rate=HZ"
         )
     return TIMES[name]
+
+
+def _time_unit(header: str) -> str:
+    """Unit that the header of a clock states, "" for none."""
+    last = header.split()[-1] if header.split() else ""
+    return split_unit(header)[1] or (last if known_unit(last, TIMES) else "")
 
 
 def is_time(header: str) -> bool:

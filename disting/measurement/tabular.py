@@ -2,14 +2,21 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement import checks
 from disting.measurement.arrays import Complex, Real
-from disting.measurement.column_words import NAME, Column, Role, is_called_impedance, meaning
+from disting.measurement.column_words import (
+    NAME,
+    Column,
+    Role,
+    Why,
+    is_called_impedance,
+    meaning,
+)
 from disting.measurement.columns import (
     BESIDE,
     Group,
@@ -32,6 +39,7 @@ from disting.measurement.response import (
 )
 from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import Table
+from disting.measurement.understanding import Use, record_columns, sentence
 from disting.measurement.units import (
     AMPERE,
     FREQUENCIES,
@@ -112,8 +120,11 @@ def frequency_response(
         for group in used
     ]
     unit = taken_unit(grid, table.column(at), roles[at].unit)
-    words = f"frequency in {unit} (column {at + 1}), {reading.words}"
-    return mean_of(responses, outliers=outliers).noted(*notes).doubted(*doubts).read_as(words)
+    asked = frequency_unit is not None and not ours
+    uses = reading.uses | {at: Use(Role.FREQUENCY, unit, _why_unit(roles[at], unit, asked))}
+    read = record_columns(table.headers, table.values, roles, uses)
+    response = mean_of(responses, outliers=outliers).noted(*notes).doubted(*doubts)
+    return response.read_as(sentence(read), read)
 
 
 def response_columns(table: Table, columns: Sequence[str] | None = None) -> tuple[int, ...]:
@@ -126,7 +137,8 @@ def response_columns(table: Table, columns: Sequence[str] | None = None) -> tupl
 @dataclass(slots=True)
 class _Reading:
     """How numbers become a response; what is assumed goes to `notes`, what looks wrong to
-    `doubts`. `guess`: nobody said what the columns are but their headers.
+    `doubts`, the columns that are used to `uses`. `guess`: nobody said what the columns are but
+    their headers.
     """
 
     table: Table
@@ -136,7 +148,7 @@ class _Reading:
     guess: bool
     notes: list[str]
     doubts: list[str]
-    words: str = ""
+    uses: dict[int, Use] = field(default_factory=dict)
 
     def numbers(self, group: Group) -> Complex:
         """The response of a group of columns."""
@@ -147,7 +159,9 @@ class _Reading:
                 self._scale(real) * self._ohms(real),
                 self._scale(imaginary) * self._ohms(imaginary),
             )
-            self.words = f"real part (column {real + 1}), imaginary part (column {imaginary + 1})"
+            asked = Why.OPTION if self.magnitude_unit else Why.NOTHING
+            for part, role in ((real, Role.REAL), (imaginary, Role.IMAGINARY)):
+                self.uses[part] = Use(role, self.magnitude_unit or "", asked)
             return np.asarray(
                 self._signed(real) * scale[0] + 1j * self._signed(imaginary) * scale[1]
             )
@@ -155,12 +169,21 @@ class _Reading:
         unit = self._phase_unit(at)
         size, level = self._size(columns[Role.GAIN], guess=self.guess and unit == "deg")
         size = size * self._ohms(columns[Role.GAIN])
-        phrase = "" if level == "1" else f" in {level}"
-        self.words = (
-            f"gain{phrase} (column {columns[Role.GAIN] + 1}), phase in"
-            f" {'degrees' if unit == 'deg' else unit} (column {at + 1})"
-        )
+        self.uses[columns[Role.GAIN]] = self._gain_use(columns[Role.GAIN], level)
+        why = _why_unit(self.roles[at], unit, self.phase_unit is not None)
+        self.uses[at] = Use(Role.PHASE, unit, why)
         return np.asarray(size * np.exp(1j * PHASES[unit] * self._signed(at)))
+
+    def _gain_use(self, at: int, level: str) -> Use:
+        """Use of a column of gains: as its header states, else at the level that was taken."""
+        if self.magnitude_unit is not None:
+            return Use(Role.GAIN, level, Why.OPTION)
+        if self.roles[at].unit:
+            return Use(Role.GAIN)
+        if level != "1":
+            return Use(Role.GAIN, level, Why.BY_NUMBERS)
+        is_said = LINEAR.search(self.table.headers[at].lower()) is not None
+        return Use(Role.GAIN, level, Why.WORD if is_said else Why.ASSUMED)
 
     def _signed(self, at: int) -> Real:
         """The numbers of a column, reversed where its header has a minus before its name."""
@@ -178,6 +201,7 @@ class _Reading:
         if role is Role.DEVIATION and level_of(self.roles[at]) in LEVELS[2:]:
             self.doubts.append(f"{self.table.named(at)} is in dB or Np and is not used")
             return None
+        self.uses[at] = Use(role)
         return self.table.column(at) * (0.01 if level_of(self.roles[at]) == "%" else 1.0)
 
     def _ohms(self, at: int) -> float:
@@ -301,6 +325,15 @@ def _grid(
     grid, said = in_omega(table.column(at), column.unit or None, asked, table.named(at))
     (doubts if column.unit else notes).extend([said] if said else [])
     return grid
+
+
+def _why_unit(column: Column, taken: str, asked: bool) -> Why:
+    """Reason for the unit `taken` of frequencies or phases."""
+    if asked:
+        return Why.OPTION
+    if column.unit == taken:
+        return Why.OPTION if column.why is Why.OPTION else Why.UNIT
+    return Why.ASSUMED if taken == "Hz" and not column.unit else Why.BY_NUMBERS
 
 
 def _units(

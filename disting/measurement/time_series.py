@@ -24,6 +24,7 @@ from disting.measurement.trend import (
     describe,
     undo_difference,
 )
+from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import motion
 from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import plural, summary
@@ -83,7 +84,8 @@ class TimeSeries:
     content.
 
     `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked
-    for, or None; `left_out` says what else the file has. Raises InputError for samples that are not
+    for, or None; `left_out` says what else the file has; `columns` = those of the file as they were
+    understood. Raises InputError for samples that are not
     finite, constant signals and unequal lengths.
 
     >>> from disting.simulation import demo
@@ -102,6 +104,7 @@ class TimeSeries:
     notes: tuple[str, ...] = ()
     reference: Real | None = None
     left_out: str = ""
+    columns: tuple[ReadColumn, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("u", "y", *(["reference"] if self.reference is not None else [])):
@@ -202,6 +205,7 @@ class TimeSeries:
             notes=(*self.notes, *the_response.notes, *([doubt] if doubt else [])),
             reading=f"record in time, input {self.input}, output {self.output}{closed}"
             + (self.left_out and f"; {self.left_out}"),
+            columns=self.columns,
         )
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold
@@ -229,9 +233,10 @@ class TimeSeries:
         # a Hann window gives the first sample no weight: its difference is unknown and free
         response = estimate(np.concatenate([[speed.slope], steps]), 1)
         is_moving = abs(speed.slope) > MOVING * float(steps.std())
-        return undo_difference(response, self.sampling_rate).noted(
-            self._describe_output(speed) if is_moving else None
-        )
+        trends = (self._describe_output(speed),) if is_moving else ()
+        method = response.method and replace(response.method, trends=trends)
+        plain = undo_difference(response, self.sampling_rate).noted(*trends)
+        return replace(plain, method=method)
 
     def _describe_input(self, trend: Trend) -> str:
         return describe(trend, self.sampling_rate, None, "input", self.input)

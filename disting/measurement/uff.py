@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, enumeration
+from disting.measurement.column_words import Role
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     FrequencyResponse,
@@ -23,6 +24,7 @@ from disting.measurement.response import (
     as_sign,
 )
 from disting.measurement.source import Source
+from disting.measurement.understanding import record_format
 from disting.model.chain import Sensor, as_sensor
 
 RESPONSE, COHERENCE = 4, 6
@@ -34,6 +36,7 @@ COLUMNS = {
     (2, 0): (13, 78), (2, 1): (13, 78), (5, 0): (13, 78), (5, 1): (13, 78),
     (4, 0): (33, 66), (4, 1): (20, 80), (6, 0): (53, 53), (6, 1): (20, 80),
 }  # fmt: skip
+COLUMNS_READ = record_format((("abscissa", Role.FREQUENCY, "Hz"), ("ordinate", Role.RESPONSE, "")))
 PLACE = ("rsp_node", "rsp_dir", "ref_node", "ref_dir")
 
 Record = Mapping[str, Any]
@@ -75,7 +78,7 @@ def read_uff(
                 origin=f"{file.name}, {_place(chosen)}",
             )
             .noted(note)
-            .read_as("frequency in Hz, complex response of a data set 58")
+            .read_as("frequency in Hz, complex response of a data set 58", COLUMNS_READ)
         )
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"{file.name}, {_place(chosen)}: damaged data set ({error})") from None

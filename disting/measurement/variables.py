@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real
-from disting.measurement.column_words import is_called_impedance, matching
+from disting.measurement.column_words import Role, Why, is_called_impedance, matching
 from disting.measurement.response import (
     ASSUMED_ACCELERATION,
     ASSUMED_IMPEDANCE,
@@ -25,6 +25,7 @@ from disting.measurement.response import (
 from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import rate_of
 from disting.measurement.time_series import TimeSeries, said
+from disting.measurement.understanding import Use, record_variables, sentence
 from disting.model.chain import Sensor, as_sensor
 
 HERTZ_NAMES = ("f", "freq", "frequency", "Frequency", "f_Hz", "fHz", "freqs", "frequencies", "F")
@@ -70,19 +71,31 @@ def from_variables(
     index = index if chosen_index is None else chosen_index
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
     impedance = sensor is None and (chosen == "Z" or is_called_impedance(chosen))
+    scatter = _optional(arrays, deviation, DEVIATION_NAMES, len(values), index, origin)
+    shared = _optional(arrays, coherence, COHERENCE_NAMES, len(values), index, origin)
     the_response = FrequencyResponse(
         values,
         row(_numeric(arrays, chosen, origin), len(values), index, chosen) * as_sign(sign),
-        _optional(arrays, deviation, DEVIATION_NAMES, len(values), index, origin),
-        _optional(arrays, coherence, COHERENCE_NAMES, len(values), index, origin),
+        scatter[1],
+        shared[1],
         sensor=as_sensor(sensor or (Sensor.POSITION if impedance else Sensor.ACCELERATION)),
         output=Signal(chosen),
         origin=f"{origin}, {chosen}",
         is_impedance=impedance,
     )
-    words = f"frequency in {taken_unit(values, grid)} ({name}), complex response ({chosen})"
+    unit = taken_unit(values, grid)
+    guessed = Why.BY_NAME if unit == default else Why.BY_NUMBERS
+    uses = {
+        name: Use(Role.FREQUENCY, unit, Why.OPTION if frequency_unit else guessed),
+        chosen: Use(Role.RESPONSE),
+        scatter[0]: Use(Role.DEVIATION),
+        shared[0]: Use(Role.COHERENCE),
+    }
+    asked = (frequency, response, deviation, coherence)
+    read = record_variables(arrays, {n: use for n, use in uses.items() if n}, asked)
     assumed = ASSUMED_IMPEDANCE if impedance else ASSUMED_ACCELERATION
-    return the_response.noted(None if sensor else assumed, taken).read_as(words)
+    noted = the_response.noted(None if sensor else assumed, taken)
+    return noted.read_as(sentence(read), read)
 
 
 def holds_response(arrays: Arrays) -> bool:
@@ -113,14 +126,22 @@ def series_from_variables(
     Without either, fs, Fs, Ts, dt, then t, time are looked for. A signal may be `NAME[2]`, one of
     an array of several.
     """
-    rate = _rate(arrays, sampling_rate, time, origin)
+    rate, clock = _rate(arrays, sampling_rate, time, origin)
     signals = Signal(input), Signal(output)
     samples = _signal(arrays, input, origin), _signal(arrays, output, origin) * as_sign(sign)
     quantity, notes = said(sensor)
     wanted = None if reference is None else _signal(arrays, reference, origin)
-    return TimeSeries(
-        *samples, rate, quantity, *signals, f"{origin}, {output} per {input}", notes, wanted
-    )
+    uses = {
+        clock: Use(Role.CLOCK),
+        split_index(input)[0]: Use(Role.INPUT),
+        split_index(output)[0]: Use(Role.OUTPUT),
+        (split_index(reference)[0] or ""): Use(Role.REFERENCE),
+    }
+    asked = {split_index(n)[0] for n in (input, output, reference, time)}
+    asked |= {sampling_rate} if isinstance(sampling_rate, str) else set()
+    read = record_variables(arrays, {n: use for n, use in uses.items() if n}, asked)
+    title = f"{origin}, {output} per {input}"
+    return TimeSeries(*samples, rate, quantity, *signals, title, notes, wanted, columns=read)
 
 
 def split_index(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:
@@ -187,18 +208,20 @@ def _optional(
     size: int,
     index: int | Sequence[int] | None,
     origin: str,
-) -> Real | None:
-    """The variable asked for; or the first usual one, if it has a value a line."""
+) -> tuple[str, Real | None]:
+    """The variable asked for; or the first usual one, if it has a value a line; its name and its
+    numbers, "" and None for none.
+    """
     if asked is not None:
-        return row(
+        return asked, row(
             _numeric(arrays, _name(arrays, asked, (), "", origin), origin), size, index, asked
         )
     for name in (n for n in usual if n in arrays):
         try:
-            return row(_numeric(arrays, name, origin), size, index, name)
+            return name, row(_numeric(arrays, name, origin), size, index, name)
         except InputError:
             continue  # another thing of that name
-    return None
+    return "", None
 
 
 def _numeric(arrays: Arrays, name: str, origin: str) -> NDArray[Any]:
@@ -233,16 +256,21 @@ def _signal(arrays: Arrays, asked: str, origin: str) -> NDArray[Any]:
     return np.asarray(values)
 
 
-def _rate(arrays: Arrays, asked: float | str | None, time: str | None, origin: str) -> float:
+def _rate(
+    arrays: Arrays, asked: float | str | None, time: str | None, origin: str
+) -> tuple[float, str]:
+    """Sampling rate [Hz] and the variable that says it, "" for none."""
     if asked is not None and not isinstance(asked, str):
-        return asked
+        return asked, ""
     if isinstance(asked, str) or (time is None and any(n in arrays for n in RATE_NAMES)):
-        return _scalar(arrays, _name(arrays, asked, RATE_NAMES, "sampling_rate", origin), origin)
+        name = _name(arrays, asked, RATE_NAMES, "sampling_rate", origin)
+        return _scalar(arrays, name, origin), name
     if time is None and any(n in arrays for n in STEP_NAMES):
-        return 1.0 / _scalar(arrays, _name(arrays, None, STEP_NAMES, "step", origin), origin)
+        name = _name(arrays, None, STEP_NAMES, "step", origin)
+        return 1.0 / _scalar(arrays, name, origin), name
     name = time if time is not None else _name(arrays, None, TIME_NAMES, "sampling_rate", origin)
     times = real_part(_signal(arrays, name, origin), f"{origin}: {name}")
-    return rate_of(times, f"{origin}, {name}")
+    return rate_of(times, f"{origin}, {name}"), name
 
 
 def _scalar(arrays: Arrays, name: str, origin: str) -> float:

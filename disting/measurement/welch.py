@@ -43,6 +43,7 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real
+from disting.measurement.method import Method
 from disting.measurement.periodic import detected_period, refuse_few
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.window import Window
@@ -104,6 +105,7 @@ def estimate(
         freedom=2.0 * (effective - 1),
         doubts=_smoothed(lines[good], *relative, segment, SEEN * smooth),
         window=Window(segment / rate, order, ratio, share) if smooth else None,
+        method=Method(segment=segment, segments=count),
     )
 
 

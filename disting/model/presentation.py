@@ -47,6 +47,9 @@ class Presenter(Protocol):
     def to_control(self, shown: Any, values: Any, /) -> Any:
         """A chain with numbers for python-control."""
 
+    def scatter(self, shown: Any, /) -> tuple[float, str]:
+        """Median scatter of a measured response, and its source in words."""
+
     def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
         """The object on axes of matplotlib, made where none are given; returns them."""
 

@@ -182,10 +182,12 @@ def test_the_command_says_first_how_the_file_was_read(tmp_path):
         "fit", path, "--masses", "1", "--quantity", "velocity", "--json", tmp_path / "fit.json"
     )
     assert done.returncode == 1, done.stderr  # one mass does not explain it
-    assert done.stdout.splitlines()[0] == (
-        "a.csv, column 2 (Re): frequency in Hz (column 1), real part (column 2), imaginary part"
-        " (column 3); sensor: velocity"
-    )
+    assert done.stdout.splitlines()[:4] == [
+        "a.csv, column 2 (Re)",
+        "columns: frequency in Hz (column 1), real part (column 2), imaginary part (column 3)",
+        "shows: velocity; 120 lines from 5 to 200 Hz",
+        "",
+    ]
     plain = json.loads((tmp_path / "fit.json").read_text())
     assert plain["data"] == [
         {

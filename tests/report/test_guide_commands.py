@@ -34,6 +34,7 @@ CHEAP = tuple(
         'plan "',
         "schema",
         "simulate",
+        "look",
     )
 )
 DEAR = ('disting compare "1~2, 1~3; F1; S2"', 'disting compare "#=1, 1=2, 1=3; F1; S2:1')

@@ -118,6 +118,8 @@ WRITTEN = [
         Format.PLAN,
     ),
     ("next cells.json", Format.NEXT_OF_NETWORK_FIT),
+    ("look demo.csv", Format.LOOK),
+    ("look both.csv --band 1..2", Format.LOOK),
 ]
 # formats that a cheaper command writes too
 BY_HAND = [

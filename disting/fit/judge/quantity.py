@@ -17,13 +17,14 @@ from dataclasses import dataclass, replace
 from math import log
 
 from disting.fit.judge.candidate import share_about, unseen_explanation
-from disting.fit.judge.reading import NOTHING, assumed_quantity, corner_of
+from disting.fit.judge.reading import NOTHING, corner_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import Case
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.exchange import SEARCHED, estimates, explore
 from disting.fit.search.joint import JointCost
 from disting.measurement import FrequencyResponse
+from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain, Sensor
 from disting.store import Store
 

@@ -11,15 +11,12 @@ from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.joint import JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.measurement.response import ASSUMED_ACCELERATION
-from disting.measurement.time_series import ASSUMED_POSITION
-from disting.model.chain import Sensor
+from disting.measurement.assumptions import assumed_quantity
 
 NOTHING = 1e-300  # a cost that is as good as zero
 SHARE = 0.8  # of the misfit, from which on single lines are named
 BESIDE = 0.1  # of theirs, that their neighbours may miss
 MOST_LINES = 2  # that are named
-ASSUMED = {ASSUMED_ACCELERATION: Sensor.ACCELERATION, ASSUMED_POSITION: Sensor.POSITION}
 FEWEST = 12  # lines, from which on one of them is not many
 
 
@@ -36,13 +33,6 @@ def read_in_words(measured: FrequencyResponse) -> str:
     if quantity is not None and quantity is not measured.sensor:
         phrase = f", from a {quantity.value} (assumed)"
     return f"{origin}{reading}sensor: {measured.sensor.value}{phrase}"
-
-
-def assumed_quantity(measured: FrequencyResponse) -> Sensor | None:
-    """The quantity that the sensor, or the recorded output, is taken to show; None where somebody
-    said it.
-    """
-    return next((quantity for note, quantity in ASSUMED.items() if note in measured.notes), None)
 
 
 def outside(candidate: Candidate, measured: FrequencyResponse) -> Iterator[str]:

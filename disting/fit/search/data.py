@@ -98,13 +98,13 @@ def check(
             " sensor quantity"
         )
     for data in filter(None, (train, test)):
-        check_units(data)
+        check_range(data)
     for extra in further:  # each against its own test data
         if extra.test is not None and test is None:
             raise InputError("test data of a further response need test data of the first one too")
         _check_pair(extra.measured, extra.test)
         for data in filter(None, (extra.measured, extra.test)):
-            check_units(data)
+            check_range(data)
     thinned = None if test is None else test.thinned(most)
     return (
         train.thinned(most),
@@ -124,7 +124,7 @@ def _check_pair(train: FrequencyResponse, test: FrequencyResponse | None) -> Non
         )
 
 
-def check_units(data: FrequencyResponse) -> None:
+def check_range(data: FrequencyResponse) -> None:
     """Raise InputError for frequencies or amplitudes beyond 1e-30 to 1e30: their squares and
     products leave floating point, and no unit of measurement is sensible there.
     """

@@ -11,11 +11,11 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation, Level, explanations
 from disting.fit.judge.members import Member
 from disting.fit.judge.quantity import QuantityReading
-from disting.fit.judge.reading import assumed_quantity
 from disting.fit.results.reliance import Statement
 from disting.fit.results.selection import Selection, fit_percent
 from disting.fit.search.candidates import listed_form, reference
 from disting.measurement import FrequencyResponse
+from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain
 from disting.report.fit.sentences import places, suspicions
 

@@ -11,7 +11,10 @@ import numpy as np
 
 from disting.algebra.notation import Expr
 from disting.behaviour.expansion import transfer_function
+from disting.fit.noise.scatter import scatter
 from disting.fit.results.export import StateSpace, state_space, to_control
+from disting.fit.search.data import check_range
+from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.network.network import Network
 from disting.report.drawing import chain_svg
@@ -49,6 +52,14 @@ class Notebook:
     def to_control(self, shown: Chain, values: Mapping[str, float], /) -> Any:
         """The same for python-control."""
         return to_control(shown, check_values(shown, values))
+
+    def scatter(self, shown: FrequencyResponse, /) -> tuple[float, str]:
+        """Median over the lines of sigma / (|G| sqrt 2), and the source that it is known from.
+        Raises InputError for numbers that a fit does not compute with.
+        """
+        check_range(shown)
+        known = scatter(shown)
+        return known.typical, known.source
 
     def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
         """The object on axes of matplotlib; raises TypeError for what has no plot."""

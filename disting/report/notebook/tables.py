@@ -20,7 +20,8 @@ from disting.general.global_identifiability import GlobalIdentifiability
 from disting.general.matrix_model import MatrixModel
 from disting.general.model import Model
 from disting.general.model_files import ModelList
-from disting.measurement import FrequencyResponse
+from disting.measurement import FrequencyResponse, Look
+from disting.measurement.look_text import fact_rows
 from disting.model.family import Family
 from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import chain_svg
@@ -163,6 +164,27 @@ def _response(shown: FrequencyResponse) -> str:
     ]
     picture = curve(shown.frequency, size, "Amplitude over frequency, both logarithmic")
     return block(line("Frequency response", bold=True), Markup(picture), facts(rows))
+
+
+@table_of.register
+def _look(shown: Look) -> str:
+    response = shown.response
+    head = ("column", "name", "unit", "role", "quantity", "why")
+    used = [column for column in shown.columns if column.is_used]
+    rows = (
+        (c.number or "", c.name, typeset(c.unit), c.role, shown.quantity_of(c), shown.reason(c))
+        for c in used[:LONGEST]
+    )
+    picture = ""
+    if response is not None:
+        size, words = np.abs(response.G), "Amplitude over frequency, both logarithmic"
+        picture = Markup(curve(response.frequency, size, words))
+    return block(
+        line(response.origin if response is not None else shown.file, bold=True),
+        table(head, rows),
+        picture,
+        facts(fact_rows(shown)),
+    )
 
 
 def _noise(shown: FrequencyResponse) -> str:

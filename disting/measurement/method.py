@@ -1,0 +1,20 @@
+"""How a response was estimated from a record in time."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """Periods or segments of which a response was estimated.
+
+    `period` [samples] and number of whole `periods` that were averaged, those of a transient
+    `dropped` before; or `segment` [samples] and number of half-overlapping `segments` of Welch's
+    method. `trends`: sentences on what was removed from input and output before.
+    """
+
+    period: int = 0
+    periods: int = 0
+    dropped: int = 0
+    segment: int = 0
+    segments: int = 0
+    trends: tuple[str, ...] = ()
