@@ -67,6 +67,15 @@ class Look(NotebookTable):
     `columns` as they are understood; `response`, None where it was refused; `record` and
     `excitation` of a file of time series, else None; `scatter` of the lines; `refusals`: sentences
     on what a fit would refuse, each with its remedy.
+
+    >>> column = ReadColumn("f", 1, Role.FREQUENCY, "Hz", Why.WORD, Why.ASSUMED, values=(1.0, 2.0))
+    >>> print(Look("a.csv", (column,), refusals=("a.csv: no column is a gain",)))
+    a.csv
+    #  name  unit  role       begins with  why
+    1  f     Hz    frequency  1, 2         header word; unit assumed
+    <BLANKLINE>
+    assumed: frequency in Hz; if not, give --unit frequency=rad/s
+    doubt: a.csv: no column is a gain
     """
 
     file: str

@@ -95,7 +95,8 @@ def look_figures(seen: Look) -> Iterator[FigureFiles]:
         yield nyquist(seen.response) if seen.is_impedance else bode(seen.response)
     if seen.record is not None:
         period = seen.excitation.period if seen.excitation is not None else 0
-        yield spectra(seen.record, period)
+        method = seen.response.method if seen.response is not None else None
+        yield spectra(seen.record, period, method.periods if method is not None else 0)
 
 
 def bode(response: FrequencyResponse) -> FigureFiles:
@@ -165,9 +166,9 @@ def nyquist(response: FrequencyResponse) -> FigureFiles:
     return draw_figure("nyquist", title, (5.6, 4.6), draw)
 
 
-def spectra(record: TimeSeries, period: int) -> FigureFiles:
-    """Return the amplitude spectra of input and output; of a periodic record that of the mean
-    period, and of what differs between periods.
+def spectra(record: TimeSeries, period: int, periods: int = 0) -> FigureFiles:
+    """Return the amplitude spectra of input and output; of a periodic record, of `period` samples,
+    those of the mean of its last `periods` (0: of all) and of their scatter.
     """
     signals = (("input", record.input, record.u), ("output", record.output, record.y))
 
@@ -175,7 +176,7 @@ def spectra(record: TimeSeries, period: int) -> FigureFiles:
         """A panel for each signal."""
         panels = figure.subplots(2, 1, sharex=True)
         for panel, (role, signal, samples) in zip(panels, signals, strict=True):
-            _spectrum(panel, samples, record.sampling_rate, period)
+            _spectrum(panel, _periods(samples, period, periods), record.sampling_rate)
             unit = f" [{typeset(signal.unit)}]" if signal.unit else ""
             panel.set_ylabel(f"{role.capitalize()}{unit}")
         panels[-1].set_xlabel("Frequency [Hz]")
@@ -187,9 +188,17 @@ def spectra(record: TimeSeries, period: int) -> FigureFiles:
     return draw_figure("spectra", "Amplitude spectra of input and output", (5.4, 5.6), draw)
 
 
-def _spectrum(panel: "Axes", samples: Real, rate: float, period: int) -> None:
+def _periods(samples: Real, period: int, periods: int) -> Real:
+    """Whole periods of a record, shape (P, N); one that is the record where it has none."""
     length = period if 0 < period <= len(samples) else len(samples)
-    whole = samples[len(samples) % length :].reshape(-1, length)
+    count = len(samples) // length
+    whole = samples[: count * length].reshape(count, length)
+    return whole[count - periods :] if 0 < periods <= count else whole
+
+
+def _spectrum(panel: "Axes", whole: Real, rate: float) -> None:
+    """Amplitudes of the mean of periods, shape (P, N), and their scatter."""
+    length = whole.shape[1]
     lines = np.fft.rfft(whole - whole.mean(), axis=1)[:, 1:] * 2 / length
     hertz = np.arange(1, lines.shape[1] + 1) * rate / length
     panel.set_xscale("log")

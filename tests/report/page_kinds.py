@@ -4,6 +4,8 @@ import shutil
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from disting import Engine, Sensor
 from disting.catalogs import catalog
 from disting.catalogs.damper_family import damper_catalog
@@ -18,12 +20,13 @@ from disting.fit.search.joint import FurtherResponse
 from disting.fit.search.setup import Setup
 from disting.fit.select import select
 from disting.general.model_files import ModelList
-from disting.measurement import FrequencyResponse
+from disting.measurement import FrequencyResponse, look
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.links import Site
 from disting.report.fit.style import FigureFiles
 from disting.report.listing import Listing, judge
+from disting.report.look import write_look
 from disting.report.model_list import write_model_list
 from tests.report.fit.conftest import DRIVE, response
 from tests.report.fit.test_responses import data
@@ -73,6 +76,8 @@ def kinds(masses: int) -> dict[str, str]:
         "fit of two responses": "alone/joint/fit.html",
         "fit, nothing explains": "alone/nothing/fit.html",
         "fit, the quantity is open": "alone/quantity/fit.html",
+        "look": "alone/look/look.html",
+        "look, refused": "alone/refused/look.html",
     }
 
 
@@ -99,6 +104,11 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
     family = judge(shown, engine)
     write_model_list(Listing(family, "Circuits", "list-circuits-4"), folder)
     write_model_list(Listing(judge(hostile(), engine), "Hostile", "list-hostile"), folder / "alone")
+    write_look(
+        look(_record(folder / "record.csv"), input="u [Nm]", output="y [rad]"),
+        folder / "alone" / "look",
+    )
+    write_look(look(_refused(folder / "refused.csv")), folder / "alone" / "refused")
     found = fits(whole)
     starts = waterfall(found[0][1].described)
     for address, selection, train, test in found:
@@ -106,6 +116,25 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
             write_fit_report(selection, folder / address, train, test)
         else:
             _write_fit(selection, folder / address, train, starts)
+
+
+def _record(path: Path) -> Path:
+    """Three periods of a multisine, and a motion that follows it."""
+    time = np.arange(3000) / 1000
+    phases = np.outer(time, np.arange(5, 200, 2)) + np.arange(98) ** 2 / 50
+    u = np.cos(2 * np.pi * phases).sum(axis=1)
+    y = np.convolve(np.concatenate([u[:1000], u]), np.exp(-np.arange(50) / 9))[1000:4000]
+    rows = zip(time.tolist(), u.tolist(), y.tolist(), strict=True)
+    text = ["t [s],u [Nm],y [rad]", *(f"{t},{a},{b}" for t, a, b in rows), ""]
+    path.write_text("\n".join(text))
+    return path
+
+
+def _refused(path: Path) -> Path:
+    """A unit that is unknown, and a long hostile name."""
+    names = f"frequency,magnitude [furlong],{'<script>alert(1)</script>' * 4}"
+    path.write_text("\n".join([names, *(f"{k},{k},{k}" for k in range(1, 30)), ""]))
+    return path
 
 
 def fits(whole: bool) -> list[tuple[str, Selection, FrequencyResponse, FrequencyResponse]]:

@@ -33,7 +33,7 @@ from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.fit import figure_1, plan, predict, select
 from disting.fit.networks import fit_networks
-from disting.measurement import FrequencyResponse
+from disting.measurement import FrequencyResponse, look, write_csv
 from disting.model.presentation import NotebookTable
 from disting.questions.identifiability.analysis import identifiability
 from disting.report import chain_svg
@@ -68,7 +68,9 @@ def text(html: str) -> str:
     return " ".join(" ".join(parsed(html).itertext()).split())
 
 
-def test_everything_with_a_table_is_well_formed_and_short(found):
+def test_everything_with_a_table_is_well_formed_and_short(found, tmp_path):
+    file = tmp_path / "a & b.csv"
+    write_csv(DATA, file)
     family, engine = Family(3, damped=True), Engine()
     subjects = [engine.subject(f"A{n}", chain) for n, chain in enumerate(family, 1)]
     ones = dict.fromkeys(family[2].parameters, 1)
@@ -79,6 +81,7 @@ def test_everything_with_a_table_is_well_formed_and_short(found):
         compare(POLES, POLES),
         found,
         DATA,
+        look(file),
         family,
         Family(5, damped=False),
         identifiability(family[3]),
