@@ -138,7 +138,7 @@ def test_lines_say_what_is_there(shown):
         == "<Verdict: 3:1 and 3:2, undamped, acceleration: distinguishable over positive parameters,"
         " proven>"
     )
-    assert lines["Selection"] == "<Selection: 2:1+b1 of 24 candidates, 8 not excluded>"
+    assert lines["Selection"] == "<Selection: 2:1+b1 of 24 candidates, 1 not excluded>"
     assert lines["FrequencyResponse"] == "<FrequencyResponse: 60 lines, 5 to 200 Hz, acceleration>"
     assert lines["Chain"] == "Chain(3, damped=True, sensor='acceleration')"
 

@@ -1,7 +1,6 @@
 """disting look: a measured file as it is read, before anything is fitted to it."""
 
 import argparse
-import json
 import shutil
 import sys
 from collections.abc import Iterator
@@ -11,6 +10,7 @@ from disting.cli.fit_data import in_units, reader_settings
 from disting.cli.output import emit
 from disting.cli.terminal_plot import bode_lines, nyquist_lines, signs_of
 from disting.errors import printable
+from disting.files import json_text
 from disting.measurement import FrequencyResponse
 from disting.measurement.look_text import WIDTH, look_lines
 from disting.measurement.looking import Look, look, name_units
@@ -29,8 +29,7 @@ def run(options: argparse.Namespace) -> int:
     )
     seen = name_units(seen, dict(options.unit))
     if options.json:
-        text = json.dumps(seen.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
-        emit(options.json, f"{text}\n")
+        emit(options.json, f"{json_text(seen.to_dict(), indent=1)}\n")
     if options.json != "-":
         columns = shutil.get_terminal_size((WIDTH, 24)).columns
         width = min(max(columns, NARROWEST), WIDEST)

@@ -1,6 +1,5 @@
 """A measured file as it was read, as one HTML page: columns, facts, figures."""
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.errors import InputError
-from disting.files import __version__, write_whole
+from disting.files import __version__, json_text, write_whole
 from disting.fit.judge.members import QUANTILE
 from disting.fit.noise.scatter import Scatter, scatter
 from disting.measurement import FrequencyResponse, TimeSeries
@@ -44,7 +43,7 @@ def write_look(seen: Look, folder: Path) -> list[Path]:
     gives the same bytes. `folder` is made if it does not exist.
     """
     figures = list(look_figures(seen))
-    text = json.dumps(seen.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
+    text = json_text(seen.to_dict(), indent=1)
     folder.mkdir(parents=True, exist_ok=True)
     files: list[tuple[str, bytes]] = [
         ("look.html", look_page(seen, figures).encode(errors="backslashreplace")),

@@ -109,22 +109,20 @@ def _drawing(number: int, chain: Chain) -> Drawing:
 def folder_of(catalog: Catalog) -> str:
     """Where the pages of a catalogue's models are, as seen from the catalogue's page.
 
-        >>> from disting.catalogs.recalled_chains import over_positive
-    from disting.catalogs import catalog
-        >>> folder_of(catalog(3, damped=True))
-        'models/3-damped'
+    >>> from disting.catalogs import catalog
+    >>> folder_of(catalog(3, damped=True))
+    'models/3-damped'
     """
     return f"models/{catalog.name.removeprefix('chains-')}"
 
 
 def motion_of(catalog: Catalog) -> str:
     """Name of the page where a catalogue's models move, as seen from the catalogue's page; none
-        of a catalogue of one model.
+    of a catalogue of one model.
 
-        >>> from disting.catalogs.recalled_chains import over_positive
-    from disting.catalogs import catalog
-        >>> motion_of(catalog(3, damped=True)), motion_of(catalog(1, damped=False))
-        ('motion-3-damped.html', '')
+    >>> from disting.catalogs import catalog
+    >>> motion_of(catalog(3, damped=True)), motion_of(catalog(1, damped=False))
+    ('motion-3-damped.html', '')
     """
     if len(catalog.family) < 2:
         return ""
@@ -133,12 +131,11 @@ def motion_of(catalog: Catalog) -> str:
 
 def model_page(catalog: Catalog, number: int) -> str:
     """HTML of one model; beside it the style sheet of `write_report` is expected. Raises InputError
-        for a number that is no model's.
+    for a number that is no model's.
 
-        >>> from disting.catalogs.recalled_chains import over_positive
-    from disting.catalogs import catalog
-        >>> "Model A2" in model_page(catalog(2, damped=True), 2)
-        True
+    >>> from disting.catalogs import catalog
+    >>> "Model A2" in model_page(catalog(2, damped=True), 2)
+    True
     """
     model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
     seen = {other: relation_from(number, other, v) for other, v in verdicts.items()}

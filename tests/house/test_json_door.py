@@ -17,7 +17,7 @@ WITHIN = {
     "catalogs/network_files.py", "conditions/finding.py", "fit/search/exchange.py",
     "general/global_identifiability.py", "model/question.py",
     "questions/identifiability/levels.py", "verdict/claim_checks.py", "verdict/engine.py",
-    "verdict/verdict_file.py",
+    "general/solutions.py", "verdict/verdict_file.py",
 }  # fmt: skip
 
 

@@ -180,9 +180,9 @@ def test_commands_that_stand_alone_end_well(
 
 def test_every_block_is_of_a_kind_that_is_run() -> None:
     """Python is run as doctests and commands by the tests above; the rest is data, a picture, or
-    one of two blocks that quote.
+    one of three blocks that quote.
     """
-    quoted = ("A3: 7 parameters", "structure ──>")
+    quoted = ("A3: 7 parameters", "structure ──>", "read as ")
     for name, text in TEXTS.items():
         for kind, content in blocks(text):
             runs = re.search(r"^(>>> |\$ disting |disting |pip install )", content, re.MULTILINE)
