@@ -107,7 +107,7 @@ def test_exports_leave_out_what_the_data_do_not_determine():
         Chain(2, ground_dampers=(1,), **BOTH),
         Chain(3, ground_dampers=(2,), dead_time=True),
     )
-    selection = select(geared(1), [own, other])
+    selection = select(geared(7), [own, other])
     assert [m.candidate.chain for m in selection.members] == [own, other]
     assert not undetermined(selection.members[0].candidate)
     assert undetermined(selection.members[1].candidate)

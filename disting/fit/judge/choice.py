@@ -16,7 +16,7 @@ from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate, Scatters, values_of
 from disting.fit.judge.exclusion import Exclusion, Fit, basis_of, exclusions, limit, statistic
 from disting.fit.judge.explanation import Explanation, explain, largest_cost, noises
-from disting.fit.judge.larger import check_left, left_with_contained
+from disting.fit.judge.larger import left_with_contained
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
@@ -82,8 +82,7 @@ def choice(
     `scatters` = scatter of training data and of those on test.
     """
     judging, seen = test or task.cost, scatters[1]
-    asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
-    asked = [c for c in asked if not c.practical.unidentifiable] or asked
+    asked = eligible(fitted, rule)
     explaining = [c for c in asked if c.chi2 <= largest_cost(seen)]
     if not explaining:
         best = asked[0] if asked else None
@@ -95,10 +94,17 @@ def choice(
     whole = tuple(replace(c, excluded=out.get(c.chain)) for c in fitted)
     chains = {c.chain for c in explaining} - out.keys()
     left = sorted((c for c in whole if c.chain in chains), key=lambda c: (c.n_parameters, c.order))
-    check_left(left, asked, task, scatters)
     selected = left[0]
     better = _better(selected, fitted, task, scatters) if rule is Rule.PAPER else ()
     return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)
+
+
+def eligible(fitted: Sequence[Candidate], rule: Rule) -> list[Candidate]:
+    """The candidates that may be left: those that some data determine, and, under the paper's rule,
+    whose criteria hold.
+    """
+    asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
+    return [c for c in asked if not c.practical.unidentifiable] or asked
 
 
 def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
