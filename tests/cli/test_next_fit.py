@@ -45,7 +45,7 @@ def test_each_pair_has_a_sentence(said, path):
         " closer)"
     )
     assert (empty, head) == ("", "3 structures that the fit left:")
-    assert selected == "  3:1     [1FS]=[2]=[3]   fitted"
+    assert selected == "  3:1     [1FS]=[2]=[3]  fitted"
     (noise,) = [line for line in said.splitlines() if line.startswith("2:1+b1: ")]
     assert "the data are too noisy to tell it from 3:1 (disting plan" in noise
     assert f"(disting plan {path})" in noise
