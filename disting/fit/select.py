@@ -19,7 +19,7 @@ from disting.fit.judge.alternatives import (
     representatives,
 )
 from disting.fit.judge.candidate import FOLDS, Candidate, Scatters, judge, observed_scatters
-from disting.fit.judge.choice import Choice, choice, with_akaike_weights
+from disting.fit.judge.choice import Choice, choice, judged, with_akaike_weights
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.joint_verdicts import (
     alternatives_under_all,
@@ -27,7 +27,7 @@ from disting.fit.judge.joint_verdicts import (
     locate,
     representatives_under_all,
 )
-from disting.fit.judge.larger import as_good_as_contained
+from disting.fit.judge.larger import check_left, searched_again
 from disting.fit.judge.members import Member, members
 from disting.fit.judge.practical import Thresholds
 from disting.fit.judge.quantity import quantity_readings
@@ -231,9 +231,19 @@ def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
     """Which candidate is taken, which others are left, and whether any explains the data."""
     task, test, scatters = fits.task, fits.test, fits.known
     fitted = judge(fits.found, task, test, scatters, settings)
-    fitted = as_good_as_contained(fitted, task, test, scatters, settings)
-    fitted = [replace(c, reasons=reasons(c, task, terms.thresholds, terms.rule)) for c in fitted]
-    return choice(with_akaike_weights(fitted, task), task, test, scatters, terms.rule, settings)
+    while True:
+        fitted = [
+            replace(c, reasons=reasons(c, task, terms.thresholds, terms.rule)) for c in fitted
+        ]
+        weighed = with_akaike_weights(fitted, task)
+        chosen = choice(weighed, task, test, scatters, terms.rule, settings)
+        each = judged(fitted, terms.rule, test or task.cost)
+        again = searched_again(chosen.left, each, task, test, scatters, settings)
+        if not again:
+            break
+        fitted = sorted((again.get(c.chain, c) for c in fitted), key=lambda c: c.order)
+    check_left(chosen.left, each, task, scatters)
+    return chosen
 
 
 def _members(

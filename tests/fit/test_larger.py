@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from disting.fit import select
+from disting.fit.judge.admissible import undetermined
 from disting.fit.networks import fit_networks
 from disting.fit.search.candidates import variants
 from disting.fit.search.containment import contains
@@ -17,6 +18,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.network import network_of
 from disting.report.fit.selection_json import selection_to_dict
+from disting.report.fit.write import export, not_exported
 from tests.cli.process import called
 from tests.fit.drives import response
 
@@ -97,6 +99,22 @@ def test_plan_and_next_say_the_same_even_of_a_file_that_does_not(rigid, tmp_path
         assert further.stdout.startswith(
             f"{path} leaves 2:1+b1+delay alone: no further measurement"
         )
+
+
+def test_exports_leave_out_what_the_data_do_not_determine():
+    """A massless first mass behind a stiff spring does what a lag does."""
+    own, other = (
+        Chain(2, ground_dampers=(1,), **BOTH),
+        Chain(3, ground_dampers=(2,), dead_time=True),
+    )
+    selection = select(geared(7), [own, other])
+    assert [m.candidate.chain for m in selection.members] == [own, other]
+    assert not undetermined(selection.members[0].candidate)
+    assert undetermined(selection.members[1].candidate)
+    assert not_exported(selection) == ("3:1+b2+delay",)
+    models = export(selection, selection.test)
+    assert [m.name for m in models] == ["2:1+b1+lag+delay"]
+    assert models[0].undetermined == ()
 
 
 @pytest.mark.parametrize("seed", range(3))

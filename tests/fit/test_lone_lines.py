@@ -132,3 +132,11 @@ def test_few_lines_judge_no_structure(count, enough):
 def test_the_response_of_the_bench_of_these_tests_is_that_of_the_matrices():
     exact = np.array([dense_response(SMALL, SMALL_VALUES, x) for x in 1j * OMEGA])
     np.testing.assert_allclose(response(SMALL, SMALL_VALUES, OMEGA).G, exact, rtol=1e-9)
+
+
+def test_a_larger_structure_that_needs_more_lines_is_not_judged():
+    """20 lines are enough for two masses, not for the three that contain them."""
+    omega = 2 * np.pi * np.geomspace(5.0, 200.0, 20)
+    data = response(DRIVE, VALUES, omega, noise=1e-3, seed=1)
+    found = select(data, [DRIVE, SMALL])
+    assert [m.candidate.chain for m in (*found.members, *found.containing)] == [DRIVE]

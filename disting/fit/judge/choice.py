@@ -31,7 +31,7 @@ from disting.fit.judge.explanation import (
     needed_lines,
     noises,
 )
-from disting.fit.judge.larger import check_left, left_with_contained
+from disting.fit.judge.larger import left_with_contained
 from disting.fit.judge.lone_lines import LoneLines
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import Cost
@@ -98,10 +98,8 @@ def choice(
     `scatters` = scatter of training data and of those on test.
     """
     judging, seen = test or task.cost, scatters[1]
-    asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
-    asked = [c for c in asked if not c.practical.unidentifiable] or asked
-    lines = sum(len(part.measured) for part in judging.parts)
-    explaining = [c for c in asked if c.explains(seen) and lines >= needed_lines(c.n_parameters)]
+    asked, enough = eligible(fitted, rule), judged(fitted, rule, judging)
+    explaining = [c for c in enough if c.explains(seen)]
     lone = _lone(asked, task, scatters[0], settings) if explaining else {}
     if all(c.chain in lone for c in explaining):
         best = next((c for c in asked if c.chain not in lone), None)
@@ -117,10 +115,23 @@ def choice(
         (c for c in whole if c.chain in chains),
         key=lambda c: (c.rests_on is not None, c.n_parameters, c.order),
     )
-    check_left(left, asked, task, scatters)
     selected = left[0]
     better = _better(selected, fitted, task, scatters) if rule is Rule.PAPER else ()
     return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)
+
+
+def eligible(fitted: Sequence[Candidate], rule: Rule) -> list[Candidate]:
+    """The candidates that may be left: those that some data determine, and, under the paper's rule,
+    whose criteria hold.
+    """
+    asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
+    return [c for c in asked if not c.practical.unidentifiable] or asked
+
+
+def judged(fitted: Sequence[Candidate], rule: Rule, judging: AnyCost) -> list[Candidate]:
+    """The eligible candidates that the data have lines enough to judge."""
+    lines = sum(len(part.measured) for part in judging.parts)
+    return [c for c in eligible(fitted, rule) if lines >= needed_lines(c.n_parameters)]
 
 
 def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:

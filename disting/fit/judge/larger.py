@@ -1,11 +1,10 @@
 """Candidates that contain one that explains the data, or that the data do not exclude.
 
 A candidate that contains another one (`fit.search.containment`) has its response in the limit.
-Therefore it explains the data if the other one does, and is not excluded if the other one is not,
-whatever its own search found. A search may fail on the data that it has seen, or a fold of the
-cross-validation may run away: a resonance without damping at one line fits the others better and
-misses that one by any amount. Then the search begins again at the limit, and where it fails there
-too the candidate is taken at the limit itself.
+Therefore it is left if the other one is, whatever its own search found. A search may fail on the
+data that it has seen, or a fold of the cross-validation may run away: a resonance without damping
+at one line fits the others better and misses that one by any amount. Then the search begins again
+at the limit, and where it fails there too the candidate is taken at the limit itself.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -28,28 +27,30 @@ from disting.model.question import Settings
 ALIKE = 0.01  # of the scatter of a line: closer responses are the same
 
 
-def as_good_as_contained(
-    fitted: Sequence[Candidate],
+def searched_again(
+    left: Sequence[Candidate],
+    judged: Sequence[Candidate],
     task: Task,
     test: AnyCost | None,
     scatters: Scatters,
     settings: Settings,
-) -> list[Candidate]:
-    """Candidates of which none misses data that one explains which it contains; in the order of
-    the cost on test.
+) -> dict[Chain, Candidate]:
+    """The judged candidates that miss the data although they contain one that is left, each as good
+    as that; none where the bounds of the task keep them away from it.
     """
     seen = scatters[1]
-    own = {c.chain: c for c in fitted}
-    for c in sorted(fitted, key=lambda c: c.n_parameters):
+    own = {c.chain: c for c in left}
+    chains = set(own)
+    for c in sorted(judged, key=lambda c: c.n_parameters):
         if c.explains(seen):
             continue
-        inner = (own[s] for s in own if own[s].explains(seen) and contains(c.chain, s))
+        inner = (own[s] for s in own if contains(c.chain, s))
         for contained in sorted(inner, key=lambda s: s.j_train)[:1]:
             limit = limit_in(c.chain, contained, task, scatters[0])
             if limit is not None:
                 ends = _from_limit(c, contained, limit, task, test, scatters, settings)
                 own[c.chain] = next(end for end in ends if end.explains(seen))
-    return sorted(own.values(), key=lambda c: c.order)
+    return {chain: c for chain, c in own.items() if chain not in chains}
 
 
 def left_with_contained(

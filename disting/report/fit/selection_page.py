@@ -232,7 +232,8 @@ def _choice(selection: Selection) -> str:
         return "No candidate explains the data; the selected one has the lowest cost."
     out = sum(c.excluded is not None for c in selection.candidates)
     left, more = plural(len(selection.members), "candidate"), len(selection.containing)
-    beside = f" ({more} more contain{'s' if more == 1 else ''} one of these)" if more else ""
+    which = "one of these" if len(selection.members) > 1 else "it"
+    beside = f" ({more} more contain{'s' if more == 1 else ''} {which})" if more else ""
     return (
         f"{left} the data do not exclude{beside}, the selected one"
         " is the simplest of them, of equally simple ones that with the lowest cost."
