@@ -88,10 +88,14 @@ def size_or_list(text: str) -> int | Listed:
     return _list(text) or MASSES(text)
 
 
-def size_list_or_text(text: str) -> int | Listed | str:
-    """One number of masses, a list of models, or a text that is a network in some notation."""
+class NetworkText(str):
+    """Text that is a network in some notation."""
+
+
+def size_list_or_text(text: str) -> int | Listed | NetworkText:
+    """One number of masses, a list of models, or the text of a network."""
     is_network = _list(text) is None and notations_of(text)
-    return text if is_network else size_or_list(text)
+    return NetworkText(text) if is_network else size_or_list(text)
 
 
 def size_or_family(text: str) -> int | str:

@@ -15,6 +15,7 @@ from disting.catalogs.recalled_chains import recall_chains
 from disting.cli.arguments import (
     DOMAINS,
     Listed,
+    NetworkText,
     add_damped,
     add_notation,
     add_work,
@@ -77,7 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the models of one size, or of a file; or tell of a network."""
-    if isinstance(options.masses, str):
+    if isinstance(options.masses, NetworkText):
         return _of_network(network_of(options.masses, options.notation), options)
     if isinstance(options.masses, Listed):
         return _of_list(options.masses, options)

@@ -40,6 +40,7 @@ COMMANDS = [
     ["dampers", "2:1", "--damped"],
     ["equivalents", "2:1", "--to", "2", "--undamped", "--set", "m1=1,m2=2,k12=3"],
     ["simulate", "--csv", "bench ß.csv"],
+    ["look", "bench ß.csv"],
     ["fit", "bench ß.csv", "--masses", "1", "--json", "fit ñ.json"],
     ["verify", "3:1", "3:4"],
     ["next", "3:1", "3:11", "--damped", "--csv", "next ł.csv"],

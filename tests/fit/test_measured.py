@@ -185,7 +185,7 @@ def test_the_command_says_first_how_the_file_was_read(tmp_path):
     assert done.stdout.splitlines()[:4] == [
         "a.csv, column 2 (Re)",
         "columns: frequency in Hz (column 1), real part (column 2), imaginary part (column 3)",
-        "shows: velocity; 120 lines from 5 to 200 Hz",
+        "shows: velocity; 120 lines from 5 to 300 Hz",
         "",
     ]
     plain = json.loads((tmp_path / "fit.json").read_text())

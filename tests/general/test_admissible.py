@@ -92,7 +92,7 @@ def test_a_shift_is_a_bijection_of_the_reals_and_none_of_the_positive_numbers():
     assert confirms(positive.evidence, SQUARE, SHIFTED)
     real = over(View.REAL, SQUARE, SHIFTED)
     assert (real.relation, real.certainty) == (Relation.INDISTINGUISHABLE, Certainty.PROVEN)
-    assert is_explicit(real.evidence, SQUARE, SHIFTED) and "k = k - 1" in real.sentence
+    assert is_explicit(real.evidence, SQUARE, SHIFTED) and "k' = k - 1" in real.sentence
 
 
 def test_special_points_are_no_witnesses():

@@ -41,7 +41,7 @@ for options in ({"column": 2}, {"input": "u", "output": "y"}):
     except InputError as error:
         print(error)
 """
-IMPORT = "from disting.measurement.table import Table, is_time, time_series\n"
+IMPORT = "from disting.measurement.table import Table, is_time, signal_columns, time_series\n"
 
 
 def test_a_format_is_a_module_and_a_row(tmp_path):
