@@ -29,6 +29,7 @@ from disting.general.forms import of_equals
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel, positive_question
+from disting.general.plain_maps import PLAIN_MAPS
 from disting.general.replacement import replaceable
 from disting.network.families import NetworkFamily, family_of
 from disting.verdict.decisions import Decisions
@@ -199,6 +200,8 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
         pair = engine.general_subjects([model, other.subject])
         question, models = positive_question(pair[0], pair[1])
         if models[0] != sides[own - 1].asked_about[0]:
+            if question is PLAIN_MAPS:
+                continue  # the map is one of the other networks
             finding = of_equals(finding, sides[own - 1].name, other.name)
         engine.remember(question, models, finding)
 

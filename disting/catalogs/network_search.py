@@ -12,6 +12,7 @@ from disting.evidence.kind import Labels
 from disting.general.forms import BRIEFLY, of_equals, of_part
 from disting.general.model_side import ComparedModel, positive_question
 from disting.general.parts import parts_of
+from disting.general.plain_maps import PLAIN_MAPS
 from disting.general.replacement import simplest_network
 from disting.network.simplest import same_drawing
 from disting.verdict.decisions import Decisions, Pair
@@ -62,7 +63,8 @@ def search_in_brief(
         if (a, b) != (i, j):
             finding = of_equals(finding, sides[a].name, sides[b].name)
         question, models = positive_question(sides[i], sides[j])
-        engine.remember(question, models, finding)
+        if question is not PLAIN_MAPS:  # a theorem tells it
+            engine.remember(question, models, finding)
 
 
 def _ordered(answers: Mapping[Pair, Finding], i: int, j: int) -> Finding:

@@ -23,6 +23,11 @@ THEOREMS = {
         "{left} and {right} are undamped with force and sensor at one place: by Foster's theorem"
         " each gives any resonances and antiresonances in turn"
     ),
+    "Cauer": (
+        "{left} and {right} are undamped with force and sensor at an end of their only long row: by"
+        " Cauer's continued fraction each gives any resonances and antiresonances in turn, by one"
+        " set of positive values"
+    ),
     "replacement": (
         "{left} and {right} are the same but for parts that can replace each other (two-terminal"
         " parts of two kinds of elements, trees that hang at a compartment, outflows)"
@@ -40,6 +45,8 @@ THEOREMS = {
         " one by one"
     ),
 }
+WEAKER = {"Cauer": "Foster"}
+"""What else is true where a theorem applies: files may rest on the weaker statement."""
 RATIONAL = ("symmetry", "duality", "gears")
 """Theorems whose maps are rational, so that they take real parameters to real ones."""
 
@@ -54,6 +61,7 @@ TITLES = {
     "symmetry": "symmetry",
     "duality": "duality theorem",
     "Foster": "Foster's theorem",
+    "Cauer": "Cauer's continued fraction",
     "replacement": "replacement of parts",
     "gears": "gears as units",
     "interlacing": "antiresonances between resonances",
@@ -97,12 +105,12 @@ class Theorem(Kind):
 
     def without_exception(self, domain: Domain) -> bool:
         """Symmetries of a chain carry all parameters over, and so do units. So does duality where
-        they are positive: its formulas divide by sums of masses alone. Foster's and Cauer's
-        theorems speak of generic ones: of a chain with the force on its middle mass and both sides
-        alike a pole is cancelled, and a chain with the force at its end has always all of them.
+        they are positive: its formulas divide by sums of masses alone. Foster's theorem speaks
+        of generic ones: of a chain with the force on its middle mass and both sides alike a pole is
+        cancelled. A chain with the force at its end has always all of them ("Cauer").
         """
         everywhere = self.name in ("symmetry", GEARS)
-        return everywhere or (self.name == "duality" and domain is Domain.POSITIVE)
+        return everywhere or (self.name in ("duality", "Cauer") and domain is Domain.POSITIVE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,6 +31,7 @@ from disting.general.model_evidence import confirms_models
 from disting.general.network_model import behaviour_of
 from disting.general.orthant import BRIEF, THOROUGH, Effort
 from disting.general.parts import parts_of, without
+from disting.general.plain_maps import stronger
 from disting.general.replacement import replaceable, simplest_network
 from disting.model.question import Domain, Question, Relation, Settings
 from disting.network.inverse import at_inverse
@@ -243,7 +244,9 @@ def over_positive(
     if finding is None:
         finding = admissible_finding(left, right, Domain.POSITIVE, settings.seed, effort)
     if finding.outcome is not Outcome.ABANDONED:
-        return finding
+        rests_on_others = isinstance(finding.evidence, OfSubstitutes | Theorem)
+        is_same = finding.outcome is Outcome.HOLDS and rests_on_others
+        return stronger(finding, left, right) if is_same else finding
     turned = by_inverse(left, right, settings.seed, effort)
     if turned is None:
         turned = by_parts(left, right, settings, effort)

@@ -69,7 +69,7 @@ def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
     stated = {side: tuple(f for f in evidence.formulas if f[0] is side) for side in pairs}
     if not all(stated.values()) or not fit(evidence, left, right):
         return False
-    return all(
+    return evidence.without_exception(Domain(evidence.domain)) or all(
         formulas
         in _found_anew(side, evidence.small(formulas[0]), Domain(evidence.domain), *pairs[side])
         for side, formulas in stated.items()

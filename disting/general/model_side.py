@@ -50,6 +50,7 @@ from disting.general.model_inclusions import (
     numberings,
 )
 from disting.general.network_model import NetworkModel, behaviour_of
+from disting.general.plain_maps import PLAIN_MAPS
 from disting.general.readings import profile_text, readings
 from disting.general.replacement import same_in_units
 from disting.model.chain import Chain, Premise
@@ -223,12 +224,15 @@ class ComparedModel(Side[AnyModel]):
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
-        if name := _theorem(self, other, domain):
-            return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
+        name = _theorem(self, other, domain)
+        if name and not _is_asked(self, other, domain):
+            return _by_theorem(name)
         if not (self.is_writable and other.is_writable):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        finding = self.answerer(ADMISSIBLY[domain], _unnamed(self, other), self.settings)
-        finding = self._in_every_order(other, finding)
+        question, models = _question(self, other, domain)
+        finding = self._in_every_order(other, self.answerer(question, models, self.settings))
+        if name and finding.outcome is not Outcome.HOLDS:
+            return _by_theorem(name)
         return replace(finding, note=with_names(finding.note, self.name, other.name))
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
@@ -253,15 +257,28 @@ class ComparedModel(Side[AnyModel]):
     @classmethod
     def prepare_admissible(cls, pairs: Sequence[ModelPair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
-        left = [pair for pair in pairs if _is_asked(*pair, domain)]
-        ask(ADMISSIBLY[domain], [_unnamed(a, b) for a, b in left])
+        asked = [_question(a, b, domain) for a, b in pairs if _is_asked(a, b, domain)]
+        for question in (PLAIN_MAPS, ADMISSIBLY[domain]):
+            ask(question, [models for q, models in asked if q is question])
 
 
 def positive_question(
     left: ComparedModel, right: ComparedModel
 ) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
     """What is asked where positive equivalents are looked for, as an engine keeps the answer."""
-    return ADMISSIBLY[Domain.POSITIVE], _unnamed(left, right)
+    return _question(left, right, Domain.POSITIVE)
+
+
+def _question(
+    left: ComparedModel, right: ComparedModel, domain: Domain
+) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
+    """Of networks that a theorem shows to be the same only a map without exception tells more."""
+    question = PLAIN_MAPS if _theorem(left, right, domain) else ADMISSIBLY[domain]
+    return question, _unnamed(left, right)
+
+
+def _by_theorem(name: str) -> Finding:
+    return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
 
 
 def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
@@ -290,7 +307,8 @@ def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> str:
 def _is_asked(left: ComparedModel, right: ComparedModel, domain: Domain) -> bool:
     renamed = left.colouring.fingerprint == right.colouring.fingerprint
     written = left.is_writable and right.is_writable
-    return written and not renamed and not _theorem(left, right, domain)
+    name = _theorem(left, right, domain)
+    return written and not renamed and not (name and Theorem(name).without_exception(domain))
 
 
 def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:

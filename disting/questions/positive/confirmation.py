@@ -1,7 +1,7 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
 from disting.algebra.certainty import Certainty
-from disting.evidence.decision import Exclusion, Theorem
+from disting.evidence.decision import WEAKER, Exclusion, Theorem
 from disting.evidence.kind import PointText
 from disting.evidence.positive import (
     BoxMap,
@@ -36,7 +36,8 @@ def confirms(evidence: PositiveEvidence, chain: Chain, other: Chain) -> bool:
     chain, other = without_dead_time(chain), without_dead_time(other)
     match evidence:
         case Theorem():
-            return evidence.name != "" and theorem(chain, other) == evidence.name
+            named = theorem(chain, other)
+            return named != "" and evidence.name in (named, WEAKER.get(named))
         case Exclusion():
             return _excluded(evidence, chain, other)
         case EmptyFibre():

@@ -112,12 +112,28 @@ def theorem(chain: Chain, other: Chain) -> str:
 
     >>> theorem(Chain(3, damped=False), Chain(3, 0, 0, 2, 0, 2, damped=False))
     'Foster'
+    >>> theorem(Chain(3, damped=False), Chain(3, 2, 2, 3, 2, 3, damped=False))
+    'Cauer'
     """
     mine, theirs = (canonical(c).chain for c in _without_common_factors(chain, other))
     if mine == theirs:
         return "symmetry"
-    foster = not chain.damped and all(is_plain(c) and c.collocated for c in (mine, theirs))
-    return "Foster" if foster else "duality" if are_dual(mine, theirs) else ""
+    if not chain.damped and all(is_plain(c) and c.collocated for c in (mine, theirs)):
+        return "Cauer" if all(is_continued_fraction(c) for c in (mine, theirs)) else "Foster"
+    return "duality" if are_dual(mine, theirs) else ""
+
+
+def is_continued_fraction(chain: Chain) -> bool:
+    """Whether an undamped collocated chain has one set of positive parameters for each function
+    with resonances and antiresonances in turn, special ones too.
+
+    Its only long row is driven at an end. From there its parameters are the terms of Cauer's
+    continued fraction, and no resonance has a node there. Two long rows may share a resonance, and
+    inside a row a resonance may have a node.
+    """
+    *grounded, free = rows(chain)
+    row = free if not grounded else grounded[0] if free.n_masses == 1 else None
+    return row is not None and row.a in (1, row.n_masses)
 
 
 def _without_common_factors(chain: Chain, other: Chain) -> tuple[Chain, Chain]:

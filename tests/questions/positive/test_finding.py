@@ -31,11 +31,11 @@ from disting.questions.same.real_and_positive import POSITIVELY
 from tests.oracles.positive_synthesis import positive_equivalent
 
 SHARES = {
-    (3, False): {"Foster": 20, "symmetry": 4},
+    (3, False): {"Cauer": 6, "Foster": 14, "symmetry": 4},
     (3, True): {"duality": 2, "symmetry": 4},
-    (4, False): {"Foster": 72, "always": 5, "sometimes": 1, "symmetry": 14},
+    (4, False): {"Cauer": 6, "Foster": 66, "always": 5, "sometimes": 1, "symmetry": 14},
     (4, True): {"duality": 4, "symmetry": 14},
-    (5, False): {"Foster": 240, "always": 30, "sometimes": 6, "symmetry": 44},
+    (5, False): {"Cauer": 6, "Foster": 234, "always": 30, "sometimes": 6, "symmetry": 44},
     (5, True): {"duality": 4, "symmetry": 44},
 }
 

@@ -4,12 +4,14 @@ from math import comb
 from random import Random
 
 import pytest
+from sympy import cancel, degree
 
-from disting import Chain
+from disting import Chain, Family, transfer_function
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Status, target
 from disting.model.question import Answer
 from disting.questions.positive.points import random_point
+from disting.questions.positive.shares import is_continued_fraction
 
 CASES = [
     (2, 1, 1, 2),
@@ -37,3 +39,31 @@ def test_all_solutions_are_positive(n, g, a, b):
     found = fibre(other, target(given.structure, random_point(given, f"foster{n}{g}{a}{b}")))
     assert found.status is Status.COMPLETE and len(found.solutions) == count(n, g, a, b)
     assert all(s.real is s.positive is Answer.YES for s in found.solutions)
+
+
+@pytest.mark.parametrize("n", range(2, 7))
+def test_a_continued_fraction_is_a_chain_with_one_solution(n):
+    """The chains without exception are those that the count gives one set of values."""
+    places = [(g, a, b) for g in range(n) for a in range(g + 1) for b in range(g + 1, n + 1)]
+    for g, a, b in places:
+        if bool(a) == bool(g):
+            chain = Chain(n, g, a, b, a, b, damped=False)
+            assert is_continued_fraction(chain) is (count(n, g, a, b) == 1), chain
+
+
+def order(chain):
+    """Degree in s of the response, at equal masses and springs, where a resonance inside a row has a node and two
+    rows alike share one, common factors cancelled by SymPy.
+    """
+    g = transfer_function(chain)
+    s = next(x for x in g.free_symbols if x.name == "s")
+    at_one = g.subs(dict.fromkeys(g.free_symbols - {s}, 1))
+    return degree(cancel(at_one).as_numer_denom()[0], s)
+
+
+@pytest.mark.parametrize("n", [3, 5])
+def test_no_resonance_of_a_continued_fraction_is_ever_cancelled(n):
+    """In others one is, at equal elements, of some of them."""
+    collocated = [chain for chain in Family(n, damped=False) if chain.collocated]
+    assert {order(c) for c in collocated if is_continued_fraction(c)} == {2 * n - 2}
+    assert min(map(order, collocated)) < 2 * n - 2

@@ -1,0 +1,49 @@
+"""Explicit maps without exception: one formula each way, with plus signs only, so that positive
+parameters give positive equivalents wherever they are.
+
+Theorems on networks and searches that rest on them speak of generic values. Where such a map
+exists, the same statement holds for all values, so it is the stronger one.
+"""
+
+from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE
+from disting.evidence.general import Explicit
+from disting.general.formulas import explicit, fit
+from disting.general.matrix_model import AnyModel
+from disting.general.orthant import BRIEF
+from disting.general.which_models import Way, way
+from disting.model.question import Domain, Question, Settings
+
+NO_MAP = "no map with plus signs only was found"
+
+
+def plain_maps(left: AnyModel, right: AnyModel) -> Explicit | None:
+    """The map that has no exception, if a brief search finds one."""
+    ways = list[Way]()
+    for model, other in ((left, right), (right, left)):
+        one_way = way(model, other, Domain.POSITIVE, BRIEF)
+        if one_way is None or not one_way.covering:
+            return None
+        ways.append(one_way)
+    evidence = explicit(ways, left, right, Domain.POSITIVE, BRIEF)
+    is_plain = evidence is not None and evidence.without_exception(Domain.POSITIVE)
+    return evidence if is_plain and evidence and fit(evidence, left, right) else None
+
+
+def _search(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    return stronger(Finding(ADMISSIBLE, Outcome.ABANDONED, note=NO_MAP), left, right)
+
+
+def stronger(finding: Finding, left: AnyModel, right: AnyModel) -> Finding:
+    """The map without exception as a finding; the given finding where there is none."""
+    evidence = plain_maps(left, right)
+    return Finding(ADMISSIBLE, Outcome.HOLDS, evidence=evidence) if evidence else finding
+
+
+PLAIN_MAPS = Question(
+    "maps of general models without exception",
+    _search,
+    Finding.to_json,
+    lambda text: Finding.from_json(text, ADMISSIBLE),
+)
+"""What is asked of networks that a theorem shows to be the same, special values aside."""
