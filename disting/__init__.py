@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from disting.model.symmetry import Symmetry as Symmetry
     from disting.network.element import Element as Element, Port as Port
     from disting.network.network import Network as Network
-    from disting.network.notation import network_of as network_of
+    from disting.network.notation import network_of as network_of, values_in as values_in
     from disting.questions.identifiability.answer import Identifiability as Identifiability
     from disting.questions.identifiability.levels import (
         ParameterIdentifiability as ParameterIdentifiability,
@@ -103,7 +103,7 @@ _NAMES = {
     "disting.model.symmetry": "Symmetry",
     "disting.network.element": "Element Port",
     "disting.network.network": "Network",
-    "disting.network.notation": "network_of",
+    "disting.network.notation": "network_of values_in",
     "disting.questions.identifiability.answer": "Identifiability",
     "disting.questions.identifiability.levels": "ParameterIdentifiability",
     "disting.questions.identifiability.parts": "Level",

@@ -77,6 +77,7 @@ NAMES = [
         "read_models",
         "transfer_function",
         "everywhere_file",
+        "values_in",
         "verdict_file",
         "verify",
         "write_models",

@@ -80,12 +80,22 @@ def split_reference(text: str) -> tuple[str, str]:
 
 def sizes_or_list(text: str) -> range | Listed:
     """Sizes, or a list of models."""
-    return _list(text) or sizes(text)
+    return _list(_no_network(text)) or sizes(text)
 
 
 def size_or_list(text: str) -> int | Listed:
     """One number of masses, or a list of models."""
-    return _list(text) or MASSES(text)
+    return _list(_no_network(text)) or MASSES(text)
+
+
+def _no_network(text: str) -> str:
+    """Return the text; raise ArgumentTypeError for one network where a list is needed."""
+    if notations_of(text):
+        raise argparse.ArgumentTypeError(
+            f"{short(text)} is one network; name a family such as circuits-4 or a file of networks,"
+            " or two networks with disting compare"
+        )
+    return text
 
 
 class NetworkText(str):

@@ -58,7 +58,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--to", default="", metavar="M:J|M|NETWORK|FILE", help=others)
     text = "of a network: all networks of this family, such as circuits-5"
     parser.add_argument("--family", default="", metavar="FAMILY", help=text)
-    text = "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly"
+    text = (
+        "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly;"
+        " of a circuit they may stand in braces, such as R{R=20}"
+    )
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )

@@ -200,9 +200,11 @@ def _structures(group: argparse._ArgumentGroup) -> None:
     """Which structures are fitted."""
     text = (
         "networks instead of chains: a text such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4', a"
-        " file of models, or a family such as cells-4; may be repeated"
+        " file of models, or a family such as cells-4; several at once, and may be repeated"
     )
-    group.add_argument("--models", action="append", default=[], metavar="NETWORK", help=text)
+    group.add_argument(
+        "--models", action="extend", nargs="+", default=[], metavar="NETWORK", help=text
+    )
     add_notation(group)
     group.add_argument(
         "--masses",

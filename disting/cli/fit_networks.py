@@ -3,7 +3,6 @@
 import argparse
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import isfinite
 from pathlib import Path
 
 from disting.cli.fit_data import data
@@ -13,7 +12,7 @@ from disting.cli.workers import engine_for
 from disting.errors import InputError, enumeration
 from disting.files import json_text
 from disting.fit.networks import fit_networks
-from disting.fit.results.networks import BAR, FittedNetwork, NetworkSelection
+from disting.fit.results.networks import BAR, NetworkSelection
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
 from disting.measurement.look_text import short_lines
@@ -21,19 +20,13 @@ from disting.model.chain import Sensor
 from disting.model.structure import Sort
 from disting.network.families import FAMILIES
 from disting.network.network import Network
-from disting.network.notation import network_of
+from disting.network.notation import network_of, notations_of
+from disting.report.fit.network_words import standing, value_lines
 
-UNITS = {
-    "R": "ohm",
-    "L": "H",
-    "C": "F",
-    "W": "ohm/sqrt(s)",
-    "P": "s^n/ohm",
-}  # of an impedance in ohm
 UNKNOWN = {
     "--test", "--experiment", "--sensor", "--masses", "--actuator", "--gap", "--family", "--left",
     "--damped", "--undamped", "--fix", "--bound", "--weights", "--rule", "--thresholds", "--case",
-    "--optimiser", "--no-prune", "--controller", "--out", "--site", "--profiles", "--demo",
+    "--optimiser", "--no-prune", "--controller", "--site", "--profiles", "--demo",
 }  # fmt: skip
 
 
@@ -41,7 +34,10 @@ def run(options: argparse.Namespace) -> int:
     """Fit networks, print what explains the data."""
     foreign = sorted({word.partition("=")[0] for word in options.words} & UNKNOWN)
     if foreign:
-        raise InputError(f"of networks --models knows no {enumeration(foreign)}: leave them away")
+        verb = "are" if len(foreign) > 1 else "is"
+        raise InputError(f"{enumeration(foreign)} {verb} not supported with --models; remove it")
+    options.models, files = _without_data_files(options.models)
+    options.train = [*options.train, *files]
     networks = _networks(options.models, options.notation)
     keep_apart(network.name for network in networks)
     measured = _measured(options, networks)
@@ -55,11 +51,24 @@ def run(options: argparse.Namespace) -> int:
     return 0 if selection.left else 1
 
 
+def _without_data_files(texts: Sequence[str]) -> tuple[list[str], list[Path]]:
+    """Return the networks, and the files of data behind them: --models takes all words up to the
+    next option.
+    """
+    files = [t for t in texts if not _is_models(t) and not notations_of(t) and Path(t).is_file()]
+    return [text for text in texts if text not in files], [Path(file) for file in files]
+
+
+def _is_models(text: str) -> bool:
+    """Return True for a file of models and for a family."""
+    return text in FAMILIES or text.endswith(".json")
+
+
 def _networks(texts: Sequence[str], notation: str) -> list[Network]:
     """Those of texts, of files of models, of families; raises InputError."""
     networks = list[Network]()
     for text in texts:
-        if text in FAMILIES or text.endswith(".json"):
+        if _is_models(text):
             models = listed_models(Path(text) if text.endswith(".json") else text)
             unknown = [m.name for m in models if m.network is None]
             if unknown:
@@ -106,26 +115,12 @@ def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[
     width = max(len(f.network.name) for f in selection.fits)
     yield f"{'network':{width}}  values  determined  chi2 per line"
     for f in selection.fits:
-        said = _standing(f)
-        yield f"{f.network.name:{width}}  {len(f.values):6}  {f.rank:10}  {f.chi2:8.3g}  {said}"
+        same = f"; never told from {enumeration(f.same, BAR)}" if f.same else ""
+        numbers = f"{len(f.values):6}  {f.rank:10}  {f.chi2:8.3g}"
+        yield f"{f.network.name:{width}}  {numbers}  {standing(f)}{same}"
     best = selection.fits[0]
-    yield ""
-    yield f"{best.network.name}:"
-    units = UNITS if best.network.sort is Sort.CIRCUIT else {}
-    width = max((len(units.get(name[0], "")) for name in best.values), default=0)
-    width += bool(width)
-    for name, value in best.values.items():
-        spread = best.relative[name]
-        error = f"+- {100 * spread:.2g} %" if isfinite(spread) and spread < 1 else "not determined"
-        yield f"  {name:6} {value:<12.5g} {units.get(name[0], ''):{width}}{error}"
+    for f in selection.left or [best]:
+        yield ""
+        yield from value_lines(f)
     if not best.explains:
         yield from (f"it misses the data at {miss.sentence}" for miss in best.misses)
-
-
-def _standing(f: FittedNetwork) -> str:
-    same = f"; never told from {enumeration(f.same, BAR)}" if f.same else ""
-    if not f.explains:
-        return f"does not explain the data{same}"
-    if f.contains:
-        return f"contains {f.contains}{same}"
-    return (f"excluded by {f.excluded_by}" if f.excluded_by else "not excluded") + same

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from disting.catalogs.network_files import recall_of
 from disting.cli.arguments import split_reference
+from disting.cli.model_names import stated_values
 from disting.cli.output import emit, keep_apart
 from disting.cli.workers import engine_for
 from disting.conditions.finding import Outcome
-from disting.equivalence import assignments
 from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
 from disting.files import Format, json_text
@@ -49,10 +49,10 @@ def run(options: argparse.Namespace) -> int:
     keep_apart(model.name for model in (asked, *others))
     if [model.name for model in named] == [asked.name]:  # which other values does it have
         others = named
-    values = assignments(options.values) if options.values else None
     formulas = options.formulas or options.latex or options.sympy
-    if formulas and values is not None:
+    if formulas and options.values:
         raise InputError("formulas are for any values: leave --set away, or ask for values alone")
+    values = None if formulas else stated_values(options.model, options) or None
     with engine_for(options) as (engine, _, progress):
         if options.family:
             recall_of(asked, options.family, engine)

@@ -5,6 +5,7 @@ file; and the values of their parameters.
 import argparse
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from disting.cli.arguments import FILE, split_reference
 from disting.cli.output import keep_apart
@@ -16,7 +17,10 @@ from disting.model.chain import Chain, Sensor, text_drawing
 from disting.model.names import NAME, damping_option, read_together
 from disting.model.structure import Sort
 from disting.network.network import Network
-from disting.network.notation import network_of, notations_of
+from disting.network.notation import network_of, notations_of, values_in
+
+if TYPE_CHECKING:
+    from disting.equivalence.inputs import Value
 
 MOST_TERMS = 30  # of a transfer function that is written out
 
@@ -102,11 +106,24 @@ def _of_file(text: str) -> Network:
     return replace(network, name=name)
 
 
-def values_of(model: Chain | Network, texts: Sequence[str]) -> dict[str, float]:
-    """The values of all its parameters from texts such as m1=1,k12=3/4; raises InputError."""
-    from disting.equivalence.inputs import assignments, point_of  # a look-up needs none of it
+def stated_values(text: str, options: argparse.Namespace) -> "dict[str, Value]":
+    """Return the values of --set, and those in braces of the text of a network that --set leaves
+    open; raises InputError.
+    """
+    from disting.equivalence.inputs import assignments  # a look-up needs none of it
 
-    exact = point_of(model, assignments([*texts]))
+    has_braces = FILE not in text and is_network(text, options.notation)
+    inside = values_in(text, options.notation) if has_braces else {}
+    return {**inside, **assignments(options.values)}
+
+
+def values_of(model: Chain | Network, text: str, options: argparse.Namespace) -> dict[str, float]:
+    """Return the values of all parameters of the model that `text` names, from --set and from
+    braces in the text; raises InputError.
+    """
+    from disting.equivalence.inputs import point_of
+
+    exact = point_of(model, stated_values(text, options))
     return {name: int(value.p) / int(value.q) for name, value in exact.items()}
 
 

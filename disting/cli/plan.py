@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
     if options.rival is None:
         raise InputError("name the structure to exclude too, such as: disting plan 2:1+b1 2:1+b2")
     model, rival = structures([options.model, options.rival], options)
-    values = values_of(model, options.values)
+    values = values_of(model, options.model, options)
     effort = _effort(options, model, values, None)
     _warn(effort)
     with engine_for(options) as (engine, pool, progress):

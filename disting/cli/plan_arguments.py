@@ -24,7 +24,10 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     text = "the structure to exclude (with FIT.json: each that it names)"
     p.add_argument("rival", nargs="?", metavar="M:J|NETWORK", help=text)
     add_notation(p)
-    text = "values of all parameters of the true structure, such as m1=0.01,k12=500"
+    text = (
+        "values of all parameters of the true structure, such as m1=0.01,k12=500; of a circuit they"
+        " may stand in braces, such as R{R=20}"
+    )
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )

@@ -62,7 +62,10 @@ def _drive(p: argparse.ArgumentParser) -> None:
         "model", nargs="?", metavar="N:I|NETWORK", help=f"{text} (default: a small two-mass drive)"
     )
     add_notation(p)
-    text = "values of all parameters of the model, such as m1=0.01,k12=500"
+    text = (
+        "values of all parameters of the model, such as m1=0.01,k12=500; of a circuit they may"
+        " stand in braces, such as R{R=20}"
+    )
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
@@ -166,7 +169,7 @@ def _model(options: argparse.Namespace) -> tuple[Chain | Network, dict[str, floa
             raise InputError("parameters belong to a model: name it, such as 2:1")
         return DEMO_MODEL, {**DEMO_PARAMETERS}
     (model,) = structures([options.model], options, Sensor(options.quantity or Sensor.POSITION))
-    return model, values_of(model, options.values)
+    return model, values_of(model, options.model, options)
 
 
 def _response(model: Chain | Network, options: argparse.Namespace) -> str:

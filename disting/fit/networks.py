@@ -21,6 +21,8 @@ from disting.errors import InputError
 from disting.evidence.limits import Minor
 from disting.fit.judge.exclusion import CLEARLY, basis_of, limit, statistic
 from disting.fit.judge.explanation import Level, explain, merge, needed_lines, noises, scatters
+from disting.fit.judge.network_intervals import deviations, network_intervals
+from disting.fit.judge.network_twins import NetworkTwin, twin_at, without_noise
 from disting.fit.noise.covariance import expected_deviation
 from disting.fit.noise.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
@@ -54,7 +56,6 @@ BREADTHS = (0.1, 0.03)  # of resonances, one after the other, before they are as
 SEED = 20_240_601  # of the starts
 AGAIN = 20  # starts of a second search, near the limit that is a smaller network
 FAR = 1e8  # times a random start, for a value that vanishes or grows without bound there
-LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,6 +119,15 @@ def fit_networks(
     limits = _limits(fits, classes)
     fits = _no_worse_than_contained(fits, limits, [plant for plant, _ in pairs], data, scatter)
     fits = _left([replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits], limits)
+    whitened, best = WhitenedCost(cost, scatter), min(fits, key=lambda f: comparable(f.chi2))
+    plants = [plant for plant, _ in pairs]
+    for k, i in enumerate(chosen):
+        if fits[k].is_left or fits[k] is best:
+            progress("intervals", k, len(chosen))
+            others = [
+                (asked[j], subjects[j].rank) for j, same in enumerate(first) if same == i != j
+            ]
+            fits[k] = _detailed(fits[k], plants[k], whitened, data, others)
     ordered = tuple(sorted(fits, key=lambda f: comparable(f.chi2)))
     whole = NetworkSelection(ordered, tuple(asked), tuple(data), scatter, decided)
     order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left))
@@ -207,20 +217,45 @@ def _judged(
     missed = expected_deviation(columns, ones)
     seen = explain(cost, residual, missed, scatter)
     seen = replace(seen, needed=needed_lines(len(plant.parameters)))
-    level = seen.chi2
+    level, own_noise = seen.chi2, noises(cost, residual, ones, missed)
     return FittedNetwork(
         network=plant.network,
         values=dict(zip(plant.parameters, map(float, p), strict=True)),
-        relative=dict(zip(plant.parameters, _deviations(columns, level), strict=True)),
+        relative=dict(zip(plant.parameters, deviations(columns, level, own_noise), strict=True)),
         rank=rank,
         chi2=level,
         residual=residual,
         basis=basis_of(columns),
-        noise=noises(cost, residual, ones, missed),
+        noise=own_noise,
         explains=seen.explains,
         apart=seen.level is Level.APART,
         misses=seen.misses,
     )
+
+
+def _detailed(
+    fit: FittedNetwork,
+    plant: AnyNetworkPlant,
+    whitened: WhitenedCost,
+    data: Sequence[FrequencyResponse],
+    others: Sequence[tuple[Network, int]],
+) -> FittedNetwork:
+    """Return the fit with its intervals, and with the values of others that give the same
+    responses; `others`: these networks and the numbers of their determinable values.
+    """
+    best = np.array([fit.values[name] for name in plant.parameters])
+    relative = np.array([fit.relative[name] for name in plant.parameters])
+    exact = without_noise(data, plant.response(best))
+    twins = list[NetworkTwin]()
+    for at, (network, rank) in enumerate(others):
+        other = network_plant(network, [response.omega for response in data])
+        draw = np.random.default_rng((SEED, at))
+        start = search_from(other, _cost(exact), random_starts(other, exact[0], STARTS, draw)).p
+        same = WhitenedCost(_cost(exact), whitened.known)
+        free = len(other.parameters) - rank
+        twins.append(twin_at(other, start, same, whitened, fit.chi2, free))
+    found = network_intervals(plant, whitened, best, relative)
+    return replace(fit, intervals=found, twins=tuple(twins))
 
 
 Limits = Mapping[tuple[int, int], Minor]
@@ -298,17 +333,6 @@ def _left(fits: Sequence[FittedNetwork], limits: Limits) -> list[FittedNetwork]:
         simplest = (own[k].network.name for k in inner if (i, k) in limits)
         own[i] = replace(own[i], contains=next(simplest, ""))
     return own
-
-
-def _deviations(columns: Real, level: float) -> list[float]:
-    """Standard deviations of the logarithms: sqrt of the diagonal of (S'S)^-1, times sqrt(chi2)
-    where the fit misses more than the scatter; infinite where a direction is not determined.
-    """
-    _, sizes, right = np.linalg.svd(columns, full_matrices=False)
-    is_seen = sizes > LEAST * sizes[0]
-    lost = np.sum(right[~is_seen] ** 2, axis=0) > LEAST
-    variance = np.sum((right[is_seen] / sizes[is_seen, None]) ** 2, axis=0) * max(level, 1.0)
-    return [float(x) for x in np.where(lost, np.inf, np.sqrt(variance))]
 
 
 def _excluding(candidate: FittedNetwork, fits: Sequence[FittedNetwork], scatter: Scatter) -> str:

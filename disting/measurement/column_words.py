@@ -106,10 +106,10 @@ SPECTRAL = re.compile(
 )
 # Z' and Z'' with the signs that keyboards and instruments have for them
 PRIMED = re.compile(r"(?<!\w)Z\s*(''|\"+|″|’’|′′|'|’|′)(?!['\"’′″])")
-# what is called an impedance: Re(Z), |Z|, Z', Zreal, Z_im, Re Z, impedance
+# what is called an impedance: Re(Z), |Z|, Z', Zreal, Z_im, Re Z, impedance; a small z is an axis
 IMPEDANCE = re.compile(
-    r"\(Z\)|\|Z\||(?<!\w)Z\s*['\"’′″]|(?<![A-Za-z])Z_?(?:re|im|mod|abs|mag|ph|arg)|"
-    r"\b(?:re|im|real|imag|abs|mod|mag|phase|arg)[ _]Z\b|\b[Ii]mpedan[cz]"
+    r"\(Z\)|\|Z\||(?<!\w)Z\s*['\"’′″]|(?<![A-Za-z])Z_?(?i:re|im|mod|abs|mag|ph|arg)|"
+    r"\b(?i:re|im|real|imag|abs|mod|mag|phase|arg)[ _]Z\b|\b(?i:impedan[cz])"
 )
 MODULUS = re.compile(r"\|[^|]+\|")
 LOGARITHM = re.compile(r"\b(?:log|log10|ln|lg)\b", re.IGNORECASE)
@@ -231,8 +231,8 @@ def _is_same(name: str, asked: str, fold: Callable[[str], str]) -> bool:
 def is_called_impedance(header: str) -> bool:
     """Return True if a header names an impedance, whatever its unit.
 
-    >>> [is_called_impedance(h) for h in ("Re(Z)/Ohm", "Z''", "Zreal", "Re G_z", "Z axis [mm]")]
-    [True, True, True, False, False]
+    >>> [is_called_impedance(h) for h in ("Re(Z)/Ohm", "Re Z", "Z''", "Zreal", "Re G_z", "Re z")]
+    [True, True, True, True, False, False]
     """
     return IMPEDANCE.search(header) is not None
 

@@ -39,6 +39,10 @@ def written(path, header, columns):
         ("f [Hz],|Z|,phase [deg]", POLAR, 1),
         ("f [Hz],Impedance,phase [deg]", POLAR, 1),
         ("f [Hz],Zreal,Zimag", PARTS, 1),
+        ("f [Hz],Re Z,Im Z", PARTS, 1),
+        ("f [Hz],Mag_Z,Phase Z [deg]", POLAR, 1),
+        ("f [Hz],Z_Re,Z_Im", PARTS, 1),
+        ("f [Hz],IMPEDANCE,phase [deg]", POLAR, 1),
         ("f [Hz],Zreal_kOhm,Zimag_kOhm", PARTS, 1e3),
         ("f [Hz],Re [mV/A],Im [mV/A]", PARTS, 1e-3),
         ("f,Re,Im\nHz,kOhm,kOhm", PARTS, 1e3),
@@ -60,6 +64,7 @@ def test_headers_and_units_of_impedances(tmp_path, header, columns, ohms):
         "f [Hz],Re G_z [m/s^2/N],Im G_z [m/s^2/N]",
         "f [Hz],Z_re [rad/s^2/Nm],Z_im [rad/s^2/Nm]",
         "f [Hz],Re Z speed,Im Z speed",
+        "f [Hz],Re z,Im z",
         "f [Hz],Re,Im",
     ],
 )

@@ -7,6 +7,8 @@ import numpy as np
 from disting.errors import enumeration
 from disting.files import Format
 from disting.fit.judge.explanation import FEW_CLEAR, Miss
+from disting.fit.judge.interval import Interval
+from disting.fit.judge.network_twins import NetworkTwin, intervals_to_dict
 from disting.fit.judge.practical import NoiseModel
 from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import comparable
@@ -29,6 +31,8 @@ class FittedNetwork:
     standard deviations of the logarithms of the values, infinite of what the data or the network do
     not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it;
     `apart`: it explains the data apart from its `misses`;
+    `intervals` of 95 % of the values, and `twins`, the networks of `same` with their own values:
+    of fits that are left, and of the best one;
     `contains`: the simplest network left that it contains, "" if there is none.
     """
 
@@ -46,6 +50,8 @@ class FittedNetwork:
     excluded_by: str = ""
     contains: str = ""
     misses: tuple[Miss, ...] = ()
+    intervals: dict[str, Interval] = field(default_factory=dict)
+    twins: tuple[NetworkTwin, ...] = ()
 
     @property
     def cost(self) -> float:
@@ -65,6 +71,7 @@ class FittedNetwork:
             "relative_deviations": {
                 name: x if np.isfinite(x) else None for name, x in self.relative.items()
             },
+            "intervals": intervals_to_dict(self.intervals),
             "rank": self.rank,
             "chi2": self.chi2,
             "explains": self.explains,
@@ -72,6 +79,7 @@ class FittedNetwork:
             "excluded_by": self.excluded_by,
             "contains": self.contains,
             "same": list(self.same),
+            "twins": [twin.to_dict() for twin in self.twins],
             "misses": [miss.sentence for miss in self.misses],
         }
 

@@ -1,6 +1,7 @@
 """Networks as people write them, each notation told apart by its signs or named."""
 
 import re
+from fractions import Fraction
 
 from disting.errors import InputError, enumeration, of_type, short
 from disting.model.chain import Sensor, as_sensor
@@ -12,12 +13,14 @@ from disting.network.notation.circuit import (
     IMPEDANCE,
     LINE,
     VALUES,
+    braces,
     circuit,
     dialects_of,
     netlist,
 )
 from disting.network.notation.compartments import CALL, compartments
 from disting.network.notation.machine import DRAWN, machine
+from disting.network.notation.values import values_of_braces
 
 DIALECTS = {d.name: d for d in (IMPEDANCE, AUTOEIS, BOUKAMP, FITTER)}
 NOTATIONS = (*DIALECTS, "spice", "machine", "compartments")
@@ -40,7 +43,7 @@ def notations_of(text: str) -> list[str]:
         return ["compartments"]
     if re.search(r"[=~#]|;\s*[FS]\d", text) or DRAWN.search(text):
         return ["machine"]
-    if re.match(r"\s*[\[(]*(p\()?[A-Z]", text) and not re.search(r"[.:/\\]", text):
+    if re.match(r"(?:\s|\[|(?:p|parallel)?\()*[A-Z]", text) and not re.search(r"[.:/\\]", text):
         return [d.name for d in dialects_of(text)]
     return []
 
@@ -97,3 +100,28 @@ def _read(text: str, notation: str, name: str, quantity: Sensor) -> Network | In
         return compartments(text, name)
     except InputError as problem:
         return InputError(f"{short(text)}: {problem}")
+
+
+def values_in(text: str, notation: str = "") -> dict[str, Fraction]:
+    """Return the values that a circuit states in braces behind its elements, exactly, by the names
+    of the parameters of `network_of(text, notation)`, in ohm, H, F, ohm/sqrt(s) and s^n/ohm.
+
+    Braces are those of pyimpspec: `R{R=20}`, `C{C=25e-6}`, `L{L=1e-3}`, `Q{Y=2e-5,n=0.9}`, and
+    `W{Y=0.1}` for Z = 1/(Y sqrt(s)), so W1 = 10. A mark f (fixed), limits and a label, as in
+    `R{R=20f}` or `R{R=20/0/100:ct}`, change no value. Other notations have no values, nor have
+    elements without braces. Raises InputError for braces of another form.
+
+    >>> values_in("R{R=20}(Q{Y=25e-6,n=0.9}[R{R=100/50/200:ct}W{Y=0.1}])")["R2"]
+    Fraction(100, 1)
+    >>> {name: float(value) for name, value in values_in("Q{Y=25e-6,n=0.9}W{Y=0.1}").items()}
+    {'P1': 2.5e-05, 'n1': 0.9, 'W1': 10.0}
+    """
+    network = network_of(text, notation)
+    for each in [notation] if notation else notations_of(text):
+        if each in DIALECTS and isinstance(
+            _read(text, each, network.name, Sensor.ACCELERATION), Network
+        ):
+            letters = {e.value: e for e in network.elements}
+            inside = braces(text, DIALECTS[each])
+            return values_of_braces({letters[name]: said for name, said in inside.items()})
+    return {}

@@ -12,7 +12,8 @@ Lines end with a semicolon or where the text does.
 An element is R, L, C, W or P and a number, or a word that begins with a small letter or an
 underscore: Rct, Cdl, CPE_f3. Boukamp's may have none and are numbered. P, a constant phase element,
 is CPE of impedance.py and Q of Boukamp. Behind an element pyimpspec writes values in braces,
-R{R=20}, which say nothing of a structure. The port is at both ends of the circuit.
+R{R=20}, which say nothing of a structure (`notation.values` reads them). The port is at both ends
+of the circuit.
 """
 
 import re
@@ -31,6 +32,7 @@ WORDS = re.compile(r"\s*(p\(|parallel\(|[-+,()\[\]]|[A-Za-z]\w*|\S)", re.ASCII)
 # where elements stand side by side
 LETTER = re.compile(r"\s*([()\[\]]|(?:CPE|TLM[A-Z]?|[A-Z][a-z]*)\d*(?:_\w+)?|\S)", re.ASCII)
 VALUES = re.compile(r"\{[^{}]*\}")  # of pyimpspec, behind an element
+BEHIND = re.compile(rf"\s*({VALUES.pattern})")
 ELEMENT = re.compile(r"(CPE|[RLCWPQ])(\d*|[a-z_]\w*)", re.ASCII)
 OURS = {"CPE": "P", "Q": "P"}  # what other programs call an element
 DEEPEST = 30
@@ -123,6 +125,31 @@ def circuit(text: str, dialect: Dialect, name: str) -> Network:
     >>> print(*circuit("R0-p(R1,C1)", IMPEDANCE, "cell").elements, sep=", ")
     R0 1 2, R1 2 0, C1 2 0
     """
+    whole, _ = _parse(text, dialect)
+    port = (Port(1),)
+    return Network(tuple(_placed(whole, 1, 0, count(2))), port, port, name=name)
+
+
+def braces(text: str, dialect: Dialect) -> dict[str, str]:
+    """Return the texts in braces behind elements, by the names of the elements; raises InputError.
+
+    >>> braces("R{R=20}(R{R=100:ct}C)", BOUKAMP)
+    {'R1': 'R=20', 'R2': 'R=100:ct'}
+    """
+    _, ends = _parse(text, dialect)
+    found = {name: BEHIND.match(text, end) for name, end in ends.items()}
+    behind = {name: match for name, match in found.items() if match}
+    lost = {m.start() for m in VALUES.finditer(text)} - {m.start(1) for m in behind.values()}
+    if lost:
+        raise InputError(
+            f"the braces at position {min(lost) + 1} do not follow an element: write values behind"
+            " an element, once, as in R{R=20}"
+        )
+    return {name: match[1][1:-1] for name, match in behind.items()}
+
+
+def _parse(text: str, dialect: Dialect) -> "tuple[Part, dict[str, int]]":
+    """Return the whole circuit, and where each element ends in the text."""
     token = WORDS if dialect.dashes else LETTER
     # blanks in the place of values keep the places of what follows
     plain = VALUES.sub(lambda values: " " * len(values[0]), text).rstrip()
@@ -130,8 +157,7 @@ def circuit(text: str, dialect: Dialect, name: str) -> Network:
     whole = reader.series()
     if reader.next:
         raise reader.problem("what stands before it is whole; remove it or join it")
-    port = (Port(1),)
-    return Network(tuple(_placed(whole, 1, 0, count(2))), port, port, name=name)
+    return whole, reader.ends
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +193,9 @@ def _placed(part: Part, start: int, end: int, new: Iterator[int]) -> Iterator[El
 
 @dataclass(slots=True)
 class _Reader:
-    """Tokens, the place in them, and how often a letter stood without a number."""
+    """Tokens, the place in them, how often a letter stood without a number, and where elements
+    end in the text.
+    """
 
     dialect: Dialect
     tokens: list[re.Match[str]]
@@ -175,6 +203,7 @@ class _Reader:
     at: int = 0
     depth: int = 0
     unnumbered: Counter[str] = field(default_factory=Counter)
+    ends: dict[str, int] = field(default_factory=dict)
 
     @property
     def next(self) -> str:
@@ -235,12 +264,13 @@ class _Reader:
                 "write R, L, C, W (Warburg) or P (constant phase) and a number or a name, as in"
                 f" {example}"
             )
-        self.at += 1
         letter = OURS.get(name[1], name[1])
-        if name[2]:
-            return f"{letter}{name[2]}"
-        self.unnumbered[letter] += 1
-        return f"{letter}{self.unnumbered[letter]}"
+        if not name[2]:
+            self.unnumbered[letter] += 1
+        called = f"{letter}{name[2] or self.unnumbered[letter]}"
+        self.ends[called] = self.tokens[self.at].end(1)
+        self.at += 1
+        return called
 
     def problem(self, remedy: str) -> InputError:
         """Error at the next token."""

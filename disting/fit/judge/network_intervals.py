@@ -1,0 +1,133 @@
+"""Intervals of 95 % of the fitted values of a network.
+
+A value that is well known lies within p exp(-+ t s), with the standard deviation s of its
+logarithm. For one that is not, and for all where one is as good as unknown (the tangents that s
+comes from say nothing of how far the others move with it), the profile of the likelihood decides,
+
+    Q(v) = min |e|^2 over the other values with this one at v        (e whitened),
+
+the values with Q(v) - Q_min at most the quantile of F of 1 and the degrees of freedom of the
+scatter. An end is 0 or infinity where the profile does not reach that: the data allow the element
+to vanish, or to become a direct connection.
+"""
+
+from dataclasses import dataclass
+from math import exp, inf, isfinite, log
+
+import numpy as np
+from scipy.stats import t as t_distribution
+
+from disting.fit.judge.candidate import OUTSIDE
+from disting.fit.judge.exclusion import limit
+from disting.fit.judge.interval import ITERATIONS, STEP, STEPS, STRAIGHT, Interval
+from disting.fit.judge.practical import NoiseModel
+from disting.fit.search.data import WhitenedCost
+from disting.fit.search.descent import Box, rough
+from disting.fit.search.network_plant import AnyNetworkPlant
+from disting.measurement.arrays import Real
+
+LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
+UNKNOWN = 0.5  # deviation of a logarithm from which on tangents do not describe the valley
+HALVINGS = 12  # of the last step towards an end
+
+
+def deviations(columns: Real, level: float, noise: NoiseModel) -> list[float]:
+    """Return standard deviations of the logarithms of the values; infinite where a direction is not
+    determined.
+
+    `columns`: sensitivities S of the whitened residuals by the logarithms, shape (n_y, n_p). The
+    deviation is sqrt of the diagonal of (S'S)^-1, times sqrt(`level`), the chi2 per line, where the
+    fit misses more than the scatter; or with residuals that are correlated as `noise` says,
+    whichever is larger.
+    """
+    left, sizes, right = np.linalg.svd(columns, full_matrices=False)
+    is_seen = sizes > LEAST * sizes[0]
+    lost = np.sum(right[~is_seen] ** 2, axis=0) > LEAST
+    half = right[is_seen] / sizes[is_seen, None]
+    white = np.sum(half**2, axis=0) * max(level, 1.0)
+    carried = np.sum((noise.seen(left[:, is_seen]) @ half) ** 2, axis=0)
+    return [float(x) for x in np.where(lost, np.inf, np.sqrt(np.maximum(white, carried)))]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Valley:
+    """A network about its best values `best`, shape (n_p,), where |e|^2 is `lowest`; `size`: of
+    |e|^2 what one degree of freedom has, 1 for scatter alone.
+    """
+
+    plant: AnyNetworkPlant
+    whitened: WhitenedCost
+    best: Real
+    lowest: float
+    size: float
+
+    def rise(self, at: int, logarithm: float, point: Real) -> tuple[float, Real]:
+        """Return Q - Q_min with one value held, and the point; the search starts at `point`."""
+        held = point.copy()
+        held[at] = exp(logarithm)
+        low, high = np.zeros(len(held)), self.plant.highest.copy()
+        low[at] = high[at] = held[at]
+        box = Box(low, high)
+        if not box.free.any():
+            cost = float(self.whitened.total(self.plant.response(held[None]))[0])
+            return max(cost - self.lowest, 0.0) / self.size, held
+        with np.errstate(all="ignore"):  # an element that vanishes leaves the range of numbers
+            points, costs = rough(self.plant, self.whitened, box, held[None], ITERATIONS)
+        risen = (float(costs[0]) - self.lowest) / self.size
+        return (max(risen, 0.0) if isfinite(risen) else inf), points[0]
+
+
+def network_intervals(
+    plant: AnyNetworkPlant, whitened: WhitenedCost, best: Real, relative: Real
+) -> dict[str, Interval]:
+    """Return the interval of each value; `best` and `relative`, shape (n_p,): the fitted values
+    and the standard deviations of their logarithms, infinite where these are not determined.
+    """
+    freedom = whitened.known.freedom
+    wide = float(t_distribution.isf(OUTSIDE / 2, freedom))
+    lowest = float(whitened.total(plant.response(best[None]))[0])
+    count = max(whitened.n_residuals - len(best), 1)
+    valley = _Valley(plant, whitened, best, lowest, max(1.0, lowest / count))
+    most = limit(1, freedom, level=OUTSIDE)
+    straight = STRAIGHT if np.all(relative < UNKNOWN) else 0.0
+    found = dict[str, Interval]()
+    for at, name in enumerate(plant.parameters):
+        spread, value = float(relative[at]), float(best[at])
+        if spread <= straight:
+            high = min(value * exp(wide * spread), float(plant.highest[at]))
+            found[name] = value * exp(-wide * spread), high
+        else:
+            step = min(wide * spread, STEP)
+            low, high = (_end(valley, at, sign * step, most) for sign in (-1, 1))
+            found[name] = exp(low) if isfinite(low) else 0.0, exp(high) if isfinite(high) else inf
+    return found
+
+
+def _end(valley: _Valley, at: int, step: float, most: float) -> float:
+    """Return the logarithm at which the profile reaches `most`; infinite where it does not."""
+    inside, point = log(max(float(valley.best[at]), np.finfo(float).tiny)), valley.best
+    highest = log(valley.plant.highest[at]) if isfinite(valley.plant.highest[at]) else inf
+    for _ in range(STEPS):
+        outside = min(inside + step, highest)
+        risen, reached = valley.rise(at, outside, point)
+        if risen > most:
+            return _between(valley, at, (inside, outside), most, point)
+        if outside == highest:
+            return highest
+        inside, point, step = outside, reached, float(np.clip(2 * step, -STEP, STEP))
+    return float(np.copysign(inf, step))
+
+
+def _between(
+    valley: _Valley, at: int, ends: tuple[float, float], most: float, point: Real
+) -> float:
+    """Return where the profile passes `most` between a value inside and one outside."""
+    inside, outside = ends
+    for _ in range(HALVINGS):
+        middle = (inside + outside) / 2
+        risen, reached = valley.rise(at, middle, point)
+        if risen > most:
+            outside = middle
+        else:
+            inside, point = middle, reached
+    return outside
