@@ -193,6 +193,7 @@ class Look(NotebookTable):
             "scatter": self.scatter
             and {"median": self.scatter.median, "source": self.scatter.source},
             "distortion": self.distortion,
+            "loop": response.loop_sentence if response is not None else "",
             "trends": list(self.trends),
             "notes": list(self.notes),
             "doubts": list(self.doubts),

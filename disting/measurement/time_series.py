@@ -206,6 +206,7 @@ class TimeSeries:
             reading=f"record in time, input {self.input}, output {self.output}{closed}"
             + (self.left_out and f"; {self.left_out}"),
             columns=self.columns,
+            loop=the_response.loop if self.reference is None else None,
         )
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold

@@ -15,6 +15,7 @@ from disting.report.fit.doubts import (
     bad,
     better,
     clear_band,
+    closed_loops,
     correlated_residuals,
     differing_parameters,
     doubtful_deviations,
@@ -36,6 +37,7 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
         return (selection.question, *same_data_twice(selection))
     return (
         _verdict(selection),
+        *closed_loops(selection),
         *same_data_twice(selection),
         *_other_quantities(selection),
         *(_explained(selection) if selection.explanation.explains else _unexplained(selection)),
@@ -66,6 +68,7 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         *same_data_twice(selection),
         *bad(selection),
         *doubtful_deviations(selection),
+        *closed_loops(selection),
         *suspicious_data(selection.task.cost),
         *uninformative(selection),
     ]
