@@ -37,7 +37,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.measurement.arrays import Complex, Real, frozen
+from disting.measurement.arrays import Complex, Real, real
 from disting.model.presentation import plural
 
 LEVEL = 1e-3  # of the test
@@ -52,52 +52,59 @@ CLOSED = "input and output were recorded in a closed loop"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Feedback:
-    """A closed loop that a record shows: `evidence` in words, relative `bias` of each line, shape
-    (n_f,), and the `remedy` for it.
+    """A closed loop that a record shows: `evidence` in words, `bias` of each line and its standard
+    deviation without that bias, `scatter`, as shares of the response that is shown, shape (n_f,)
+    each, and the `remedy`.
 
-    >>> loop = Feedback("their noise is coherent (0.8)", np.array([0.0, 0.2]), "record more")
-    >>> loop.sentence(np.array([10.0, 20.0]), np.array([0.01, 0.01]))  # doctest: +ELLIPSIS
+    >>> loop = Feedback("their noise is coherent (0.8)", [0.0, 0.2], [0.01, 0.01], "record more")
+    >>> loop.sentence([10.0, 20.0])  # doctest: +ELLIPSIS
     'input and output were recorded in a closed loop: ... by 20 % at 20 Hz; record more'
     """
 
     evidence: str
     bias: Real
+    scatter: Real
     remedy: str
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "bias", frozen(self.bias))
+        for name in ("bias", "scatter"):
+            object.__setattr__(self, name, real(getattr(self, name), name))
 
     def of(self, lines: NDArray[np.bool_] | NDArray[np.integer]) -> "Feedback":
         """Return the same for some of the lines."""
-        return replace(self, bias=self.bias[lines])
+        return replace(self, bias=self.bias[lines], scatter=self.scatter[lines])
 
-    def harmed(self, deviation: Real | None) -> NDArray[np.bool_]:
-        """Return the lines, shape (n_f,), whose bias exceeds their relative `deviation`; where
-        that is unknown, those whose bias is not negligible.
-        """
-        return np.asarray(self.bias > (NEGLIGIBLE if deviation is None else deviation))
+    @property
+    def harmed(self) -> NDArray[np.bool_]:
+        """Return the lines, shape (n_f,), whose bias exceeds their scatter."""
+        return np.asarray(self.bias > np.maximum(self.scatter, NEGLIGIBLE))
 
-    def sentence(self, frequency: Real, deviation: Real | None) -> str:
-        """Return the loop, its bias and the remedy in a sentence; `frequency` [Hz] and relative
-        `deviation` of the lines, shape (n_f,).
+    def sentence(self, frequency: Real) -> str:
+        """Return the loop, its bias and the remedy in a sentence; `frequency` [Hz] of the lines,
+        shape (n_f,).
         """
         start = f"{CLOSED}: {self.evidence}"
-        harmed, most = self.harmed(deviation), float(self.bias.max(initial=0.0))
+        harmed, most = self.harmed, float(self.bias.max(initial=0.0))
         if not harmed.any():
-            size = f"at most {100 * most:.2g} %, below its scatter"
+            size = f"at most {_percent(most)}, below its scatter"
             return f"{start}; its bias of the response is {size if most > NEGLIGIBLE else SMALL}"
         worst = int(np.argmax(np.where(harmed, self.bias, 0.0)))
         count = plural(int(np.count_nonzero(harmed)), "line")
         return (
             f"{start}; at {count} the response is biased toward minus the inverse controller by"
-            f" more than it scatters, by {100 * self.bias[worst]:.2g} % at"
+            f" more than it scatters, by {_percent(float(self.bias[worst]))} at"
             f" {frequency[worst]:.4g} Hz; {self.remedy}"
         )
 
 
-def feedback_in_periods(inputs: Complex, outputs: Complex) -> Feedback | None:
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share < 1 else f"{100 * share:.0f} %"
+
+
+def feedback_in_periods(inputs: Complex, outputs: Complex, scatter: Real) -> Feedback | None:
     """Return the loop that the spectra of P periods show at n_f excited lines, shape (P, n_f) each,
-    or None: there is none, or this record cannot show it.
+    or None: there is none, or this record cannot show it. `scatter` = relative standard deviation
+    of the ratio of their means, shape (n_f,).
     """
     periods = len(inputs)
     if periods < PERIODS:
@@ -117,6 +124,7 @@ def feedback_in_periods(inputs: Complex, outputs: Complex) -> Feedback | None:
         evidence=f"their noise is coherent ({_mean_coherence(u[:, usable], z[:, usable]):.2g}), and"
         " not in the ratio of the response",
         bias=_bias_of_means(excited, u, z),
+        scatter=scatter,
         remedy="record more periods or excite these lines more strongly",
     )
 
@@ -165,10 +173,20 @@ def _mean_coherence(u: Complex, z: Complex) -> float:
 
 
 def _bias_of_means(excited: Complex, u: Complex, z: Complex) -> Real:
-    """Relative bias of the ratio of means, shape (n_f,)."""
+    """Bias of the ratio of means as a share of that ratio, shape (n_f,)."""
     periods = len(u)
     uu, _, zu = _products(u, z)
     power = np.maximum(uu, np.finfo(float).tiny)
     snr = np.abs(excited) ** 2 * periods * (periods - 1) / power
-    bias = np.abs(zu / power - 1) * np.exp(-np.minimum(snr, 700.0))
-    return np.where(np.isfinite(bias), bias, 0.0)
+    return biased_share((zu / power - 1) * np.exp(-np.minimum(snr, 700.0)))
+
+
+def biased_share(bias: Complex) -> Real:
+    """Return |G_b - G| / |G_b| of responses G_b = (1 + bias) G, shape (n_f,); 0 where the bias is
+    not a number.
+
+    >>> biased_share(np.array([1.0, -0.5 + 0j])).tolist()
+    [0.5, 1.0]
+    """
+    finite = np.where(np.isfinite(bias), bias, 0.0)
+    return np.asarray(np.abs(finite) / np.maximum(np.abs(1 + finite), np.finfo(float).eps))

@@ -23,7 +23,7 @@ from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import distortion
-from disting.measurement.feedback import feedback_in_periods
+from disting.measurement.feedback import Feedback, feedback_in_periods
 from disting.measurement.method import Method
 from disting.measurement.repeats import leave_out
 from disting.measurement.response import FrequencyResponse
@@ -99,8 +99,14 @@ def estimate(
         notes=(*notes, *response.notes),
         distortion=between,
         method=Method(length, len(inputs), transient, trends=tuple(removed)),
-        loop=feedback_in_periods(inputs[:, chosen], outputs[:, chosen]),
+        loop=_loop(inputs[:, chosen], outputs[:, chosen], response),
     )
+
+
+def _loop(inputs: Complex, outputs: Complex, response: FrequencyResponse) -> Feedback | None:
+    if response.deviation is None:
+        return None
+    return feedback_in_periods(inputs, outputs, response.deviation / np.abs(response.G))
 
 
 def refuse_few(omega: Real, notes: Sequence[str], band: tuple[float, float] | None) -> None:

@@ -209,17 +209,12 @@ class FrequencyResponse(NotebookTable):
     @property
     def is_biased_by_loop(self) -> bool:
         """Return True if a closed loop biases lines by more than they scatter."""
-        return self.loop is not None and bool(self.loop.harmed(self._scatter).any())
+        return self.loop is not None and bool(self.loop.harmed.any())
 
     @property
     def loop_sentence(self) -> str:
         """Sentence on the closed loop that the record shows, "" where it shows none."""
-        return "" if self.loop is None else self.loop.sentence(self.frequency, self._scatter)
-
-    @property
-    def _scatter(self) -> Real | None:
-        """Relative deviation of the lines, shape (n_f,), or None."""
-        return apply(lambda deviation: deviation / np.abs(self.G), self.deviation)
+        return "" if self.loop is None else self.loop.sentence(self.frequency)
 
     def subset(self, lines: Any) -> "FrequencyResponse":
         """The lines of a boolean mask or of indices, shape (n,); raises InputError where fewer

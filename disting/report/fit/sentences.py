@@ -10,7 +10,6 @@ from disting.fit.judge.explanation import BESIDE, Explanation, Level, noise_limi
 from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
-from disting.measurement.time_series import FOLLOWS
 from disting.report.fit.doubts import (
     bad,
     better,
@@ -230,19 +229,12 @@ def _unexplained(selection: Selection) -> Iterator[str]:
             " is wrong, or the machine changed between the measurements"
         )
     elif not selection.explanation.noisy and not selection.quantities:
-        loop = "is the loop closed, " if any(FOLLOWS in said for said in _said(selection)) else ""
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
-            f" mass explains it: {loop}is the machine a chain, are other forces at work?"
+            " mass explains it: is the machine a chain, are other forces at work?"
         )
     yield from clear_band(selection)
     yield from better(selection)
-
-
-def _said(selection: Selection) -> tuple[str, ...]:
-    """What the reader says of the data."""
-    data = selection.task.cost.measured
-    return (*data.notes, *data.suspicions)
 
 
 def _listed(names: list[str]) -> str:
