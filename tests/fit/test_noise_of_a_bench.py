@@ -380,7 +380,7 @@ def test_a_loop_is_among_the_first_lines_where_it_shows():
     said = [" ".join(suspicions(one)) for one in found]
     assert ["were recorded in a closed loop" in one for one in said] == [True, False, False]
     assert first_lines(found[0])[1] == alone.loop_sentence
-    assert all("is the machine a chain" in one for one in said)
+    assert all("is the machine a chain" in one for one in said[1:])
 
 
 def test_a_narrow_resonance_in_short_segments_is_no_further_mass():

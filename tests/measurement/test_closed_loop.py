@@ -66,7 +66,7 @@ def test_a_reference_that_is_the_input_changes_nothing():
 
 
 @pytest.mark.parametrize("noise", [0.01, 0.1])
-@pytest.mark.parametrize("kind", ["white", "low-pass", "binary", "steps", "chirp"])
+@pytest.mark.parametrize("kind", ["white", "low-pass", "binary", "steps", "chirp", "multisine"])
 def test_no_open_loop_is_taken_for_a_closed_one(kind, noise):
     source, n = np.random.default_rng(3), 40_000
     white = source.normal(size=n)
@@ -76,11 +76,32 @@ def test_no_open_loop_is_taken_for_a_closed_one(kind, noise):
         "binary": lambda: np.repeat(np.sign(white[: n // 10]), 10),
         "steps": lambda: np.repeat(white[: n // 500], 500),
         "chirp": lambda: chirp(np.arange(n) / RATE, 1, n / RATE, 200),
+        "multisine": lambda: np.tile(
+            np.cos(np.outer(np.arange(2000) * np.pi / 1000, range(5, 400, 4)) + white[:99]).sum(1),
+            n // 2000,
+        ),
     }[kind]()
     y = lfilter([0, 1e-3, 1e-3], [1, -1.98, 0.985], u)
     coloured = lfilter([1], [1, -0.95], source.normal(size=n))
     assert loop_in_noise(u, y + noise * np.std(y) * coloured, 1) is None
     assert loop_in_noise(u, y + noise * np.std(y) * coloured, 0) is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_sweep_of_a_position_is_no_loop(seed):
+    """A rotor with friction, a disturbance and an encoder of 20 bits, excited in open loop."""
+    source, n, rate = np.random.default_rng(seed), 40_000, 8000.0
+    u = chirp(np.arange(n) / rate, 2, n / rate, 500) + 0.01 * source.normal(size=n)
+    speed = lfilter([0, 1e-3], [1, -0.9995], u + 0.05 * source.normal(size=n))
+    count = 2 * np.pi / 2**20
+    assert loop_in_noise(u, np.round(np.cumsum(speed) / rate / count) * count, 0) is None
+
+
+@pytest.mark.parametrize("noise", [0.05, 0.1])
+def test_a_loop_shows_beside_a_strong_excitation(noise):
+    """Little noise, of a speed and of a position."""
+    u, y, _ = closed_loop(noise)
+    assert loop_in_noise(u, y, 1) is not None and loop_in_noise(u, np.cumsum(y), 0) is not None
 
 
 def test_a_short_or_constant_record_has_no_such_test():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import freqz, lfilter
 
-from disting.measurement import TimeSeries
+from disting.measurement import TimeSeries, look, mean_of
 from disting.measurement.feedback import feedback_in_periods
 
 RATE, N, PERIODS = 1000.0, 1000, 9
@@ -106,3 +106,37 @@ def test_lines_as_weak_as_their_noise_are_named():
     assert f"at {count} line" in found.loop_sentence
     part = found.masked(0, 100)
     assert len(part.loop.bias) == len(part) < len(found)
+
+
+def written(path, series):
+    table = np.column_stack([np.arange(len(series)) / RATE, series.u, series.y])
+    header = "time [s],torque [Nm],speed [rad/s]"
+    np.savetxt(path, table, delimiter=",", header=header, comments="", fmt="%.17g")
+    return path
+
+
+def test_look_states_a_loop_or_what_it_assumes(tmp_path):
+    options = {"input": "torque [Nm]", "output": "speed [rad/s]"}
+    file = written(tmp_path / "closed.csv", record(FEEDBACK))
+    seen = look(file, **options)
+    assert f"loop: {seen.response.loop_sentence}" in " ".join(repr(seen).split())
+    assert seen.to_dict()["loop"] == seen.response.loop_sentence != ""
+    assert not any("loop" in a.what for a in seen.assumed) and seen.doubts == ()
+    assert look(file, reference="torque [Nm]", **options).to_dict()["loop"] == ""
+    # a bias beyond scatter is a doubt
+    noisy = look(file, segment=500, **options)
+    assert noisy.response.loop_sentence in noisy.doubts and "\nloop:" not in repr(noisy)
+    # means over periods hold in closed loop too; one period shows nothing, nor does Welch's method
+    file = written(tmp_path / "open.csv", record())
+    assert not any("loop" in a.what for a in look(file, **options).assumed)
+    short = written(tmp_path / "short.csv", record(FEEDBACK, periods=2))
+    for other in (look(short, transient=1, **options), look(file, segment=500, **options)):
+        (assumed,) = [a for a in other.assumed if "loop" in a.what]
+        assert str(assumed).endswith("if not, give --read reference=NAME")
+
+
+def test_the_mean_of_repeats_keeps_a_loop_with_its_own_scatter():
+    one, other = (record(FEEDBACK, seed=seed).response() for seed in (1, 2))
+    mean = mean_of([one, other])
+    np.testing.assert_allclose(mean.loop.bias, one.loop.bias)
+    np.testing.assert_allclose(mean.loop.scatter, mean.deviation / np.abs(one.G))
