@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from disting.measurement.column_words import Role, Why
+from disting.measurement.feedback import PERIODS
 from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse
 from disting.measurement.time_series import ASSUMED_POSITION
 from disting.measurement.understanding import ReadColumn
@@ -41,6 +42,16 @@ def assumptions(columns: Sequence[ReadColumn], quantity: Sensor | None) -> tuple
     used = [column for column in columns if column.is_used]
     of_quantity = [] if quantity is None else [_of_quantity(quantity)]
     return (*of_quantity, *_of_columns(used), *_of_units(used))
+
+
+def assumed_open_loop(response: FrequencyResponse) -> Assumption | None:
+    """Return the assumption on a record without a reference that shows no loop; None where means
+    over enough periods hold in closed loop as well.
+    """
+    method = response.method
+    if method is None or response.loop is not None or method.periods >= PERIODS:
+        return None
+    return Assumption("an open loop, or an input without noise", "--read reference=NAME")
 
 
 def shows_impedance(columns: Sequence[ReadColumn], response: FrequencyResponse | None) -> bool:

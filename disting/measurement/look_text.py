@@ -123,6 +123,8 @@ def fact_rows(seen: "Look") -> Iterator[tuple[str, str]]:
     if seen.distortion:
         each = (f"{kind} {100 * share:.2g} %" for kind, share in seen.distortion.items())
         yield "distortion", f"{', '.join(each)} of the response (medians)"
+    if response is not None and response.loop is not None and not response.is_biased_by_loop:
+        yield "loop", response.loop_sentence
     yield from (("removed", trend) for trend in seen.trends)
     yield from (("assumed", str(assumption)) for assumption in seen.assumed)
     yield from (("note", note) for note in seen.notes)

@@ -16,6 +16,7 @@ from disting.files import Format
 from disting.measurement.assumptions import (
     OF_RESPONSE,
     Assumption,
+    assumed_open_loop,
     assumed_quantity,
     assumptions,
     shows_impedance,
@@ -106,7 +107,14 @@ class Look(NotebookTable):
         quantity = None
         if self.response is not None and not self.is_impedance:
             quantity = assumed_quantity(self.response)
-        return assumptions(self.columns, quantity)
+        return (*assumptions(self.columns, quantity), *self._assumed_of_loop())
+
+    def _assumed_of_loop(self) -> Iterator[Assumption]:
+        if self.response is None or self.record is None or self.record.reference is not None:
+            return
+        assumption = assumed_open_loop(self.response)
+        if assumption is not None:
+            yield assumption
 
     @property
     def trends(self) -> tuple[str, ...]:
@@ -193,6 +201,7 @@ class Look(NotebookTable):
             "scatter": self.scatter
             and {"median": self.scatter.median, "source": self.scatter.source},
             "distortion": self.distortion,
+            "loop": response.loop_sentence if response is not None else "",
             "trends": list(self.trends),
             "notes": list(self.notes),
             "doubts": list(self.doubts),

@@ -23,6 +23,7 @@ from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
 from disting.measurement.distortion import distortion
+from disting.measurement.feedback import Feedback, feedback_in_periods
 from disting.measurement.method import Method
 from disting.measurement.repeats import leave_out
 from disting.measurement.response import FrequencyResponse
@@ -58,7 +59,7 @@ def estimate(
     `repeats.mean_of`; `detrend`: describes a trend of input or output, None to keep trends.
 
     Means over periods forget the noise that a controller feeds back, so G holds in closed loop as
-    well.
+    well, but where noise is as strong as the excitation: `feedback`.
     """
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     detected = f"period of {length} samples ({length / rate:g} s) detected in the input"
@@ -93,8 +94,19 @@ def estimate(
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
     refuse_few(omega, notes, band)
     response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
-    method = Method(length, len(inputs), transient, trends=tuple(removed))
-    return replace(response, notes=(*notes, *response.notes), distortion=between, method=method)
+    return replace(
+        response,
+        notes=(*notes, *response.notes),
+        distortion=between,
+        method=Method(length, len(inputs), transient, trends=tuple(removed)),
+        loop=_loop(inputs[:, chosen], outputs[:, chosen], response),
+    )
+
+
+def _loop(inputs: Complex, outputs: Complex, response: FrequencyResponse) -> Feedback | None:
+    if response.deviation is None:
+        return None
+    return feedback_in_periods(inputs, outputs, response.deviation / np.abs(response.G))
 
 
 def refuse_few(omega: Real, notes: Sequence[str], band: tuple[float, float] | None) -> None:

@@ -26,6 +26,7 @@ from scipy.ndimage import uniform_filter1d
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Complex, Real, nearest
+from disting.measurement.feedback import Feedback
 from disting.measurement.response import FrequencyResponse
 
 CHOICES = ("keep", "drop")
@@ -138,6 +139,7 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         coherence=None,
         window=None,
         freedom=2.0 * (int(count.min()) - 1),
+        loop=_loop_of(repeats, deviation),
     )
     relative = float(np.median(deviation * np.sqrt(count) / np.abs(mean.G)))
     said = dict.fromkeys(note for response in repeats for note in response.notes)
@@ -152,6 +154,14 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         )
         .doubted(*doubts)
     )
+
+
+def _loop_of(repeats: Sequence[FrequencyResponse], deviation: Real) -> Feedback | None:
+    """Return the loop of the first repeat that shows one, with the scatter of the mean."""
+    for response in repeats:
+        if response.loop is not None:
+            return replace(response.loop, scatter=deviation / np.abs(response.G))
+    return None
 
 
 def _check_alike(first: FrequencyResponse, other: FrequencyResponse) -> None:

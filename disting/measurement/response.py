@@ -22,6 +22,7 @@ from disting.measurement.arrays import (
     spread,
 )
 from disting.measurement.distortion import Distortion
+from disting.measurement.feedback import Feedback
 from disting.measurement.hold import Hold, as_period
 from disting.measurement.method import Method
 from disting.measurement.understanding import ReadColumn
@@ -83,9 +84,9 @@ class FrequencyResponse(NotebookTable):
     in any unit, shape (n_f,), or None; `is_impedance`: G is a voltage per current [ohm], of which
     `sensor` says nothing; `hold` = how the input is held between samples, or None: the lines show G
     through it then, and a fit compares models so; `columns` = those of the file as they were
-    understood; `method` = how it was estimated from a record in time, or None. Frequencies out of
-    order are sorted, with a note. Raises InputError for what is no frequency response (module
-    `checks`).
+    understood; `method` = how it was estimated from a record in time, or None; `loop` = the closed
+    loop that the record shows, or None. Frequencies out of order are sorted, with a note. Raises
+    InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -112,6 +113,7 @@ class FrequencyResponse(NotebookTable):
     hold: Hold | None = None
     columns: tuple[ReadColumn, ...] = ()
     method: Method | None = None
+    loop: Feedback | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -198,10 +200,21 @@ class FrequencyResponse(NotebookTable):
         """Sentences on what looks wrong in the numbers, each with its remedy; empty where
         nothing does.
         """
-        if self.is_impedance:
-            return self.doubts
-        doubt = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
-        return (*self.doubts, *([] if doubt is None else [doubt]))
+        doubts = [*self.doubts, *([self.loop_sentence] if self.is_biased_by_loop else [])]
+        if not self.is_impedance:
+            doubt = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
+            doubts += [] if doubt is None else [doubt]
+        return tuple(doubts)
+
+    @property
+    def is_biased_by_loop(self) -> bool:
+        """Return True if a closed loop biases lines by more than they scatter."""
+        return self.loop is not None and bool(self.loop.harmed.any())
+
+    @property
+    def loop_sentence(self) -> str:
+        """Sentence on the closed loop that the record shows, "" where it shows none."""
+        return "" if self.loop is None else self.loop.sentence(self.frequency)
 
     def subset(self, lines: Any) -> "FrequencyResponse":
         """The lines of a boolean mask or of indices, shape (n,); raises InputError where fewer
@@ -222,6 +235,7 @@ class FrequencyResponse(NotebookTable):
                 coherence=coherence,
                 window=None if self.window is None else self.window.of(chosen),
                 drive=drive,
+                loop=None if self.loop is None else self.loop.of(chosen),
             )
         except IndexError as error:
             raise InputError(f"no such lines: {error}") from None

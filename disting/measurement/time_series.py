@@ -1,12 +1,4 @@
-"""A record of input and output samples, and the frequency response that it shows; whether the
-input follows the output, as under a controller.
-
-Input and output are whitened by autoregressive models. In open loop the whitened input is not
-correlated with the past of the output, whatever the noise: the sample correlation at n samples has
-the deviation 1/sqrt(n). A controller feeds the output back, and its noise appears in the input a
-few samples later (Soderstrom and Stoica, System Identification, 1989, section 10). Not seen: a
-controller that acts within the same sample only, and one in a record with hardly any noise.
-"""
+"""A record of input and output samples, and the frequency response that it shows."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -16,6 +8,7 @@ import numpy as np
 from disting.errors import InputError, short
 from disting.measurement import periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
+from disting.measurement.feedback_in_noise import loop_in_noise
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
 from disting.measurement.trend import (
     Trend,
@@ -29,53 +22,10 @@ from disting.measurement.units import motion
 from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import plural, summary
 
-FOLLOWS = "the input follows the past output"
-ORDER = 32  # of the autoregressive models
-LAGS = 64  # samples into the past and the future
-DEVIATIONS = 8.0  # by which a correlation is none of chance
-# of the largest correlation with the future, which is the plant's own; a whitening that fails
-# leaves less
-SHARE = 0.4
-TOO_SHORT = 500  # samples
 MOVING = 0.1  # share of the scatter of the speed from which on its mean is reported
 ASSUMED_POSITION = (
     "output taken as a position; if not, give --quantity velocity or --quantity acceleration"
 )
-
-
-def follows_output(u: Real, y: Real) -> str | None:
-    """Sentence if the input is correlated with the past output, else None."""
-    if len(u) < TOO_SHORT:
-        return None
-    values, other = _whitened(u), _whitened(y)
-    size = np.sqrt((values @ values) * (other @ other))
-    if not 0 < size < np.inf:
-        return None
-    past, future = _largest(values, other) / size, _largest(other, values) / size
-    if past * np.sqrt(len(values)) < DEVIATIONS or past < SHARE * future:
-        return None
-    return (
-        f"{FOLLOWS} (correlation {past:.2g}, {past * np.sqrt(len(values)):.0f}"
-        " times that of chance): a closed loop? then the response is biased; give the controller's"
-        " reference signal, --read reference=NAME"
-    )
-
-
-def _whitened(x: Real) -> Real:
-    """What an autoregressive model does not predict, shape (n - ORDER,)."""
-    from scipy.linalg import solve_toeplitz
-    from scipy.signal import lfilter
-
-    x = (x - x.mean()) / np.std(x)
-    covariance = np.array([x[lag:] @ x[: len(x) - lag] for lag in range(ORDER + 1)]) / len(x)
-    covariance[0] *= 1 + 1e-9  # a signal without noise is predicted too well
-    model = solve_toeplitz(covariance[:ORDER], covariance[1:])
-    return np.asarray(lfilter(np.concatenate([[1.0], -model]), 1.0, x)[ORDER:])
-
-
-def _largest(later: Real, earlier: Real) -> float:
-    """The largest sum of products of `later` with `earlier` 1 to `LAGS` samples before."""
-    return float(max(abs(later[lag:] @ earlier[:-lag]) for lag in range(1, LAGS + 1)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -193,8 +143,6 @@ class TimeSeries:
                 )
             else:
                 the_response = self._by_welch(segment, band, least_coherence, removes)
-        in_doubt = segment is not None and self.reference is None
-        doubt = follows_output(self.u, self.y) if in_doubt else None
         closed = "" if self.reference is None else ", with a reference, which holds in closed loop"
         response = replace(
             the_response,
@@ -202,10 +150,11 @@ class TimeSeries:
             input=self.input,
             output=self.output,
             origin=self.origin,
-            notes=(*self.notes, *the_response.notes, *([doubt] if doubt else [])),
+            notes=(*self.notes, *the_response.notes),
             reading=f"record in time, input {self.input}, output {self.output}{closed}"
             + (self.left_out and f"; {self.left_out}"),
             columns=self.columns,
+            loop=the_response.loop if self.reference is None else None,
         )
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold
@@ -220,11 +169,12 @@ class TimeSeries:
         removes_trends: bool,
     ) -> FrequencyResponse:
         """Response by Welch's method; of a position by its differences where trends are removed."""
+        is_alone = self.reference is None
+        loop = loop_in_noise(self.u, self.y, self.sensor.order) if is_alone else None
+        options = (self.sampling_rate, segment, band, self.reference, least_coherence)
 
         def estimate(y: Real, order: int) -> FrequencyResponse:
-            return welch.estimate(
-                self.u, y, self.sampling_rate, segment, band, self.reference, least_coherence, order
-            )
+            return welch.estimate(self.u, y, *options, order, loop)
 
         if self.sensor.order or not removes_trends:
             return estimate(self.y, self.sensor.order)

@@ -14,13 +14,13 @@ is taken, which tells as much as all. For r = u this is the H1 estimator with
 
     deviation = |G| sqrt((1 - gamma^2) / (gamma^2 n_e))
 
-(Bendat and Piersol, Random Data, 4th ed. 2010, section 9.2, for the complex number). In closed
-loop u holds the noise that the controller feeds back; H1 is then biased, up to -1/controller,
-while r, which knows no noise, gives G free of bias (joint input-output method: Ljung, System
-Identification, 2nd ed. 1999, section 13.5). The coherence is gamma^2 = |S_uy|^2 / (S_uu S_yy) in
-open loop, the smaller one of those of r with u and with y in closed loop. Without any relation,
-gamma^2 exceeds 1 - p^(1 / (n_e - 1)) with probability p; lines below that tell nothing and are
-left out.
+(Bendat and Piersol, Random Data, 4th ed. 2010, section 9.2, for the complex number). In closed loop
+u holds the noise that the controller feeds back; H1 is then biased, up to -1/controller
+(`feedback_in_noise` estimates by how much, which is added to the squared deviation), while r, which
+knows no noise, gives G free of bias (joint input-output method: Ljung, System Identification, 2nd
+ed. 1999, section 13.5). The coherence is gamma^2 = |S_uy|^2 / (S_uu S_yy) in open loop, the smaller
+one of those of r with u and with y in closed loop. Without any relation, gamma^2 exceeds 1 - p^(1 /
+(n_e - 1)) with probability p; lines below that tell nothing and are left out.
 
 A segment of N samples smooths G over the squared main lobe of its window, of variance 4/3
 (pi rate/N)^2, so that G is wrong by
@@ -43,6 +43,7 @@ from numpy.typing import NDArray
 
 from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real
+from disting.measurement.feedback_in_noise import NoiseLoop
 from disting.measurement.method import Method
 from disting.measurement.periodic import detected_period, refuse_few
 from disting.measurement.response import FrequencyResponse
@@ -69,12 +70,13 @@ def estimate(
     reference: Real | None = None,
     least_coherence: float | None = None,
     order: int = 2,
+    loop: NoiseLoop | None = None,
 ) -> FrequencyResponse:
     """Response at the even multiples of rate/segment [Hz] within `band` [Hz], without 0 Hz and half
     the sampling rate.
 
     Lines of a coherence below `least_coherence` are left out (default: that of chance). `order` of
-    the sensor (2: acceleration).
+    the sensor (2: acceleration); `loop`: the closed loop that the record shows.
     """
     count, (low, high) = _segments(len(u), segment), band or (0.0, np.inf)
     grid = np.fft.rfftfreq(segment, 1 / rate).astype(np.float64)
@@ -92,10 +94,13 @@ def estimate(
     notes = [f"Welch's method: {count} half-overlapping Hann segments of {segment} samples", *out]
     refuse_few(lines[good], notes, band)
     bias, whole, beyond = _bias(response, deviation)
+    fed_back = np.zeros_like(lines) if loop is None else loop.bias(2 * np.pi * lines / rate)
+    alone = deviation / np.abs(response)
+    deviation, whole = (np.hypot(d, fed_back * np.abs(response)) for d in (deviation, whole))
     smooth = reference is None and not _repeats(u, segment)
     size, made = np.abs(response)[good], (response - bias)[good]
     ratio, share = response[good] / made, (deviation / np.maximum(whole, TINY))[good]
-    relative = beyond[good] / size, deviation[good] / size
+    relative = beyond[good] / size, alone[good]
     return FrequencyResponse(
         omega=2 * np.pi * lines[good],
         G=made,
@@ -106,6 +111,7 @@ def estimate(
         doubts=_smoothed(lines[good], *relative, segment, SEEN * smooth),
         window=Window(segment / rate, order, ratio, share) if smooth else None,
         method=Method(segment=segment, segments=count),
+        loop=None if loop is None else loop.feedback(fed_back[good], alone[good]),
     )
 
 

@@ -29,7 +29,7 @@ from disting.measurement import FrequencyResponse, TimeSeries, mean_of
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.report.fit.links import commands
-from disting.report.fit.sentences import suspicions
+from disting.report.fit.sentences import first_lines, suspicions
 from tests.cli.process import called
 from tests.fit.monte_carlo import (
     BENCH,
@@ -368,7 +368,7 @@ def test_data_that_are_noise_but_for_a_band_name_it():
     assert line.startswith("from 5 to ") and "fits these alone" in line
 
 
-def test_a_loop_is_asked_for_where_it_is_seen():
+def test_a_loop_is_among_the_first_lines_where_it_shows():
     """In a record whose input follows its output; not with a reference, not in open loop."""
     u, y, r = closed_loop(0.12)
     cut = {"segment": 250, "band": (5, 200), "least_coherence": 0.0}
@@ -378,8 +378,9 @@ def test_a_loop_is_asked_for_where_it_is_seen():
     data = alone, referenced, measured(DRIVES[0], 3)
     found = [replace(select(d, [Chain(1)]), readings=(), quantities=()) for d in data]
     said = [" ".join(suspicions(one)) for one in found]
-    assert ["is the loop closed" in one for one in said] == [True, False, False]
-    assert all("is the machine a chain" in one for one in said)
+    assert ["were recorded in a closed loop" in one for one in said] == [True, False, False]
+    assert first_lines(found[0])[1] == alone.loop_sentence
+    assert all("is the machine a chain" in one for one in said[1:])
 
 
 def test_a_narrow_resonance_in_short_segments_is_no_further_mass():

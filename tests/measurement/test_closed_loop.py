@@ -9,7 +9,7 @@ from scipy.signal import butter, chirp, freqz, lfilter
 
 from disting.errors import InputError
 from disting.measurement import TimeSeries, read
-from disting.measurement.time_series import follows_output
+from disting.measurement.feedback_in_noise import loop_in_noise
 from tests.measurement.bench_data import measured_data
 
 RATE, N = 1000.0, 100_000
@@ -37,9 +37,16 @@ def test_the_reference_gives_the_plant_and_its_deviation_in_closed_loop():
     error = np.abs(found.G - true(found.frequency)) / found.deviation
     assert len(found) > 45 and 0.7 < np.mean(error**2) < 1.3
     biased = np.abs(alone.G - true(alone.frequency)) / alone.deviation
-    assert np.median(biased) > 10
-    assert any("the input follows the past output" in note for note in alone.notes)
-    assert not any("follows" in note for note in found.notes)
+    own = np.abs(alone.G) * alone.loop.scatter
+    assert np.median(biased * alone.deviation / own) > 10
+    assert alone.is_biased_by_loop and found.loop is None
+    assert "the input follows the past output" in alone.loop_sentence
+    assert alone.loop_sentence in alone.suspicions
+    assert "--read reference=NAME" in alone.loop_sentence
+    # the bias is estimated, and stands in the deviation
+    true_bias = np.abs(1 - true(alone.frequency) / alone.G)
+    assert np.median(alone.loop.bias / true_bias) == pytest.approx(1, abs=0.15)
+    assert np.median(biased) < 1.2
 
 
 def test_a_reference_that_is_the_input_changes_nothing():
@@ -59,7 +66,7 @@ def test_a_reference_that_is_the_input_changes_nothing():
 
 
 @pytest.mark.parametrize("noise", [0.01, 0.1])
-@pytest.mark.parametrize("kind", ["white", "low-pass", "binary", "steps", "chirp"])
+@pytest.mark.parametrize("kind", ["white", "low-pass", "binary", "steps", "chirp", "multisine"])
 def test_no_open_loop_is_taken_for_a_closed_one(kind, noise):
     source, n = np.random.default_rng(3), 40_000
     white = source.normal(size=n)
@@ -69,16 +76,39 @@ def test_no_open_loop_is_taken_for_a_closed_one(kind, noise):
         "binary": lambda: np.repeat(np.sign(white[: n // 10]), 10),
         "steps": lambda: np.repeat(white[: n // 500], 500),
         "chirp": lambda: chirp(np.arange(n) / RATE, 1, n / RATE, 200),
+        "multisine": lambda: np.tile(
+            np.cos(np.outer(np.arange(2000) * np.pi / 1000, range(5, 400, 4)) + white[:99]).sum(1),
+            n // 2000,
+        ),
     }[kind]()
     y = lfilter([0, 1e-3, 1e-3], [1, -1.98, 0.985], u)
     coloured = lfilter([1], [1, -0.95], source.normal(size=n))
-    assert follows_output(u, y + noise * np.std(y) * coloured) is None
+    assert loop_in_noise(u, y + noise * np.std(y) * coloured, 1) is None
+    assert loop_in_noise(u, y + noise * np.std(y) * coloured, 0) is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_sweep_of_a_position_is_no_loop(seed):
+    """A rotor with friction, a disturbance and an encoder of 20 bits, excited in open loop."""
+    source, n, rate = np.random.default_rng(seed), 40_000, 8000.0
+    u = chirp(np.arange(n) / rate, 2, n / rate, 500) + 0.01 * source.normal(size=n)
+    speed = lfilter([0, 1e-3], [1, -0.9995], u + 0.05 * source.normal(size=n))
+    count = 2 * np.pi / 2**20
+    assert loop_in_noise(u, np.round(np.cumsum(speed) / rate / count) * count, 0) is None
+
+
+@pytest.mark.parametrize("noise", [0.05, 0.1])
+def test_a_loop_shows_beside_a_strong_excitation(noise):
+    """Little noise, of a speed and of a position."""
+    u, y, _ = closed_loop(noise)
+    assert loop_in_noise(u, y, 1) is not None and loop_in_noise(u, np.cumsum(y), 0) is not None
 
 
 def test_a_short_or_constant_record_has_no_such_test():
     u, y, _ = closed_loop()
-    assert follows_output(u[:400], y[:400]) is None
-    assert follows_output(u[:5000], y[:5000]) is not None
+    assert loop_in_noise(u[:400], y[:400], 1) is None
+    assert loop_in_noise(u[:5000], y[:5000], 1) is not None
+    assert loop_in_noise(u[:5000], np.ones(5000), 1) is None
 
 
 def test_lines_without_coherence_are_left_out_and_counted():
@@ -153,4 +183,4 @@ def test_the_mass_of_a_real_axis_in_closed_loop(segment):
     force = 35.15065188  # N per unit of the input
     assert np.exp(least_squares(residual, [0.0, 0.0]).x[0]) * force == pytest.approx(95.1, rel=0.02)
     assert any("lines left out" in note for note in found.notes)
-    assert any("the input follows the past output" in note for note in read(path, **options).notes)
+    assert "the input follows the past output" in read(path, **options).loop_sentence

@@ -47,6 +47,18 @@ def suspicious_data(cost: AnyCost) -> Iterator[str]:
         yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
 
 
+def closed_loops(selection: Selection) -> tuple[str, ...]:
+    """One sentence on closed loops that the records show; empty where they show none."""
+    cost = selection.task.cost
+    each = zip(cost.parts, _of_each(cost), strict=True)
+    told = [(part.measured, of) for part, of in each if part.measured.loop is not None]
+    # what is biased matters most
+    for measured, of in sorted(told, key=lambda pair: not pair[0].is_biased_by_loop)[:1]:
+        more = f" (so do {len(told) - 1} more responses)" if len(told) > 1 else ""
+        return (f"{of[4:]}: {measured.loop_sentence}{more}" if of else measured.loop_sentence,)
+    return ()
+
+
 def same_data_twice(selection: Selection) -> Iterator[str]:
     """Test data that are the training data once more."""
     train = selection.task.cost.measured

@@ -10,11 +10,11 @@ from disting.fit.judge.explanation import BESIDE, Explanation, Level, noise_limi
 from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
-from disting.measurement.time_series import FOLLOWS
 from disting.report.fit.doubts import (
     bad,
     better,
     clear_band,
+    closed_loops,
     correlated_residuals,
     differing_parameters,
     doubtful_deviations,
@@ -36,6 +36,7 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
         return (selection.question, *same_data_twice(selection))
     return (
         _verdict(selection),
+        *closed_loops(selection),
         *same_data_twice(selection),
         *_other_quantities(selection),
         *(_explained(selection) if selection.explanation.explains else _unexplained(selection)),
@@ -66,6 +67,7 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         *same_data_twice(selection),
         *bad(selection),
         *doubtful_deviations(selection),
+        *closed_loops(selection),
         *suspicious_data(selection.task.cost),
         *uninformative(selection),
     ]
@@ -227,19 +229,12 @@ def _unexplained(selection: Selection) -> Iterator[str]:
             " is wrong, or the machine changed between the measurements"
         )
     elif not selection.explanation.noisy and not selection.quantities:
-        loop = "is the loop closed, " if any(FOLLOWS in said for said in _said(selection)) else ""
         yield (
             "no other sensor quantity or sign, no other place of force and sensor and no further"
-            f" mass explains it: {loop}is the machine a chain, are other forces at work?"
+            " mass explains it: is the machine a chain, are other forces at work?"
         )
     yield from clear_band(selection)
     yield from better(selection)
-
-
-def _said(selection: Selection) -> tuple[str, ...]:
-    """What the reader says of the data."""
-    data = selection.task.cost.measured
-    return (*data.notes, *data.suspicions)
 
 
 def _listed(names: list[str]) -> str:
