@@ -1,6 +1,6 @@
 """What disting fit prints: three lines, what is not excluded, then criteria and parameters."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
@@ -21,6 +21,7 @@ from disting.report.fit.mechanics_words import actuators_in_words, fold_names
 from disting.report.fit.responses import fits_of
 from disting.report.fit.sentences import (
     first_lines,
+    not_in,
     quantity_rows,
     suspicions,
     uninformative,
@@ -64,18 +65,13 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     if selection.selected and selection.explanation.explains:
         yield ""
         yield from _alternatives(selection)
-    rest = _not_in(answer, suspicions(selection))
+    rest = not_in(answer, suspicions(selection))
     yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
     yield from (
         ["", "next:", *(f"  {command}" for command in commands(selection))]
         if commands(selection)
         else []
     )
-
-
-def _not_in(answer: Sequence[str], sentences: Sequence[str]) -> list[str]:
-    """The sentences that the first lines do not hold."""
-    return [said for said in sentences if not any(said in line for line in answer)]
 
 
 def _criteria(selection: Selection, folded: Folded) -> Iterator[str]:
@@ -104,7 +100,7 @@ def _side_by_side(selection: Selection) -> Iterator[str]:
         yield "  ".join(f"{cell:{n}}" for cell, n in zip(row, widths, strict=True)).rstrip()
     yield ""
     yield "no values are given: those of a wrong quantity are wrong by powers of the frequency"
-    rest = _not_in(first_lines(selection), suspicions(selection))
+    rest = not_in(first_lines(selection), suspicions(selection))
     yield from (f"suspicious: {said}" for said in rest)
     yield from ("", "next:", *(f"  {command}" for command in commands(selection)))
 

@@ -4,7 +4,7 @@ suspicious. The commands that lead on: `links`.
 Structures are named as the commands read them, such as 2:1+b2+delay.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from disting.fit.judge.explanation import BESIDE, Explanation, Level, noise_limit
 from disting.fit.judge.mechanics import actuator, fold, mechanics
@@ -73,6 +73,11 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         *uninformative(selection),
     ]
     return tuple(dict.fromkeys(said))
+
+
+def not_in(answer: Sequence[str], sentences: Sequence[str]) -> list[str]:
+    """Return the sentences that the first lines do not hold."""
+    return [said for said in sentences if not any(said in line for line in answer)]
 
 
 def quantity_rows(selection: Selection) -> list[tuple[str, ...]]:
@@ -148,18 +153,19 @@ def _verdict(selection: Selection) -> str:
     if said.too_few:
         return (
             f"{said.lines} lines are too few to judge {best}, the best candidate: at least"
-            f" {said.needed} are needed, two for each of its parameters and {BESIDE} more"
+            f" {said.needed} are needed, two for each of its parameters and {BESIDE} more: do not"
+            " use its values"
         )
     if said.noisy:
         return (
             f"none of the candidates explains this data: it is mostly noise, only"
             f" {100 * said.scatter.clear:.0f} % of the lines scatter by less than 20 %"
-            f" ({said.scatter.source}); the best one is {best}"
+            f" ({said.scatter.source}); the best one is {best}: do not use its values"
         )
     which = "none of the candidates"
     if any(c.explains(said.scatter) for c in selection.candidates):
         which = "none of the candidates that may be selected"
-    return f"{which} explains this data; the best one is {best} ({size})"
+    return f"{which} explains this data; the best one is {best} ({size}): do not use its values"
 
 
 def misfit_in_words(said: Explanation) -> str:
