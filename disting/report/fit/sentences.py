@@ -223,12 +223,11 @@ def _to_decide(selection: Selection) -> Iterator[str]:
             f" and {states} can tell, disting next looks for one that can"
         )
     if not (differing or same):
-        unknown = fold_names(name for m in selection.members for name in m.open)
-        yield (
-            f"unknown whether {_listed(unknown)} behave the same"
-            if unknown
-            else ("nothing is left to decide between the candidates")
-        )
+        yield "nothing is left to decide between the candidates"
+        larger = {m.name for m in selection.containing}
+        unknown = fold_names(n for m in selection.members for n in m.open if n not in larger)
+        if unknown:
+            yield f"unknown if these behave the same: {_listed(unknown)}"
         yield from weak(selection)
 
 
