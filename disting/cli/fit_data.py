@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from disting.cli.output import complain, keep_apart
-from disting.errors import InputError, short
+from disting.errors import InputError, enumeration, short
 from disting.experiments.changes import GENERIC, read_changes
 from disting.fit.search.joint import FurtherResponse
 from disting.fit.search.setup import Setup
@@ -62,10 +62,37 @@ def data(options: argparse.Namespace) -> Data:
     the_data = _each(
         the_data, lambda this_response: this_response.thinned(options.lines or MOST_LINES)
     )
-    for response in the_data.every:
-        for note in (*response.notes, *response.suspicions):
-            complain(f"{response.origin or 'data'}: {note}")
+    for note in notes_of(the_data.every):
+        complain(note)
     return the_data
+
+
+def notes_of(responses: Sequence[FrequencyResponse]) -> Iterator[str]:
+    """Yield what the readers noticed, each sentence once; of several responses it names the file, or
+    the column, unless it holds for all.
+    """
+    names = short_names([response.origin for response in responses])
+    origins = dict[str, list[str]]()
+    for response, name in zip(responses, names, strict=True):
+        for note in dict.fromkeys((*response.notes, *response.suspicions)):
+            origins.setdefault(note, []).append(name)
+    for note, named in origins.items():
+        yield note if len(named) == len(responses) else f"{enumeration(named)}: {note}"
+
+
+def short_names(origins: Sequence[str]) -> list[str]:
+    """Return origins without the file or the column that all of them share.
+
+    >>> short_names(["A.csv, column 2", "B.csv, column 2"])
+    ['A.csv', 'B.csv']
+    >>> short_names(["A.csv, column 2", "A.csv, column 4"])
+    ['column 2', 'column 4']
+    """
+    parts = [origin.partition(", ")[::2] for origin in origins]
+    files, columns = ({part[i] for part in parts} for i in (0, 1))
+    if len(files) == 1 < len(columns) and all(columns):
+        return [column for _, column in parts]
+    return [file or "data" for file, _ in parts] if len(columns) == 1 else list(origins)
 
 
 def sensors(options: argparse.Namespace) -> list[str]:

@@ -1,6 +1,4 @@
-"""What disting fit prints: the result in a few lines, then candidates, parameters, what is not
-excluded.
-"""
+"""What disting fit prints: three lines, what is not excluded, then criteria and parameters."""
 
 from collections.abc import Iterator
 from math import isfinite
@@ -9,6 +7,7 @@ from typing import Any
 from disting.fit.judge.admissible import FROM_ZERO, UNDETERMINED
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import explanations
+from disting.fit.judge.mechanics import Folded, Line, fold
 from disting.fit.judge.members import Disagreement, Member
 from disting.fit.judge.modes import Result, physical
 from disting.fit.results.selection import Selection
@@ -18,9 +17,11 @@ from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
 from disting.report.fit.links import commands, new_names
+from disting.report.fit.mechanics_words import actuators_in_words, fold_names
 from disting.report.fit.responses import fits_of
 from disting.report.fit.sentences import (
     first_lines,
+    not_in,
     quantity_rows,
     suspicions,
     uninformative,
@@ -46,47 +47,49 @@ OTHERWISE = {
 
 
 def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
-    """The result for people: what they must know in at most five lines, then the rest."""
+    """The result for people: what they must know in three lines, the set, then the rest."""
     for part in selection.task.cost.parts:
         yield from short_lines(part.measured)
-    yield ""
-    yield from first_lines(selection)
-    yield ""
+    answer = first_lines(selection)
+    yield from ("", *answer, "")
     if selection.question:
         yield from _side_by_side(selection)
         return
-    left, more = [m.candidate for m in selection.members], len(selection.containing)
-    which = "one of these" if len(left) > 1 else "it"
-    beside = f" ({more} more contain{'s' if more == 1 else ''} {which})" if more else ""
-    yield (
-        f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
-        f" validated on {selection.validation}"
-    )
-    yield (
-        f"{len(left)} not excluded{beside}, the simplest first:"
-        if left
-        else "none is left; the best ones:"
-    )
-    yield ""
-    yield from _table((left or selection.candidates)[:SHOWN])
-    cost = cost_in_words(selection.task.cost)
-    yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
-    yield f"badly determined, the higher the worse: {columns(selection.thresholds)}"
+    folded = fold(selection.members)
+    yield from _set(selection, folded)
+    yield from _criteria(selection, folded)
     yield ""
     yield from _described(selection, train)
     yield from _excluded(selection)
-    yield from _set(selection)
     yield from _relied_on(selection)
     if selection.selected and selection.explanation.explains:
         yield ""
         yield from _alternatives(selection)
-    rest = [said for said in suspicions(selection) if said not in first_lines(selection)]
+    rest = not_in(answer, suspicions(selection))
     yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
     yield from (
         ["", "next:", *(f"  {command}" for command in commands(selection))]
         if commands(selection)
         else []
     )
+
+
+def _criteria(selection: Selection, folded: Folded) -> Iterator[str]:
+    """How many candidates were fitted, and the numbers of the best of each line."""
+    left = [line.best.candidate for line in folded.lines]
+    yield (
+        f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
+        f" validated on {selection.validation}"
+    )
+    if not left:
+        yield "none is left; the best ones:"
+    elif len(selection.members) > len(left):
+        yield "the best one of each line:"
+    yield ""
+    yield from _table((left or selection.candidates)[:SHOWN])
+    cost = cost_in_words(selection.task.cost)
+    yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
+    yield f"badly determined, the higher the worse: {columns(selection.thresholds)}"
 
 
 def _side_by_side(selection: Selection) -> Iterator[str]:
@@ -97,7 +100,7 @@ def _side_by_side(selection: Selection) -> Iterator[str]:
         yield "  ".join(f"{cell:{n}}" for cell, n in zip(row, widths, strict=True)).rstrip()
     yield ""
     yield "no values are given: those of a wrong quantity are wrong by powers of the frequency"
-    rest = [said for said in suspicions(selection) if said not in first_lines(selection)]
+    rest = not_in(first_lines(selection), suspicions(selection))
     yield from (f"suspicious: {said}" for said in rest)
     yield from ("", "next:", *(f"  {command}" for command in commands(selection)))
 
@@ -161,36 +164,49 @@ def _excluded(selection: Selection) -> Iterator[str]:
         )
 
 
-def _set(selection: Selection) -> Iterator[str]:
-    """The structures that the data do not exclude, each with what does the same."""
-    if not selection.members:
+def _set(selection: Selection, folded: Folded) -> Iterator[str]:
+    """The structures that the data do not exclude: a line for each mechanics, with what behaves
+    the same.
+    """
+    if not folded.lines:
         return
-    yield ""
-    yield (
-        f"structures that this data does not exclude (each tested against each other at level"
-        f" {100 * LEVEL:g} %):"
-    )
-    width = max(len(m.name) for m in selection.members)
-    for m in selection.members:
+    yield f"not excluded by this data (each tested against each other at level {100 * LEVEL:g} %):"
+    width = max(len(line.name) for line in folded.lines)
+    adds = [actuators_in_words(line.actuators) for line in folded.lines]
+    wide = max(map(len, adds))
+    for line, words in zip(folded.lines, adds, strict=True):
+        best = line.best
         yield (
-            f"  {m.name:{width}}  J {m.candidate.j_test:.4g} "
-            f" {text_drawing(m.candidate.chain)}{_differing(m)}"
+            f"  {line.name:{width}}  {words:{wide}}  J {best.candidate.j_test:.4g} "
+            f" {text_drawing(line.chain)}{_differing(best)}"
         )
-        for twin in m.twins:
-            values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
-            free = (
-                f" (one of many sets of values, {twin.free_choices} free)"
-                if twin.free_choices
-                else ""
-            )
-            yield f"    may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
-        if m.open:
-            yield f"    not decided: {', '.join(m.open)}"
-        larger = [
-            other.name for other in selection.containing if other.contains == m.candidate.chain
-        ]
-        if larger:
-            yield f"    or a larger one that contains it: {_named(larger)}"
+        yield from (f"    {text}" for text in _beside(selection, line))
+    more = len(selection.containing)
+    if more:
+        yield (
+            f"{more} more contain{'s' * (more == 1)} one of these: no experiment excludes"
+            f" {'it' if more == 1 else 'them'} if the smaller one is true"
+        )
+    yield ""
+
+
+def _beside(selection: Selection, line: Line) -> Iterator[str]:
+    """What behaves as a structure of the line, what may, and what contains one."""
+    for twin in line.best.twins:
+        values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
+        free = f" (one of many sets of values, {twin.free_choices} free)" * (twin.free_choices > 0)
+        yield f"may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
+    rest = [m for m in line.members if m is not line.best]
+    same = fold_names(twin.name for m in rest for twin in m.twins)
+    if same:
+        yield f"{', '.join(m.name for m in rest)} may as well be {_named(same)}"
+    unknown = fold_names(name for m in line.members for name in m.open)
+    if unknown:
+        yield f"not decided: {_named(unknown)}"
+    own = [m.candidate.chain for m in line.members]
+    larger = fold_names(m.name for m in selection.containing if m.contains in own)
+    if larger:
+        yield f"or a larger one that contains it: {_named(larger)}"
 
 
 def _relied_on(selection: Selection) -> Iterator[str]:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from disting.cli import main
+from disting.cli.fit_data import notes_of
 from disting.fit import predict, read_model, select
 from disting.fit.search.data import check
 from disting.fit.select import MOST_LINES
@@ -88,7 +89,8 @@ def test_what_is_simulated_is_selected(files, fitted):
 
 def test_the_printed_result_says_what_matters(fitted):
     said, _ = fitted
-    assert "\n\n2:1+b2+delay explains this data (chi2 per line " in said
+    assert "; 2:1+b2+delay explains this data (chi2 per line " in said
+    assert "\n\n241 lines from " in said and "\nnot excluded by this data (" in said
     assert "\n16 candidates fitted to 241 frequency lines, validated on test data\n" in said
     assert "selected: 2 masses, damper b2, dead time " in said
     assert "  b2   = " in said and "antiresonance 1" in said and " Hz\n" in said
@@ -96,6 +98,20 @@ def test_the_printed_result_says_what_matters(fitted):
         "no other candidate with as many masses gives the same response, special values aside"
         in said
     )
+
+
+def test_a_note_names_the_file_only_where_there_are_several():
+    """Literally, on responses that differ in file, in column and in their notes."""
+
+    def note(origin, *notes):
+        return FrequencyResponse(
+            np.arange(1.0, 9.0), np.ones(8, complex), origin=origin, notes=notes
+        )
+
+    one, two = note("A.csv, column 2", "x", "y"), note("B.csv, column 2", "x", "z")
+    assert list(notes_of([one])) == ["x", "y"]
+    assert list(notes_of([one, two])) == ["x", "A.csv: y", "B.csv: z"]
+    assert list(notes_of([one, note("A.csv, column 4", "z")]))[-1] == "column 4: z"
 
 
 @pytest.mark.slow

@@ -56,7 +56,7 @@ def test_of_a_speed_that_nobody_named_the_quantity_is_asked_and_nothing_is_selec
     assert speed.selected is None and not speed.members and not speed.relied_on
     assert "lag" in speed.quantities[0].name and "lag" not in speed.quantities[1].name
     assert speed.quantities[0].integrates and not speed.quantities[1].integrates
-    assert speed.question == first_lines(speed)[0] == suspicions(speed)[0]
+    assert speed.question == first_lines(speed)[1] == suspicions(speed)[0]
     assert "give --quantity acceleration or --quantity velocity" in speed.question
     for reading in speed.quantities:
         assert f"{reading.name} has chi2 {reading.chi2:.3g} per line" in speed.question
@@ -171,7 +171,7 @@ def test_test_data_that_are_the_training_data_are_said(tmp_path):
     path = file_of(tmp_path / "a.csv", "acceleration")
     found = fitted(path, (1,), test=read(path))
     assert any("training and test data are the same numbers" in said for said in suspicions(found))
-    assert "training and test data are the same numbers" in first_lines(found)[1]
+    assert "training and test data are the same numbers" in first_lines(found)[0]
     other = fitted(path, (1,), test=read(file_of(tmp_path / "b.csv", "acceleration", 2)))
     assert not any("the same numbers" in said for said in suspicions(other))
 

@@ -60,10 +60,7 @@ def test_a_machine_counted_from_the_other_end_is_named_after_the_one_that_is_lis
     train, test = (response(MIRRORED, values, noise=0.005, seed=s) for s in (1, 2))
     found = select(train, [MIRRORED], test=test)
     plain = selection_to_dict(found)
-    assert (
-        first_lines(found)[0].startswith("2:1+b2 explains")
-        and plain["selected"]["name"] == "2:1+b2"
-    )
+    assert "; 2:1+b2 explains" in first_lines(found)[1] and plain["selected"]["name"] == "2:1+b2"
     assert plain["selected"]["renamed"]["b1"] == "b2" and "m1 is m2 there" in new_names(found)
     command = commands(found)[-1].split()
     given = dict(pair.split("=") for pair in command[-1].split(","))
@@ -116,10 +113,8 @@ def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
     assert "2:1" not in [m["name"] for m in plain["not_excluded"]]
 
 
-def test_five_lines_say_that_the_machine_may_as_well_be_another(selection):
-    assert any(
-        line.startswith("if it is 3:1, it may as well be 3:11") for line in first_lines(selection)
-    )
+def test_the_third_line_says_that_the_machine_may_as_well_be_another(selection):
+    assert "if it is 3:1, it may as well be 3:11" in first_lines(selection)[2]
     assert commands(selection)[-1].startswith(
         'disting equivalents 3:1 --damped --to "3+b*" --set m1='
     )

@@ -1,5 +1,5 @@
-"""What a fit says to somebody who reads one paragraph: a plain answer, three numbers, the rule by
-which the structure was chosen.
+"""What a fit says to somebody who reads a title: what was found, three numbers, the rule by which
+the structure was chosen.
 
 Rows of the tables of numbers: what a model says about the machine, its parameters, and their
 intervals.
@@ -8,16 +8,16 @@ The structures that the data do not exclude, as the page shows them: drawn, with
 links and commands.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from disting.evidence.conditions import capital
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import Level, largest_cost, noise_limit
+from disting.fit.judge.mechanics import fold
 from disting.fit.judge.members import Member, Twin
 from disting.fit.judge.modes import Result
 from disting.fit.results.selection import Selection
@@ -25,19 +25,17 @@ from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
 from disting.report.fit.links import Link, Site, Step, step_to, steps_of
+from disting.report.fit.mechanics_words import actuators_in_words, headline
 from disting.report.fit.responses import drawing, fits_of, with_all_sensors
-from disting.report.fit.sentences import misfit_in_words
 from disting.report.fit.words import (
     between,
     error_in_percent,
-    name,
     percent,
     readable,
     result_unit,
     unit_of,
     with_error,
 )
-from disting.report.words import plural
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,6 +159,28 @@ def list_structures(
 
 
 @dataclass(frozen=True, slots=True)
+class ListedLine:
+    """Structures of the same mechanics: name, what the actuator may add, the best one first."""
+
+    name: str
+    adds: str
+    structures: Sequence[ListedStructure]
+
+
+def list_lines(structures: Sequence[ListedStructure]) -> list[ListedLine]:
+    """The listed structures, folded to mechanics."""
+    each = {shown.member.name: shown for shown in structures}
+    return [
+        ListedLine(
+            line.name,
+            actuators_in_words(line.actuators),
+            sorted((each[m.name] for m in line.members), key=lambda s: s.member is not line.best),
+        )
+        for line in fold([shown.member for shown in structures]).lines
+    ]
+
+
+@dataclass(frozen=True, slots=True)
 class KeyFigure:
     """A number that matters, and what it means."""
 
@@ -171,10 +191,9 @@ class KeyFigure:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """`title` and `plain`: what was found, in one line and in one paragraph."""
+    """`title`: what was found."""
 
     title: str
-    plain: str
     numbers: tuple[KeyFigure, ...]
     rule: str
 
@@ -182,13 +201,13 @@ class Answer:
 def answer(selection: Selection, results: Sequence[ParameterRow]) -> Answer:
     """The answer of a selection; `results`: what the described model says about the machine."""
     numbers = (_misfit(selection), _left(selection), _third(selection, results))
-    return Answer(_title(selection), _plain(selection), numbers, _rule(selection))
+    return Answer(_title(selection), numbers, _rule(selection))
 
 
 def _title(selection: Selection) -> str:
     if selection.selected is None:
         return "No model is admissible"
-    best = capital(name(selection.described.chain))
+    best = headline(fold(selection.members)) if selection.members else ""
     if selection.explanation.level is Level.EXPLAINS:
         return f"{best}: this explains the measurement"
     if selection.explanation.explains:
@@ -198,59 +217,6 @@ def _title(selection: Selection) -> str:
     if selection.explanation.too_few:
         return f"{selection.explanation.lines} lines are too few to judge a structure"
     return "No fitted structure explains the measurement"
-
-
-def _plain(selection: Selection) -> str:
-    count, best = len(selection.candidates), name(selection.described.chain)
-    fitted = plural(count, "fitted structure")
-    if selection.selected is None:
-        each = (
-            f"Each of the {count} fitted candidates" if count > 1 else "The only fitted candidate"
-        )
-        return (
-            f"{each} exceeds a threshold, is not identifiable or has a parameter at its bound, so"
-            f" none is selected. The best fit is {best}; what follows describes it, and why it is"
-            " excluded. More lines, a wider band or known parameters help, and so do thresholds"
-            " chosen less strict on purpose."
-        )
-    if selection.explanation.too_few:
-        return (
-            f"The best of {fitted} is {best}. To judge it takes {selection.explanation.needed}"
-            " lines, two for each of its parameters and six more: do not use its values."
-        )
-    if not selection.explanation.explains:
-        return (
-            f"The best of {fitted} is {best}, and it misses more than the measurement"
-            " scatters: do not use its values. What is missed, and what may be wrong, stands below."
-        )
-    missed = selection.explanation
-    apart = f" It misses {misfit_in_words(missed)}." if missed.level is Level.APART else ""
-    simplest = f"Of {fitted} it is the simplest that the data allow.{apart}"
-    return " ".join((simplest, *_beside(selection)))
-
-
-def _beside(selection: Selection) -> Iterator[str]:
-    """What else it may be."""
-    others, more = len(selection.members) - 1, len(selection.containing)
-    twins = sum(len(m.twins) for m in selection.members)
-    if others:
-        yield (
-            f"{plural(others, 'other structure')} {'is' if others == 1 else 'are'} not"
-            " excluded by the data either."
-        )
-    if more:
-        which, smaller = ("one of these", "the smaller one") if others else ("it", "it")
-        yield (
-            f"{plural(more, 'larger one')} {'contains' if more == 1 else 'contain'} {which}: no"
-            f" experiment excludes {'that' if more == 1 else 'them'} if {smaller} is true."
-        )
-    if twins:
-        yield (
-            f"{twins} more cannot be told from one of these by any measurement"
-            " with this force and sensor."
-        )
-    if not (others or more or twins):
-        yield "The data exclude every other one."
 
 
 def _misfit(selection: Selection) -> KeyFigure:

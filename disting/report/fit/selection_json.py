@@ -9,6 +9,7 @@ import numpy as np
 from disting.files import Format
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation, Level, explanations
+from disting.fit.judge.mechanics import Folded, fold
 from disting.fit.judge.members import Member
 from disting.fit.judge.quantity import QuantityReading
 from disting.fit.results.reliance import Statement
@@ -17,7 +18,8 @@ from disting.fit.search.candidates import listed_form, reference
 from disting.measurement import FrequencyResponse
 from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain
-from disting.report.fit.sentences import places, suspicions
+from disting.report.fit.quality import quality_remarks
+from disting.report.fit.sentences import first_lines, places, suspicions
 
 STATUS = {
     Level.EXPLAINS: "explained",
@@ -42,6 +44,9 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
             {**_named(c), "same_as": _named(other)} for c, other in selection.same_as.items()
         ],
         "status": _status(selection),
+        "answer": list(first_lines(selection)),
+        "remarks": list(quality_remarks(selection)),
+        "mechanics": _mechanics_to_dict(fold(selection.members)) if selection.members else None,
         "question": selection.question,
         "quantities": [_quantity_to_dict(reading) for reading in selection.quantities],
         "explained": selection.explanation.explains and not selection.question,
@@ -72,6 +77,29 @@ def _status(selection: Selection) -> str:
     if said.too_few:
         return "too few lines"
     return STATUS[said.level]
+
+
+def _mechanics_to_dict(folded: Folded) -> dict[str, Any]:
+    """The set folded to mechanics: what all structures share, what they do not decide, the lines
+    with the names of their structures.
+    """
+    return {
+        "masses": list(folded.sizes),
+        "same_ports": folded.ports is not None,
+        "dampers": list(folded.shared),
+        "undecided_dampers": list(folded.undecided),
+        "actuators": [list(parts) for parts in folded.actuators],
+        "lines": [
+            {
+                "name": line.name,
+                "actuators": [list(parts) for parts in line.actuators],
+                "members": [member.name for member in line.members],
+                "best": line.best.name,
+                "j_test": line.best.candidate.j_test,
+            }
+            for line in folded.lines
+        ],
+    }
 
 
 def _quantity_to_dict(reading: QuantityReading) -> dict[str, Any]:

@@ -14,12 +14,18 @@ from disting.fit.judge.reading import read_in_words
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
-from disting.report.fit.answer import answer, list_structures, parameter_rows, result_row
+from disting.report.fit.answer import (
+    answer,
+    list_lines,
+    list_structures,
+    parameter_rows,
+    result_row,
+)
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
 from disting.report.fit.links import Site, next_steps
 from disting.report.fit.responses import drawing, shown_responses, with_all_sensors
-from disting.report.fit.sentences import first_lines, quantity_rows, suspicions
+from disting.report.fit.sentences import first_lines, not_in, quantity_rows, suspicions
 from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import (
     cost_in_words,
@@ -80,6 +86,7 @@ def fit_page(
     if selection.question:
         return _question_page(selection, train, test, site)
     candidate, rows = selection.described, [result_row(r, train) for r in results]
+    members = list_structures(selection, train, site)
     shown = shown_responses(selection, train, test, figures)
     return render(
         "fit.html",
@@ -106,7 +113,8 @@ def fit_page(
         first_lines=first_lines(selection),
         suspicions=suspicions(selection),
         steps=next_steps(selection),
-        members=list_structures(selection, train, site),
+        members=members,
+        lines=list_lines(members),
         home=site.home if site else None,
         **ALWAYS,
     )
@@ -128,7 +136,7 @@ def _question_page(
         readings=selection.quantities,
         rows_head=head,
         rows=rows,
-        suspicions=suspicions(selection),
+        suspicions=not_in(first_lines(selection), suspicions(selection)),
         steps=next_steps(selection),
         data=_data(selection, train, test),
         choices=choices(selection),

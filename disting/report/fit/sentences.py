@@ -4,9 +4,10 @@ suspicious. The commands that lead on: `links`.
 Structures are named as the commands read them, such as 2:1+b2+delay.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from disting.fit.judge.explanation import BESIDE, Explanation, Level, noise_limit
+from disting.fit.judge.mechanics import actuator, fold, mechanics
 from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
@@ -24,23 +25,23 @@ from disting.report.fit.doubts import (
     unseen,
     weak,
 )
+from disting.report.fit.mechanics_words import actuators_in_words, fold_names, structure_in_words
+from disting.report.fit.quality import quality_line
 
 FEW = 8  # names in one line
+NEAREST = 2  # structures of which the third line names where they differ
 
 
 def first_lines(selection: Selection) -> tuple[str, ...]:
-    """At most five lines: does anything explain the data, what is selected, what else may it
-    be, what is suspicious. Where the sensor quantity is open, the question for it alone.
+    """Three lines: the quality of the data, the structure and whether it explains them, what would
+    decide more. Where the sensor quantity is open, the question for it follows the first line.
     """
     if selection.question:
-        return (selection.question, *same_data_twice(selection))
-    return (
-        _verdict(selection),
-        *closed_loops(selection),
-        *same_data_twice(selection),
-        *_other_quantities(selection),
-        *(_explained(selection) if selection.explanation.explains else _unexplained(selection)),
-    )[:5]
+        return (quality_line(selection), selection.question)
+    explains = selection.explanation.explains
+    structure = _structure(selection) if explains else _missed(selection)
+    more = _to_decide(selection) if explains else _unexplained(selection)
+    return (quality_line(selection), "; ".join(structure), "; ".join(more))
 
 
 def suspicions(selection: Selection) -> tuple[str, ...]:
@@ -55,12 +56,13 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         *(
             []
             if selection.explanation.explains
-            else [_verdict(selection), *_unexplained(selection)]
+            else [*_missed(selection), *_unexplained(selection)]
         ),
         *better(selection),
         *(differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements),
         *machine_change(selection),
         *correlated_residuals(selection),
+        *lone(selection),
         *weak(selection),
         *outside(selection.described, selection.task.cost.measured),
         *unseen(selection),
@@ -72,6 +74,11 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         *uninformative(selection),
     ]
     return tuple(dict.fromkeys(said))
+
+
+def not_in(answer: Sequence[str], sentences: Sequence[str]) -> list[str]:
+    """Return the sentences that the first lines do not hold."""
+    return [said for said in sentences if not any(said in line for line in answer)]
 
 
 def quantity_rows(selection: Selection) -> list[tuple[str, ...]]:
@@ -137,12 +144,9 @@ def _is_joint(selection: Selection) -> bool:
 
 
 def _verdict(selection: Selection) -> str:
-    """The first line."""
+    """Does the selected structure, or the best one, explain the data?"""
     said, best = selection.explanation, reference(selection.described.chain)
-    scattered = (
-        f"the lines scatter by {100 * said.scatter.typical:.2g} %, known from {said.scatter.source}"
-    )
-    size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone; {scattered}"
+    size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone"
     if said.level is Level.EXPLAINS:
         return f"{best} explains this data ({size})"
     if said.explains:
@@ -150,18 +154,19 @@ def _verdict(selection: Selection) -> str:
     if said.too_few:
         return (
             f"{said.lines} lines are too few to judge {best}, the best candidate: at least"
-            f" {said.needed} are needed, two for each of its parameters and {BESIDE} more"
+            f" {said.needed} are needed, two for each of its parameters and {BESIDE} more: do not"
+            " use its values"
         )
     if said.noisy:
         return (
             f"none of the candidates explains this data: it is mostly noise, only"
             f" {100 * said.scatter.clear:.0f} % of the lines scatter by less than 20 %"
-            f" ({said.scatter.source}); the best one is {best}"
+            f" ({said.scatter.source}); the best one is {best}: do not use its values"
         )
     which = "none of the candidates"
     if any(c.explains(said.scatter) for c in selection.candidates):
         which = "none of the candidates that may be selected"
-    return f"{which} explains this data; the best one is {best} ({size})"
+    return f"{which} explains this data; the best one is {best} ({size}): do not use its values"
 
 
 def misfit_in_words(said: Explanation) -> str:
@@ -172,37 +177,84 @@ def misfit_in_words(said: Explanation) -> str:
     return f"small differences over the band: noise alone stays below a chi2 of {most:.2g}"
 
 
-def _explained(selection: Selection) -> Iterator[str]:
-    yield from better(selection)
+def _structure(selection: Selection) -> Iterator[str]:
+    """The structures that the data do not exclude, what explains them, and what forbids to use its
+    values.
+    """
+    if selection.members:
+        yield structure_in_words(fold(selection.members))
+    yield f"{_verdict(selection)}{_standing(selection)}"
+    twins = sum(len(m.twins) for m in selection.members)
+    if twins:
+        yield f"{twins} more behave{'s' * (twins == 1)} exactly as one of these"
     if selection.selected is None:
         yield (
             "no candidate is selected: by the criteria that you asked for, this data leaves some"
             " parameters of each candidate undetermined; all values are printed"
         )
-    others, more = [m.name for m in selection.members[1:]], len(selection.containing)
-    contain = f"{more} more that contain{'s' if more == 1 else ''}"
-    if others:
-        larger = f"{contain} one of these, which no experiment excludes if the smaller one is true"
-        yield f"not excluded by this data either: {_listed(others)}{f'; {larger}' if more else ''}"
-    elif selection.members:
-        larger = f", but {contain} it, which no experiment excludes if it is true"
-        yield f"this data excludes every other candidate{larger if more else ''}"
-    for m in [m for m in selection.members if m.twins][:1]:
-        same = list(dict.fromkeys(t.name for t in m.twins))
-        yield (
-            f"if it is {m.name}, it may as well be {_listed(same)}: no experiment with this force"
-            f" and {'these sensors and states' if _is_joint(selection) else 'sensor'} can tell"
-        )
+    yield from better(selection)
     yield from (
         differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements
     )
-    yield from (
-        *lone(selection),
-        *machine_change(selection),
-        *correlated_residuals(selection),
-        *weak(selection),
-        *doubtful_deviations(selection),
-    )
+
+
+def _standing(selection: Selection) -> str:
+    """The first structure among those that the data do not exclude."""
+    count, more = len(selection.members), len(selection.containing)
+    if count > 1:
+        return f", the simplest of {count} structures that it does not exclude"
+    apart = f", apart from {more} that contain{'s' * (more == 1)} it" if more else ""
+    return f"; this data excludes every other candidate{apart}" if count else ""
+
+
+def _to_decide(selection: Selection) -> Iterator[str]:
+    """What would decide more between the structures that are left."""
+    same = list(_alike(selection))
+    differing = list(_differing(selection))
+    if differing:
+        yield (
+            f"to decide more, measure again where others differ from {selection.members[0].name}:"
+            f" {', '.join(differing)}; disting plan tells how long"
+        )
+    if same:
+        name, others = same[0]
+        states = "these sensors and states" if _is_joint(selection) else "sensor"
+        yield (
+            f"if it is {name}, it may as well be {_listed(others)}: no experiment with this force"
+            f" and {states} can tell, disting next looks for one that can"
+        )
+    if not (differing or same):
+        yield "nothing is left to decide between the candidates"
+        larger = {m.name for m in selection.containing}
+        unknown = fold_names(n for m in selection.members for n in m.open if n not in larger)
+        if unknown:
+            yield f"unknown if these behave the same: {_listed(unknown)}"
+        yield from weak(selection)
+
+
+def _alike(selection: Selection) -> Iterator[tuple[str, list[str]]]:
+    """The structures that have equivalents, and these; by mechanics where all actuators agree."""
+    for line in fold(selection.members).lines:
+        each = {tuple(reference(mechanics(t.chain)) for t in m.twins) for m in line.members}
+        if len(each) == 1 and any(each):
+            yield line.name, list(dict.fromkeys(*each))
+        elif any(each):
+            member = next(m for m in line.members if m.twins)
+            yield member.name, list(dict.fromkeys(t.name for t in member.twins))
+
+
+def _differing(selection: Selection) -> Iterator[str]:
+    """Where the lines of the folded set, and another actuator, differ most from the first one."""
+    if not selection.members:
+        return
+    first, *others = fold(selection.members).lines
+    shown = [(line.name, line.best) for line in others]
+    shown += [(actuators_in_words([actuator(m.candidate.chain)]), m) for m in first.members[1:]]
+    for name, member in [(n, m) for n, m in shown if m.differs][:NEAREST]:
+        hertz, size = member.differs[0]
+        yield f"{name} at {hertz:.3g} Hz (by {100 * size:.2g} %)"
+    if len(shown) > NEAREST:
+        yield f"{len(shown) - NEAREST} more"
 
 
 def lone(selection: Selection) -> Iterator[str]:
@@ -216,9 +268,18 @@ def lone(selection: Selection) -> Iterator[str]:
         )
 
 
-def _unexplained(selection: Selection) -> Iterator[str]:
+def _missed(selection: Selection) -> Iterator[str]:
+    """That nothing explains the data, and where the best structure misses most."""
+    yield _verdict(selection)
     if selection.explanation.misses:
         yield f"missed most at {', at '.join(m.sentence for m in selection.explanation.misses)}"
+
+
+def _unexplained(selection: Selection) -> Iterator[str]:
+    """What may explain the data."""
+    yield from _other_quantities(selection)
+    if selection.explanation.noisy:
+        yield "more excitation or more periods lower the noise"
     if bad(selection):
         yield from bad(selection)
     elif selection.readings:

@@ -29,8 +29,9 @@ from disting.report.fit import (
 from disting.report.fit.criteria import limits, nearest, parameters_by_threshold, weakest
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.selection_page import reasons
+from disting.report.fit.sentences import first_lines
 from disting.report.fit.style import FigureFiles
-from disting.report.fit.words import name, readable
+from disting.report.fit.words import readable
 from disting.report.fit.write import candidates_csv
 from tests.report.outline import Outline
 
@@ -136,18 +137,15 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     said = " ".join(outline.text.split())
     admissible = sum(c.admissible for c in selection.candidates)
     others, more = len(selection.members) - 1, len(selection.containing)
-    beginning = (
-        "2 masses, damper b2: this explains the measurement Of 12 fitted structures it is the"
-        " simplest that the data allow."
-    )
-    assert beginning in said and (others, more) == (0, 3)
-    assert "3 larger ones contain it: no experiment excludes them if it is true." in said
+    assert (others, more) == (0, 3)
     order = (
+        "2 masses, friction at the load (b2): this explains the measurement",
+        *first_lines(selection),
         f"misfit {readable(selection.explanation.chi2)}",
         "structures left 1 of 12",
+        "3 more contain it",
         "resonance 1 58",
         "The rule: Of",
-        "In more words",
     )
     places = [said.index(words) for words in order]
     assert places == sorted(places)
@@ -209,7 +207,7 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(
     said = " ".join(empty.text.split())
     assert said.startswith(
         f"Fit: no admissible model disting {__version__} Help: disting fit --help Guide and glossary: disting"
-        " report 3 writes them No model is admissible Each of the 3 fitted candidates"
+        " report 3 writes them No model is admissible " + " ".join(first_lines(nothing))
     )
     first = nearest(nothing)[0]
     assert all(reason in said for reason in first.reasons)
@@ -230,7 +228,6 @@ def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
     """Where none is admissible: not the one nearest to its thresholds, which may fit worse."""
     assert nothing.described is nothing.candidates[0] is not nearest(nothing)[0]
     said = " ".join(empty.text.split())
-    assert f"The best fit is {name(nothing.described.chain)}; what follows describes it" in said
     assert f"the best one is {name_of(nothing.described.chain)}" in said
 
 
