@@ -90,7 +90,10 @@ def nyquist(drawn: Drawn, file: str) -> FigureFiles:
     """Return the impedance in the complex plane, -Im upward, both axes in one scale."""
     every = np.concatenate([drawn.series.measured.G, *(line.G for line in drawn.lines)])
     wide, high = float(np.ptp(every.real)), float(np.ptp(every.imag))
-    tall = float(np.clip(1.4 + 8.0 * high / max(wide, 1e-3 * high, 1e-300), 3.4, 7.0))
+    slope = high / max(wide, 1e-3 * high, 1e-300)
+    tall, narrow = (
+        float(np.clip(1.6 + room * slope, 2.8, most)) for room, most in ((8.0, 7.0), (3.4, 5.2))
+    )
 
     def draw(figure: "Figure") -> None:
         """One panel."""
@@ -104,6 +107,7 @@ def nyquist(drawn: Drawn, file: str) -> FigureFiles:
             measured.G.real, -measured.G.imag, "o", ms=3.6, mfc="none", mec=Tone.FIRST, label="data"
         )
         _decades(panel, measured)
+        panel.margins(0.08)
         panel.set_aspect("equal", adjustable="datalim")
         panel.set_xlabel("Re Z [ohm]")
         panel.set_ylabel("−Im Z [ohm]")
@@ -111,7 +115,7 @@ def nyquist(drawn: Drawn, file: str) -> FigureFiles:
         figure.legend(loc="outside lower center", ncols=1 if is_narrow(figure) else 3)
 
     title = f"Nyquist diagram of {drawn.name} and the data{drawn.which}, -Im Z upward"
-    return draw_figure(file, title, (tall, min(5.2, 1.9 + tall / 2)), draw)
+    return draw_figure(file, title, (tall, narrow), draw)
 
 
 def _tube(panel: "Axes", line: NetworkLine) -> None:
@@ -131,9 +135,17 @@ def _decades(panel: "Axes", measured: FrequencyResponse) -> None:
         z = measured.G[at]
         panel.plot(z.real, -z.imag, "o", ms=4.5, mfc=Tone.FIRST, mec=Tone.FIRST, zorder=4)
         panel.annotate(
-            f"{readable(measured.frequency[at], 3)} Hz", (z.real, -z.imag), xytext=(0, 7),
-            textcoords="offset points", ha="center", size=8, color=Tone.MUTED, zorder=5,
-        )  # fmt: skip
+            f"{readable(measured.frequency[at], 3)} Hz",
+            (z.real, -z.imag),
+            xytext=(0, -7),
+            textcoords="offset points",
+            ha="center",
+            va="top",
+            size=8,
+            color=Tone.INK,
+            bbox={"facecolor": Tone.PAPER, "edgecolor": "none", "pad": 0.6},
+            zorder=2.5,
+        )
 
 
 def bode(drawn: Drawn, file: str) -> FigureFiles:
@@ -240,7 +252,8 @@ def captions(selection: NetworkSelection) -> Sequence[str]:
     for _ in selection.measured:
         if selection.fits[0].network.sort is Sort.CIRCUIT:
             sentences.append(
-                f"The line is {described}, the band holds it with 95 %. Both axes have one scale."
+                f"The line is {described}. The band holds the true curve with 95 % if the circuit is"
+                " the true one. Both axes have one scale."
             )
         sentences.append(f"Amplitude and phase of the data and of {described}.")
         sentences.append(
