@@ -252,8 +252,8 @@ def captions(selection: NetworkSelection) -> Sequence[str]:
     for _ in selection.measured:
         if selection.fits[0].network.sort is Sort.CIRCUIT:
             sentences.append(
-                f"The line is {described}. The band holds the true curve with 95 % if the circuit is"
-                " the true one. Both axes have one scale."
+                f"The line is {described}. The band holds the true curve with 95 % if the circuit"
+                " is the true one. Both axes have one scale."
             )
         sentences.append(f"Amplitude and phase of the data and of {described}.")
         sentences.append(
