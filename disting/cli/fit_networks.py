@@ -48,6 +48,12 @@ def run(options: argparse.Namespace) -> int:
         emit(options.json, json_text(selection.to_dict(), indent=1) + "\n")
     if options.json != "-":
         print("\n".join(_told(selection, first)))
+    if options.out:
+        from disting.report.fit.network_page import write_network_report
+
+        write_network_report(selection, options.out)
+        if options.json != "-":
+            print(f"\nwritten to {options.out}; open {options.out / 'fit.html'}")
     return 0 if selection.left else 1
 
 

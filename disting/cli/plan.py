@@ -32,6 +32,7 @@ from disting.measurement.arrays import Real
 from disting.measurement.impedance import as_impedance
 from disting.model.names import damping_option
 from disting.model.structure import Sort
+from disting.report.fit.plan_page import write_plans
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.write import write_plan
 
@@ -97,8 +98,6 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
             f"{path} names structures and values itself: leave the rival, --set and"
             f" {damping_option(is_damped(options))} away"
         )
-    if options.out:
-        raise InputError("--out belongs to one pair: plan it by name, as the output shows")
     named: AnyNamed = networks_named_by(path) if is_of_networks(path) else named_by(path)
     if not named.explained:
         complain(
@@ -123,10 +122,16 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
     rows = [plan_to_dict(own_plan) | _reverse(back) for own_plan, back in plans]
     larger = [{"name": name_of(x), **_reverse(reverse.get(x))} for x in named.larger]
     plain = {"same": named.same, "rivals": rows, "larger": larger}
-    _emit(options, {"format": Format.PLANS_OF_FIT.value, **plain})
+    whole = {"format": Format.PLANS_OF_FIT.value, **plain}
+    _emit(options, whole)
     if options.json != "-":
         back = list(reverse.values())
         print(printable("\n".join(rivals_in_words(named, plans, back, effort.source, str(path)))))
+    if options.out:
+        designed = [(own_plan, design(own_plan)) for own_plan, _ in plans]
+        write_plans(named, designed, effort.source, path, whole, options.out)
+        if options.json != "-":
+            print(f"\nwritten to {options.out}; open {options.out / 'plan.html'}")
     return 0
 
 

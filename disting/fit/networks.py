@@ -227,6 +227,7 @@ def _judged(
         residual=residual,
         basis=basis_of(columns),
         noise=own_noise,
+        columns=columns,
         explains=seen.explains,
         apart=seen.level is Level.APART,
         misses=seen.misses,

@@ -17,7 +17,7 @@ from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import Box, fine
 from disting.fit.search.network_plant import AnyNetworkPlant
 from disting.measurement import FrequencyResponse
-from disting.measurement.arrays import Real
+from disting.measurement.arrays import Complex, Real
 from disting.network.network import Network
 
 EQUAL = 1e-6  # relative distance of two responses that are the same but for rounding
@@ -52,7 +52,7 @@ def intervals_to_dict(intervals: dict[str, Interval]) -> dict[str, list[float | 
     }
 
 
-def without_noise(data: Sequence[FrequencyResponse], stacked: Real) -> list[FrequencyResponse]:
+def without_noise(data: Sequence[FrequencyResponse], stacked: Complex) -> list[FrequencyResponse]:
     """Return the responses with fitted ones, stacked in `stacked`, in place of the measured."""
     ends = np.cumsum([len(response) for response in data])[:-1]
     parts = np.split(stacked, ends)

@@ -31,6 +31,7 @@ class FittedNetwork:
     standard deviations of the logarithms of the values, infinite of what the data or the network do
     not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it;
     `apart`: it explains the data apart from its `misses`;
+    `columns`: sensitivities of r by the logarithms of the values, shape (n_y, n_p);
     `intervals` of 95 % of the values, and `twins`, the networks of `same` with their own values:
     of fits that are left, and of the best one;
     `contains`: the simplest network left that it contains, "" if there is none.
@@ -52,6 +53,7 @@ class FittedNetwork:
     misses: tuple[Miss, ...] = ()
     intervals: dict[str, Interval] = field(default_factory=dict)
     twins: tuple[NetworkTwin, ...] = ()
+    columns: Real = field(repr=False, default_factory=lambda: np.empty((0, 0)))
 
     @property
     def cost(self) -> float:

@@ -44,7 +44,7 @@ def chance(probability: float) -> str:
 
 def plan_in_words(plan: Plan, best: Design | None, source: str) -> Iterator[str]:
     """The lines of the answer for one pair."""
-    yield _answer(plan)
+    yield answer_in_words(plan)
     if plan.verdict is not None:
         yield f"verdict: {plan.verdict.sentence}"
     yield ""
@@ -136,7 +136,8 @@ def _drawn(structure: AnyStructure) -> str:
     return f"{text_drawing(structure)}  " if isinstance(structure, Chain) else ""
 
 
-def _answer(plan: Plan) -> str:
+def answer_in_words(plan: Plan) -> str:
+    """Return whether more measuring tells both apart, and how much, in a sentence."""
     model, name = plan.names
     if plan.rival is None:
         other = next_command(plan)

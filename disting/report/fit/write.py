@@ -56,7 +56,7 @@ def write_plan(plan: Plan, best: Design, folder: Path) -> str:
         ("plan.png", figure.png),
         ("plan.pdf", figure.pdf),
         ("plan.json", [text, "\n"]),
-        ("lines.csv", [_lines(plan, best)]),
+        ("lines.csv", [lines_csv(plan, best)]),
         ("spectrum.csv", [best.excitation(best.run.shares).spectrum_csv]),
     ):
         write_whole(folder / file, content)
@@ -71,8 +71,8 @@ def simulation(plan: Plan, best: Design, path: Path) -> str:
     )
 
 
-def _lines(plan: Plan, best: Design) -> str:
-    """A row a line: frequency, difference, noise, shares of the power."""
+def lines_csv(plan: Plan, best: Design) -> str:
+    """Return a row a line: frequency, difference, noise, shares of the power."""
     rows = ["frequency_hz,difference,noise,share_optimal,share_run\n"]
     rival = plan.rival
     if rival is not None:
@@ -81,9 +81,9 @@ def _lines(plan: Plan, best: Design) -> str:
     return "".join(rows)
 
 
-def plan_figure(plan: Plan, best: Design) -> FigureFiles:
+def plan_figure(plan: Plan, best: Design, file: str = "plan") -> FigureFiles:
     """Difference of the two structures over frequency beside the noise, and the shares of the power
-    of the optimal spectrum below.
+    of the optimal spectrum below; `file`: its name without ending.
     """
     model, name = plan.names
     rival = plan.rival
@@ -102,7 +102,7 @@ def plan_figure(plan: Plan, best: Design) -> FigureFiles:
         figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 5)
 
     said = f"{title}; noise {100 * typical(noise):.2g} % a line"
-    return draw_figure("plan", said, (5.2, 5.6), draw)
+    return draw_figure(file, said, (5.2, 5.6), draw)
 
 
 def _difference(panel: "Axes", best: Design, size: Real, noise: Real) -> None:
