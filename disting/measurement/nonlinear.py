@@ -8,23 +8,30 @@ adds to that of the noise: with sigma_n^2 the variance of the mean by noise,
     sigma_k^2 = sigma_n,k^2 + sigma_s,k^2.
 
 - Lines without excitation: where all excited lines are odd, the odd ones without excitation show
-  what falls on the excited ones too; else all of them. sigma_s,k^2 = |G_k|^2 times the mean of
-  (level^2 - noise^2) / |G|^2 over the `NEAR` nearest of them.
+  what falls on the excited ones too; else all of them do. Each has level^2 - noise^2.
 - Repeats with other phases (realisations): their mean scatters by sigma_k^2, the periods of each
-  tell sigma_n,k^2. The difference, as a share of |G_k|^2, is averaged over as many lines.
+  tell sigma_n,k^2.
 
-Both count only where the whole is larger than noise alone allows (F test over all lines).
+Such a power q_j of single lines is averaged over the `NEAR` nearest of each excited line, as it is
+(right for the steps of an encoder) and as a share of the response (right for friction), of which
+the geometric mean is taken:
+
+    sigma_s,k^4 = |G_k|^2 (mean_j q_j) (mean_j q_j / |G_j|^2).
+
+It counts only where the whole is larger than noise alone allows (F test over all lines).
 """
 
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 from scipy.stats import f as f_distribution
 
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.distortion import FEWEST, Distortion
 
-NEAR = 7  # lines whose mean is taken
+NEAR = 11  # lines whose mean is taken
 SURE = 1e-3  # chance of a distortion where there is noise alone
 LEAST = 1e-6  # share of the response below which a distortion is rounding
+SMALLEST = 0.1  # of the mean of all lines: a few lines may show nothing by chance
 
 
 def from_unexcited(
@@ -39,44 +46,38 @@ def from_unexcited(
     if np.count_nonzero(kind) < FEWEST:
         return None
     at = between.omega[kind]
-    size = np.interp(at, omega, np.abs(response))
-    level, noise = (x[kind] / size for x in (between.level, between.noise))
     freedom = 2.0 * len(at), 2.0 * len(at) * (periods - 1)
-    share = _beyond(level**2, noise**2, freedom)
-    if share is None:
-        return None
-    nearest = np.argsort(np.abs(np.log(omega[:, None] / at)), axis=1)[:, :NEAR]
-    return np.asarray(np.sqrt(_positive(share[nearest].mean(axis=1), share)) * np.abs(response))
+    return _averaged(between.level[kind], between.noise[kind], at, omega, response, freedom)
 
 
 def from_realisations(
-    total: Real, noise: Real, response: Complex, freedom: tuple[float, float]
+    total: Real, noise: Real, omega: Real, response: Complex, freedom: tuple[float, float]
 ) -> Real | None:
     """Return sigma_s of a mean, shape (n_f,): `total` = its standard deviation by the scatter of
     n repeats, `noise` = that by the scatter of their periods; `freedom` = degrees of freedom of
     both at each line. None where noise is all.
     """
+    whole = freedom[0] * len(omega), freedom[1] * len(omega)
+    return _averaged(total, noise, omega, omega, response, whole)
+
+
+def _averaged(
+    total: Real, noise: Real, at: Real, omega: Real, response: Complex, freedom: tuple[float, float]
+) -> Real | None:
+    """sigma_s at the lines `omega` of a response from deviations at the lines `at`."""
     size = np.abs(response)
-    whole = freedom[0] * len(size), freedom[1] * len(size)
-    share = _beyond((total / size) ** 2, (noise / size) ** 2, whole)
-    if share is None:
+    other_size = np.interp(at, omega, size)
+    near_noise = uniform_filter1d((noise / other_size) ** 2, NEAR, mode="nearest")
+    ratio = (total / other_size) ** 2 / np.maximum(near_noise, LEAST**2)
+    if float(ratio.mean()) <= f_distribution.isf(SURE, *freedom):
         return None
-    return np.asarray(np.sqrt(_positive(_near(share), share)) * size)
+    power = total**2 - noise**2
+    nearest = np.argsort(np.abs(np.log(omega[:, None] / at)), axis=1, kind="stable")[:, :NEAR]
+    added, share = _means(power, nearest), _means(power / other_size**2, nearest)
+    return np.asarray(np.sqrt(np.sqrt(added * share) * size))
 
 
-def _beyond(power: Real, noise: Real, freedom: tuple[float, float]) -> Real | None:
-    """Powers without noise, shape (n,), None unless they are beyond noise in the mean."""
-    ratio = float(np.mean(power / np.maximum(_near(noise), LEAST**2)))
-    return power - noise if ratio > f_distribution.isf(SURE, *freedom) else None
-
-
-def _near(values: Real) -> Real:
-    """Means over the `NEAR` lines around each line."""
-    window = np.ones(min(NEAR, len(values)))
-    count = np.convolve(np.ones(len(values)), window, mode="same")
-    return np.asarray(np.convolve(values, window, mode="same") / count)
-
-
-def _positive(near: Real, share: Real) -> Real:
-    """Local means, not below a tenth of that of all lines: few lines may show none by chance."""
-    return np.maximum(near, 0.1 * max(float(share.mean()), 0.0))
+def _means(power: Real, nearest: np.ndarray[tuple[int, int], np.dtype[np.intp]]) -> Real:
+    """Means over the lines near each line, shape (n_f,), none of them far below that of all."""
+    least = SMALLEST * max(float(power.mean()), 0.0)
+    return np.asarray(np.maximum(power[nearest].mean(axis=1), least))

@@ -170,7 +170,7 @@ def _with_distortion(
     squares = np.stack([noise**2 for noise, _ in known])
     noise = np.sqrt(np.sum(squares, axis=0, where=kept)) / kept.sum(axis=0)
     freedom = sum(nu for _, nu in known if nu)
-    nonlinear = from_realisations(total, noise, mean.G, (mean.freedom or 0.0, freedom))
+    nonlinear = from_realisations(total, noise, mean.omega, mean.G, (mean.freedom or 0.0, freedom))
     if nonlinear is not None:
         deviation = np.hypot(noise, nonlinear)
         return replace(mean, deviation=deviation, nonlinear=nonlinear, freedom=freedom)

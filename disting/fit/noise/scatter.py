@@ -189,12 +189,8 @@ def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyR
             freedom=lines_free,
         )
     # distortion by a sweep is smooth over the lines
-    is_noise = measured.nonlinear is None
-    if (
-        is_noise
-        and level * WRONG**2 < 1
-        and level < f_distribution.ppf(SURE, lines_free, own.freedom)
-    ):
+    small = f_distribution.ppf(SURE, lines_free, own.freedom)
+    if measured.nonlinear is None and level * WRONG**2 < 1 and level < small:
         return replace(
             own,
             doubt=(
