@@ -43,11 +43,22 @@ def from_unexcited(
     if between is None or between.noise is None:
         return None
     kind = ~between.even if between.told_apart else np.ones(len(between.omega), dtype=bool)
-    if np.count_nonzero(kind) < FEWEST:
+    total, noise, at = between.level[kind], between.noise[kind], between.omega[kind]
+    size = np.abs(response)
+    if not _is_larger(total, noise, np.interp(at, omega, size), (1.0, periods - 1.0)):
         return None
-    at = between.omega[kind]
-    freedom = 2.0 * len(at), 2.0 * len(at) * (periods - 1)
-    return _averaged(between.level[kind], between.noise[kind], at, omega, response, freedom)
+    return _averaged(total**2 - noise**2, at, omega, size)
+
+
+def is_even_beyond_noise(between: Distortion, omega: Real, response: Complex, periods: int) -> bool:
+    """Return True if even lines without excitation show more than noise, as those of a machine do
+    that is not the same in both directions.
+    """
+    if between.noise is None:
+        return False
+    size = np.interp(between.omega, omega, np.abs(response))
+    total, noise, size = (x[between.even] for x in (between.level, between.noise, size))
+    return _is_larger(total, noise, size, (1.0, periods - 1.0))
 
 
 def from_realisations(
@@ -57,23 +68,28 @@ def from_realisations(
     n repeats, `noise` = that by the scatter of their periods; `freedom` = degrees of freedom of
     both at each line. None where noise is all.
     """
-    whole = freedom[0] * len(omega), freedom[1] * len(omega)
-    return _averaged(total, noise, omega, omega, response, whole)
-
-
-def _averaged(
-    total: Real, noise: Real, at: Real, omega: Real, response: Complex, freedom: tuple[float, float]
-) -> Real | None:
-    """sigma_s at the lines `omega` of a response from deviations at the lines `at`."""
     size = np.abs(response)
-    other_size = np.interp(at, omega, size)
-    near_noise = uniform_filter1d((noise / other_size) ** 2, NEAR, mode="nearest")
-    ratio = (total / other_size) ** 2 / np.maximum(near_noise, LEAST**2)
-    if float(ratio.mean()) <= f_distribution.isf(SURE, *freedom):
+    if not _is_larger(total, noise, size, (freedom[0] / 2, freedom[1] / 2)):
         return None
-    power = total**2 - noise**2
+    return _averaged(total**2 - noise**2, omega, omega, size)
+
+
+def _is_larger(total: Real, noise: Real, size: Real, repeats: tuple[float, float]) -> bool:
+    """Return True if deviations of a response of this `size` are larger than those of the noise;
+    `repeats`: of which each of both comes, beyond the first.
+    """
+    if len(total) < FEWEST:
+        return False
+    near = uniform_filter1d((noise / size) ** 2, NEAR, mode="nearest")
+    ratio = float(np.mean((total / size) ** 2 / np.maximum(near, LEAST**2)))
+    return ratio > float(f_distribution.isf(SURE, *(2 * len(total) * n for n in repeats)))
+
+
+def _averaged(power: Real, at: Real, omega: Real, size: Real) -> Real:
+    """sigma_s at lines `omega` of a response of this `size` from powers of the lines `at`."""
     nearest = np.argsort(np.abs(np.log(omega[:, None] / at)), axis=1, kind="stable")[:, :NEAR]
-    added, share = _means(power, nearest), _means(power / other_size**2, nearest)
+    added = _means(power, nearest)
+    share = _means(power / np.interp(at, omega, size) ** 2, nearest)
     return np.asarray(np.sqrt(np.sqrt(added * share) * size))
 
 

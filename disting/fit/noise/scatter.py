@@ -62,6 +62,7 @@ SURE = 1e-3  # level of the tests for tau, and for standard deviations that are 
 WRONG = 2.0  # factor by which standard deviations are too large before that is said
 TINY = 1e-12  # share of a variance that is as good as nothing
 WORSE = 4.0  # ratio of variances from which on no fitted response is near the truth
+JUMPS = "neighbouring lines, which jump by more than their standard deviations"
 CLEAR = 0.2  # rho below which a line carries information
 
 
@@ -185,7 +186,7 @@ def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyR
         return replace(
             own,
             rho=np.maximum(np.sqrt(widened / 2) / seen.size, LEAST),
-            source="neighbouring lines, which jump by more than their standard deviations",
+            source=JUMPS,
             freedom=lines_free,
         )
     # distortion by a sweep is smooth over the lines

@@ -19,6 +19,7 @@ from disting.report.fit.doubts import (
     differing_parameters,
     doubtful_deviations,
     machine_change,
+    nonlinearity,
     same_data_twice,
     suspicious_data,
     unseen,
@@ -33,8 +34,10 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
     be, what is suspicious. Where the sensor quantity is open, the question for it alone.
     """
     if selection.question:
-        return (selection.question, *same_data_twice(selection))
+        return (*nonlinearity(selection), selection.question, *same_data_twice(selection))
     return (
+        *nonlinearity(selection),
+        *machine_change(selection),
         _verdict(selection),
         *same_data_twice(selection),
         *_other_quantities(selection),
@@ -48,8 +51,11 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
     """
     if selection.question:
         cost = selection.task.cost
-        return (selection.question, *same_data_twice(selection), *suspicious_data(cost))
+        first = (*nonlinearity(selection), selection.question)
+        return (*first, *same_data_twice(selection), *suspicious_data(cost))
     said = [
+        *nonlinearity(selection),
+        *machine_change(selection),
         *_other_quantities(selection),
         *(
             []
@@ -58,7 +64,6 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         ),
         *better(selection),
         *(differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements),
-        *machine_change(selection),
         *correlated_residuals(selection),
         *weak(selection),
         *outside(selection.described, selection.task.cost.measured),
@@ -196,7 +201,6 @@ def _explained(selection: Selection) -> Iterator[str]:
     )
     yield from (
         *lone(selection),
-        *machine_change(selection),
         *correlated_residuals(selection),
         *weak(selection),
         *doubtful_deviations(selection),
