@@ -27,6 +27,7 @@ from disting.measurement.excitation import InputBand, excitation
 from disting.measurement.files import open_record, read_response
 from disting.measurement.formats import Options, UnknownOption, format_of
 from disting.measurement.impedance import as_impedance
+from disting.measurement.linearity import describe_nonlinearity
 from disting.measurement.look_text import look_lines
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import FrequencyResponse
@@ -134,7 +135,8 @@ class Look(NotebookTable):
         if self.response is None:
             return self.refusals
         own = self.response.doubts if self.is_impedance else self.response.suspicions
-        return (*self.refusals, *own)
+        distorted = describe_nonlinearity(self.response)
+        return (*self.refusals, *([distorted] if distorted else []), *own)
 
     @property
     def distortion(self) -> dict[str, float]:

@@ -9,7 +9,8 @@ class Method:
 
     `period` [samples] and number of whole `periods` that were averaged, those of a transient
     `dropped` before; or `segment` [samples] and number of half-overlapping `segments` of Welch's
-    method. `trends`: sentences on what was removed from input and output before.
+    method. `trends`: sentences on what was removed from input and output before. `level`: standard
+    deviation of the input over the record, in its `unit` there; 0 where it is unknown.
     """
 
     period: int = 0
@@ -18,3 +19,5 @@ class Method:
     segment: int = 0
     segments: int = 0
     trends: tuple[str, ...] = ()
+    level: float = 0.0
+    unit: str = ""

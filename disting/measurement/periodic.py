@@ -22,9 +22,10 @@ from numpy.typing import NDArray
 from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real, real
 from disting.measurement.checks import FEWEST
-from disting.measurement.distortion import distortion
+from disting.measurement.distortion import Distortion, distortion
 from disting.measurement.feedback import Feedback, feedback_in_periods
 from disting.measurement.method import Method
+from disting.measurement.nonlinear import from_unexcited
 from disting.measurement.repeats import leave_out
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.trend import Trend, trend_between_periods, trend_of_one_period
@@ -94,19 +95,27 @@ def estimate(
     omega = np.multiply(chosen, 2 * np.pi * spacing, dtype=np.float64)
     refuse_few(omega, notes, band)
     response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
-    return replace(
-        response,
-        notes=(*notes, *response.notes),
-        distortion=between,
-        method=Method(length, len(inputs), transient, trends=tuple(removed)),
-        loop=_loop(inputs[:, chosen], outputs[:, chosen], response),
-    )
+    method = Method(length, len(inputs), transient, trends=tuple(removed))
+    loop = _loop(inputs[:, chosen], outputs[:, chosen], response)
+    response = replace(response, notes=(*notes, *response.notes), method=method, loop=loop)
+    return _with_distortion(response, between, len(inputs))
 
 
 def _loop(inputs: Complex, outputs: Complex, response: FrequencyResponse) -> Feedback | None:
     if response.deviation is None:
         return None
     return feedback_in_periods(inputs, outputs, response.deviation / np.abs(response.G))
+
+
+def _with_distortion(
+    response: FrequencyResponse, between: Distortion | None, periods: int
+) -> FrequencyResponse:
+    """The same with what lines without excitation show, in its deviation too."""
+    response = replace(response, distortion=between)
+    nonlinear = from_unexcited(between, response.omega, response.G, periods)
+    if nonlinear is None or response.deviation is None:
+        return response
+    return replace(response, deviation=np.hypot(response.deviation, nonlinear), nonlinear=nonlinear)
 
 
 def refuse_few(omega: Real, notes: Sequence[str], band: tuple[float, float] | None) -> None:

@@ -27,6 +27,7 @@ from scipy.ndimage import uniform_filter1d
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Complex, Real, nearest
 from disting.measurement.feedback import Feedback
+from disting.measurement.nonlinear import from_realisations
 from disting.measurement.response import FrequencyResponse
 
 CHOICES = ("keep", "drop")
@@ -140,7 +141,9 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
         window=None,
         freedom=2.0 * (int(count.min()) - 1),
         loop=_loop_of(repeats, deviation),
+        nonlinear=None,
     )
+    mean = _with_distortion(mean, repeats, kept)
     relative = float(np.median(deviation * np.sqrt(count) / np.abs(mean.G)))
     said = dict.fromkeys(note for response in repeats for note in response.notes)
     doubts = [*(doubt for response in repeats for doubt in response.doubts), *outlying]
@@ -162,6 +165,31 @@ def _loop_of(repeats: Sequence[FrequencyResponse], deviation: Real) -> Feedback 
         if response.loop is not None:
             return replace(response.loop, scatter=deviation / np.abs(response.G))
     return None
+
+
+def _with_distortion(
+    mean: FrequencyResponse, repeats: Sequence[FrequencyResponse], kept: Mask
+) -> FrequencyResponse:
+    """The mean with the distortion that realisations of the phases show by their scatter, else
+    with that which all repeats of one excitation have in common.
+    """
+    known = [(r.noise, r.freedom) for r in repeats if r.noise is not None and r.freedom]
+    total = mean.deviation
+    if total is None or len(known) < len(repeats):
+        return mean
+    squares = np.stack([noise**2 for noise, _ in known])
+    noise = np.sqrt(np.sum(squares, axis=0, where=kept)) / kept.sum(axis=0)
+    freedom = sum(nu for _, nu in known if nu)
+    nonlinear = from_realisations(total, noise, mean.omega, mean.G, (mean.freedom or 0.0, freedom))
+    if nonlinear is not None:
+        deviation = np.hypot(noise, nonlinear)
+        return replace(mean, deviation=deviation, nonlinear=nonlinear, freedom=freedom)
+    common = [response.nonlinear for response in repeats]
+    parts = [np.zeros(len(mean)) if x is None else x for x in common]
+    if not np.any(parts):
+        return mean
+    nonlinear = np.sqrt(np.mean(np.square(parts), axis=0))
+    return replace(mean, deviation=np.hypot(total, nonlinear), nonlinear=nonlinear)
 
 
 def _check_alike(first: FrequencyResponse, other: FrequencyResponse) -> None:

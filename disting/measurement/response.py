@@ -63,6 +63,7 @@ class Signal(NamedTuple):
         return f"{self.label} [{self.unit}]" if self.unit else self.label
 
 
+ROUNDING = 1e-6  # share of a deviation
 UNNAMED = Signal()
 CURRENT, VOLTAGE = Signal("current", AMPERE), Signal("voltage", VOLT)  # of an impedance
 
@@ -85,7 +86,9 @@ class FrequencyResponse(NotebookTable):
     `sensor` says nothing; `hold` = how the input is held between samples, or None: the lines show G
     through it then, and a fit compares models so; `columns` = those of the file as they were
     understood; `method` = how it was estimated from a record in time, or None; `loop` = the closed
-    loop that the record shows, or None. Frequencies out of order are sorted, with a note. Raises
+    loop that the record shows, or None; `nonlinear` = the part of `deviation` that a nonlinear
+    machine makes itself, shape (n_f,), or None where none is measured (module `nonlinear`).
+    Frequencies out of order are sorted, with a note. Raises
     InputError for what is no frequency response (module `checks`).
 
     >>> import numpy as np
@@ -114,6 +117,7 @@ class FrequencyResponse(NotebookTable):
     columns: tuple[ReadColumn, ...] = ()
     method: Method | None = None
     loop: Feedback | None = None
+    nonlinear: Real | None = None
 
     def __post_init__(self) -> None:
         omega, response = real(self.omega, "omega"), complex_(self.G, "G")
@@ -123,6 +127,7 @@ class FrequencyResponse(NotebookTable):
             "deviation": optional(self.deviation, "deviation"),
             "coherence": optional(self.coherence, "coherence"),
             "drive": optional(self.drive, "drive"),
+            "nonlinear": optional(self.nonlinear, "nonlinear"),
         }
         checks.lengths(**columns)
         checks.enough(omega)
@@ -196,6 +201,17 @@ class FrequencyResponse(NotebookTable):
         return OF_IMPEDANCE if self.is_impedance else self.sensor.value
 
     @property
+    def noise(self) -> Real | None:
+        """Standard deviation of G by what does not repeat, shape (n_f,), in the unit of G:
+        `deviation` without `nonlinear`.
+        """
+        if self.deviation is None or self.nonlinear is None:
+            return self.deviation
+        # sums of squares leave no smaller part
+        least = (ROUNDING * self.deviation) ** 2
+        return np.asarray(np.sqrt(np.maximum(self.deviation**2 - self.nonlinear**2, least)))
+
+    @property
     def suspicions(self) -> tuple[str, ...]:
         """Sentences on what looks wrong in the numbers, each with its remedy; empty where
         nothing does.
@@ -224,8 +240,9 @@ class FrequencyResponse(NotebookTable):
         if chosen.dtype != bool and not np.issubdtype(chosen.dtype, np.integer):
             raise InputError("lines are chosen by truth values or by whole numbers")
         try:
-            deviation, coherence, drive = (
-                apply(lambda a: a[chosen], a) for a in (self.deviation, self.coherence, self.drive)
+            deviation, coherence, drive, nonlinear = (
+                apply(lambda a: a[chosen], a)
+                for a in (self.deviation, self.coherence, self.drive, self.nonlinear)
             )
             return replace(
                 self,
@@ -236,6 +253,7 @@ class FrequencyResponse(NotebookTable):
                 window=None if self.window is None else self.window.of(chosen),
                 drive=drive,
                 loop=None if self.loop is None else self.loop.of(chosen),
+                nonlinear=nonlinear,
             )
         except IndexError as error:
             raise InputError(f"no such lines: {error}") from None
@@ -282,6 +300,7 @@ class FrequencyResponse(NotebookTable):
             self,
             G=self.G * (1j * self.omega) ** steps,
             deviation=apply(lambda d: d * self.omega**steps, self.deviation),
+            nonlinear=apply(lambda d: d * self.omega**steps, self.nonlinear),
             sensor=wanted,
             distortion=(
                 None

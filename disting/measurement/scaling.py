@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from disting.errors import InputError, enumeration, short
-from disting.measurement.arrays import Real
+from disting.measurement.arrays import Real, apply
 from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse
 from disting.measurement.units import (
     FREQUENCIES,
@@ -190,6 +190,10 @@ def _moved(response: FrequencyResponse, unit: Motion, said: str, asked: bool) ->
 def _scaled(response: FrequencyResponse, factor: float) -> FrequencyResponse:
     if factor == 1:
         return response
-    deviation = None if response.deviation is None else response.deviation * factor
-    distortion = None if response.distortion is None else response.distortion.times(factor)
-    return replace(response, G=response.G * factor, deviation=deviation, distortion=distortion)
+    return replace(
+        response,
+        G=response.G * factor,
+        deviation=apply(lambda d: d * factor, response.deviation),
+        nonlinear=apply(lambda d: d * factor, response.nonlinear),
+        distortion=response.distortion and response.distortion.times(factor),
+    )

@@ -9,6 +9,7 @@ from disting.errors import InputError, short
 from disting.measurement import periodic, welch
 from disting.measurement.arrays import Real, frozen, real, same
 from disting.measurement.feedback_in_noise import loop_in_noise
+from disting.measurement.method import Method
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
 from disting.measurement.trend import (
     Trend,
@@ -155,11 +156,15 @@ class TimeSeries:
             + (self.left_out and f"; {self.left_out}"),
             columns=self.columns,
             loop=the_response.loop if self.reference is None else None,
+            method=the_response.method and self._with_level(the_response.method),
         )
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold
             response = response.held(held, self.sensor.order)
         return response if sensor is None else response.to_quantity(sensor)
+
+    def _with_level(self, method: Method) -> Method:
+        return replace(method, level=float(np.std(self.u)), unit=self.input.unit)
 
     def _by_welch(
         self,

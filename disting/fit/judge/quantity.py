@@ -24,6 +24,7 @@ from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.exchange import SEARCHED, estimates, explore
 from disting.fit.search.joint import JointCost
 from disting.measurement import FrequencyResponse
+from disting.measurement.arrays import apply
 from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain, Sensor
 from disting.store import Store
@@ -141,11 +142,12 @@ def _integrates(fit: Estimate, measured: FrequencyResponse) -> bool:
 
 def _shifted(measured: FrequencyResponse, steps: int) -> FrequencyResponse:
     """The response differentiated so many times more."""
-    deviation = measured.deviation
+    factor = measured.omega**steps
     return replace(
         measured,
         G=measured.G * (1j * measured.omega) ** steps,
-        deviation=None if deviation is None else deviation * measured.omega**steps,
+        deviation=apply(lambda d: d * factor, measured.deviation),
+        nonlinear=apply(lambda d: d * factor, measured.nonlinear),
     )
 
 

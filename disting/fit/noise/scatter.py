@@ -6,14 +6,15 @@ ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put
 - one measurement: the sources of noise that a bench has (`line_variance`), their sizes from what
   neighbouring lines do not predict of each other (`contrasts`); with a coherence its shape
   (1 - g^2) / g^2 |G|^2 instead of these sources;
-- with standard deviations s_k of nu degrees of freedom: the sources fitted to s_k^2, and each line
-  shrunk to them,
+- with standard deviations s_k of noise of nu degrees of freedom: the sources fitted to s_k^2, and
+  each line shrunk to them,
 
       sigma_k^2 = (nu_0 m_k + nu s_k^2) / (nu_0 + nu),
 
   nu_0 = degrees of freedom that the sources count for, from how far s_k^2 are from them beyond
   their own scatter (G. Smyth, Linear models and empirical Bayes methods, 2004). A file that does
-  not say how many repeats it has tells nu by how much ln s_k^2 jumps from line to line.
+  not say how many repeats it has tells nu by how much ln s_k^2 jumps from line to line. The
+  variance of a distortion that the data show is added (`disting.measurement.nonlinear`).
 
 Repeats of one excitation do not see what it makes itself: distortion by friction and play, and the
 steps of an encoder, repeat with it, and jump from line to line. Nor do they see that a machine
@@ -61,6 +62,7 @@ SURE = 1e-3  # level of the tests for tau, and for standard deviations that are 
 WRONG = 2.0  # factor by which standard deviations are too large before that is said
 TINY = 1e-12  # share of a variance that is as good as nothing
 WORSE = 4.0  # ratio of variances from which on no fitted response is near the truth
+JUMPS = "neighbouring lines, which jump by more than their standard deviations"
 CLEAR = 0.2  # rho below which a line carries information
 
 
@@ -103,8 +105,8 @@ def scatter(measured: FrequencyResponse, fitted: Sequence[Complex] = ()) -> Scat
     """Scatter of a measured response; `fitted` = responses of candidates at its lines, shape
     (n_f,) each.
     """
-    if measured.deviation is not None and np.any(measured.deviation > 0):
-        return _stated(measured, measured.deviation, fitted)
+    if measured.noise is not None and np.any(measured.noise > 0):
+        return _stated(measured, measured.noise, fitted)
     if measured.coherence is not None and np.any(measured.coherence < 1):
         squared = np.clip(measured.coherence, 1e-6, 1 - 1e-6)
         shape = ((1 - squared) / squared * np.abs(measured.G) ** 2)[:, None]
@@ -153,7 +155,9 @@ def _preferred(levels: Sequence[float]) -> int:
 
 
 def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Complex]) -> Scatter:
-    """From standard deviations of the data, against contrasts where candidates are fitted."""
+    """From standard deviations of the noise and of the distortion in the data, against contrasts
+    where candidates are fitted.
+    """
     each = [contrasts(measured.omega, measured.G, other) for other in (None, *fitted)]
     seen = each[
         _preferred([log(max(float(np.median(one_way.power)), TINY**2)) for one_way in each])
@@ -162,12 +166,12 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
     power = np.maximum(deviation**2, 1e-6 * floor)
     nu = measured.freedom or freedom_by_jumps(measured.omega, power)
     variance, prior = shrunk(power, nu, _sources(measured, seen.size))
-    own = Scatter(
-        np.maximum(np.sqrt(variance / 2) / seen.size, LEAST),
-        seen.size,
-        "the standard deviations of the data",
-        max(len(power) * nu, prior),
-    )
+    sure, known_from = max(len(power) * nu, prior), "the standard deviations of the data"
+    if measured.nonlinear is not None:
+        # about as many lines tell of the distortion as it distorts
+        variance, sure = variance + measured.nonlinear**2, min(sure, 2.0 * len(power))
+        known_from += " and their distortion"
+    own = Scatter(np.maximum(np.sqrt(variance / 2) / seen.size, LEAST), seen.size, known_from, sure)
     return _checked(own, variance, seen, measured) if fitted else own
 
 
@@ -182,10 +186,12 @@ def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyR
         return replace(
             own,
             rho=np.maximum(np.sqrt(widened / 2) / seen.size, LEAST),
-            source="neighbouring lines, which jump by more than their standard deviations",
+            source=JUMPS,
             freedom=lines_free,
         )
-    if level * WRONG**2 < 1 and level < f_distribution.ppf(SURE, lines_free, own.freedom):
+    # distortion by a sweep is smooth over the lines
+    small = f_distribution.ppf(SURE, lines_free, own.freedom)
+    if measured.nonlinear is None and level * WRONG**2 < 1 and level < small:
         return replace(
             own,
             doubt=(

@@ -11,10 +11,11 @@ from disting.fit.judge.explanation import correlations, partners
 from disting.fit.judge.members import Disagreement
 from disting.fit.judge.modes import between_lines
 from disting.fit.judge.reading import bad_lines
-from disting.fit.noise.scatter import CLEAR, change, scatter
+from disting.fit.noise.scatter import CLEAR, JUMPS, change, scatter
 from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
+from disting.measurement.linearity import describe_jumps, describe_levels, describe_nonlinearity
 
 FEWEST = 8  # lines of a fit
 SMOOTHED = 5  # lines over which the scatter is looked at
@@ -122,8 +123,28 @@ def differing_parameters(both: tuple[Disagreement, ...]) -> str:
     )
 
 
+def nonlinearity(selection: Selection) -> Iterator[str]:
+    """Distortion of each response: what its lines or its repeats show, else lines that jump by
+    more than they scatter.
+    """
+    for k, (part, of) in enumerate(
+        zip(selection.task.cost.parts, _of_each(selection.task.cost), strict=True)
+    ):
+        own = part.measured
+        fitted = response_of(selection.described, selection.task, own.omega, k)
+        sentence = describe_nonlinearity(own)
+        seen = scatter(own, [fitted])
+        if not sentence and seen.source == JUMPS and own.noise is not None:
+            noise = float(np.median(own.noise / np.abs(own.G)))
+            sentence = describe_jumps(float(np.sqrt(2)) * seen.typical, noise)
+        if sentence:
+            yield f"{of[4:]}: {sentence}" if of else sentence
+
+
 def machine_change(selection: Selection) -> Iterator[str]:
-    """A machine that is not the same in both measurements."""
+    """A machine that is not the same in both measurements: where their excitations are known to
+    differ, one that is not linear.
+    """
     setups = selection.task.cost.setups
     tests = zip(
         partners(selection.task.cost, selection.judging), selection.judging.parts, strict=True
@@ -138,6 +159,15 @@ def machine_change(selection: Selection) -> Iterator[str]:
         tau = change(train, test, *scatters)
         if tau:
             own = max(this_scatter.typical for this_scatter in scatters)
+            levels = describe_levels(train, test)
+            if levels:
+                yield (
+                    f"the responses{of} at {levels[0]} and {levels[1]} (input, rms) differ by"
+                    f" {100 * tau:.2g} % a line, their scatter is {100 * own:.2g} %: the machine is"
+                    " not linear (friction, backlash); each set of values holds for its own"
+                    " amplitude"
+                )
+                continue
             yield (
                 f"training and test data{of} differ by {100 * tau:.2g} % a line beyond their"
                 f" scatter of {100 * own:.2g} %: the machine changed between them, for example its"

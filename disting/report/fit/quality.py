@@ -7,16 +7,20 @@ from disting.report.fit.doubts import (
     closed_loops,
     doubtful_deviations,
     machine_change,
+    nonlinearity,
     same_data_twice,
 )
 from disting.report.fit.words import percent
 
 
 def quality_line(selection: Selection) -> str:
-    """Return how many lines there are, how much they scatter, and what to bear in mind."""
+    """Return how many lines there are, how much they scatter or the machine distorts, and what to
+    bear in mind.
+    """
     scatter = selection.explanation.scatter
     noise = f"noise {percent(scatter.typical)} (from {scatter.source})"
-    return "; ".join([f"{_lines(selection)}, {noise}", *quality_remarks(selection)])
+    size = "; ".join(nonlinearity(selection)) or noise
+    return "; ".join([f"{_lines(selection)}, {size}", *quality_remarks(selection)])
 
 
 def quality_remarks(selection: Selection) -> Iterator[str]:

@@ -20,6 +20,7 @@ from disting.report.fit.doubts import (
     differing_parameters,
     doubtful_deviations,
     machine_change,
+    nonlinearity,
     same_data_twice,
     suspicious_data,
     unseen,
@@ -50,8 +51,11 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
     """
     if selection.question:
         cost = selection.task.cost
-        return (selection.question, *same_data_twice(selection), *suspicious_data(cost))
+        first = (*nonlinearity(selection), selection.question)
+        return (*first, *same_data_twice(selection), *suspicious_data(cost))
     said = [
+        *nonlinearity(selection),
+        *machine_change(selection),
         *_other_quantities(selection),
         *(
             []
@@ -60,7 +64,6 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         ),
         *better(selection),
         *(differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements),
-        *machine_change(selection),
         *correlated_residuals(selection),
         *lone(selection),
         *weak(selection),
@@ -196,6 +199,7 @@ def _structure(selection: Selection) -> Iterator[str]:
     yield from (
         differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements
     )
+    yield from correlated_residuals(selection)
 
 
 def _standing(selection: Selection) -> str:

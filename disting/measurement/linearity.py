@@ -1,0 +1,67 @@
+"""Sentences on a machine that is not linear, from its measured responses alone.
+
+Distortion widens the intervals of a fit (module `nonlinear`), but friction and backlash also move
+the mean of a response, by an amount that no single measurement shows: values then hold for the
+amplitude that they were measured at. The reader has to know that before any structure.
+"""
+
+import numpy as np
+
+from disting.measurement.nonlinear import is_even_beyond_noise
+from disting.measurement.response import FrequencyResponse
+
+CAUSES = "probably friction, backlash or the steps of an encoder"
+OTHER_CAUSES = f"{CAUSES}; or a machine that changes between the repeats"
+HOLD = "values hold for this amplitude"
+APART = 1.1  # ratio of levels from which on two measurements have different amplitudes
+
+
+def describe_nonlinearity(response: FrequencyResponse) -> str:
+    """Sentence on the distortion that a response shows beside its noise, both as medians of the
+    lines in parts of |G|; "" where it shows none.
+
+    >>> from dataclasses import replace
+    >>> from disting.measurement import from_arrays
+    >>> data = from_arrays(range(1, 9), [1] * 8, deviation=[0.05] * 8)
+    >>> describe_nonlinearity(replace(data, nonlinear=[0.04] * 8)).split(" (")[0]
+    'noise 3 %, distortion 4 %'
+    >>> describe_nonlinearity(data)
+    ''
+    """
+    size, between = np.abs(response.G), response.distortion
+    if response.noise is not None and response.nonlinear is not None:
+        noise, level = (float(np.median(x / size)) for x in (response.noise, response.nonlinear))
+        causes = OTHER_CAUSES if between is None else CAUSES
+        return f"noise {_percent(noise)}, distortion {_percent(level)} ({causes}): {HOLD}"
+    periods = response.method.periods if response.method else 0
+    if between is None or not between.told_apart or periods < 2:
+        return ""
+    if not is_even_beyond_noise(between, response.omega, response.G, periods):
+        return ""
+    at = np.interp(between.omega, response.omega, size)
+    level = float(np.median((between.level / at)[between.even]))
+    return f"distortion of even order {_percent(level)} ({CAUSES}): {HOLD}"
+
+
+def describe_jumps(jumps: float, noise: float) -> str:
+    """Sentence on lines that jump by more than the periods scatter, medians as shares of |G|."""
+    return (
+        f"noise {_percent(noise)}, neighbouring lines jump by {_percent(jumps)}: an error that"
+        f" repeats with the excitation ({CAUSES}): {HOLD}"
+    )
+
+
+def describe_levels(one: FrequencyResponse, other: FrequencyResponse) -> tuple[str, str] | None:
+    """Levels of the excitation of two measurements, None where they are unknown or alike."""
+    methods = [method for method in (one.method, other.method) if method and method.level]
+    if len(methods) < 2 or methods[0].unit != methods[1].unit:
+        return None
+    low, high = sorted(method.level for method in methods)
+    if high < APART * low:
+        return None
+    first, second = (f"{method.level:.3g} {method.unit}".strip() for method in methods)
+    return first, second
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %"

@@ -1,0 +1,99 @@
+"""Standard deviation of stochastic nonlinear contributions at the excited lines of a response.
+
+A periodic input with random phases makes a nonlinear machine show its best linear approximation
+and, beside it, contributions that repeat from period to period and look like noise from line to
+line (Pintelon and Schoukens, System Identification, 2nd ed. 2012, chapters 3 and 4). Their variance
+adds to that of the noise: with sigma_n^2 the variance of the mean by noise,
+
+    sigma_k^2 = sigma_n,k^2 + sigma_s,k^2.
+
+- Lines without excitation: where all excited lines are odd, the odd ones without excitation show
+  what falls on the excited ones too; else all of them do. Each has level^2 - noise^2.
+- Repeats with other phases (realisations): their mean scatters by sigma_k^2, the periods of each
+  tell sigma_n,k^2.
+
+Such a power q_j of single lines is averaged over the `NEAR` nearest of each excited line, as it is
+(right for the steps of an encoder) and as a share of the response (right for friction), of which
+the geometric mean is taken:
+
+    sigma_s,k^4 = |G_k|^2 (mean_j q_j) (mean_j q_j / |G_j|^2).
+
+It counts only where the whole is larger than noise alone allows (F test over all lines).
+"""
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+from scipy.stats import f as f_distribution
+
+from disting.measurement.arrays import Complex, Real
+from disting.measurement.distortion import FEWEST, Distortion
+
+NEAR = 11  # lines whose mean is taken
+SURE = 1e-3  # chance of a distortion where there is noise alone
+LEAST = 1e-6  # share of the response below which a distortion is rounding
+SMALLEST = 0.1  # of the mean of all lines: a few lines may show nothing by chance
+
+
+def from_unexcited(
+    between: Distortion | None, omega: Real, response: Complex, periods: int
+) -> Real | None:
+    """Return sigma_s at the excited lines, shape (n_f,), from those between them; None where these
+    show noise alone, where their noise is unknown, or where too few are of the kind that counts.
+    """
+    if between is None or between.noise is None:
+        return None
+    kind = ~between.even if between.told_apart else np.ones(len(between.omega), dtype=bool)
+    total, noise, at = between.level[kind], between.noise[kind], between.omega[kind]
+    size = np.abs(response)
+    if not _is_larger(total, noise, np.interp(at, omega, size), (1.0, periods - 1.0)):
+        return None
+    return _averaged(total**2 - noise**2, at, omega, size)
+
+
+def is_even_beyond_noise(between: Distortion, omega: Real, response: Complex, periods: int) -> bool:
+    """Return True if even lines without excitation show more than noise, as those of a machine do
+    that is not the same in both directions.
+    """
+    if between.noise is None:
+        return False
+    size = np.interp(between.omega, omega, np.abs(response))
+    total, noise, size = (x[between.even] for x in (between.level, between.noise, size))
+    return _is_larger(total, noise, size, (1.0, periods - 1.0))
+
+
+def from_realisations(
+    total: Real, noise: Real, omega: Real, response: Complex, freedom: tuple[float, float]
+) -> Real | None:
+    """Return sigma_s of a mean, shape (n_f,): `total` = its standard deviation by the scatter of
+    n repeats, `noise` = that by the scatter of their periods; `freedom` = degrees of freedom of
+    both at each line. None where noise is all.
+    """
+    size = np.abs(response)
+    if not _is_larger(total, noise, size, (freedom[0] / 2, freedom[1] / 2)):
+        return None
+    return _averaged(total**2 - noise**2, omega, omega, size)
+
+
+def _is_larger(total: Real, noise: Real, size: Real, repeats: tuple[float, float]) -> bool:
+    """Return True if deviations of a response of this `size` are larger than those of the noise;
+    `repeats`: of which each of both comes, beyond the first.
+    """
+    if len(total) < FEWEST:
+        return False
+    near = uniform_filter1d((noise / size) ** 2, NEAR, mode="nearest")
+    ratio = float(np.mean((total / size) ** 2 / np.maximum(near, LEAST**2)))
+    return ratio > float(f_distribution.isf(SURE, *(2 * len(total) * n for n in repeats)))
+
+
+def _averaged(power: Real, at: Real, omega: Real, size: Real) -> Real:
+    """sigma_s at lines `omega` of a response of this `size` from powers of the lines `at`."""
+    nearest = np.argsort(np.abs(np.log(omega[:, None] / at)), axis=1, kind="stable")[:, :NEAR]
+    added = _means(power, nearest)
+    share = _means(power / np.interp(at, omega, size) ** 2, nearest)
+    return np.asarray(np.sqrt(np.sqrt(added * share) * size))
+
+
+def _means(power: Real, nearest: np.ndarray[tuple[int, int], np.dtype[np.intp]]) -> Real:
+    """Means over the lines near each line, shape (n_f,), none of them far below that of all."""
+    least = SMALLEST * max(float(power.mean()), 0.0)
+    return np.asarray(np.maximum(power[nearest].mean(axis=1), least))
