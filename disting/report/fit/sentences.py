@@ -36,12 +36,13 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
     """Three lines: the quality of the data, the structure and whether it explains them, what would
     decide more. Where the sensor quantity is open, the question for it follows the first line.
     """
+    data = f"data: {quality_line(selection)}"
     if selection.question:
-        return (quality_line(selection), selection.question)
+        return (data, selection.question)
     explains = selection.explanation.explains
     structure = _structure(selection) if explains else _missed(selection)
     more = _to_decide(selection) if explains else _unexplained(selection)
-    return (quality_line(selection), "; ".join(structure), "; ".join(more))
+    return (data, f"structure: {'; '.join(structure)}", f"next: {'; '.join(more)}")
 
 
 def suspicions(selection: Selection) -> tuple[str, ...]:
@@ -212,7 +213,7 @@ def _to_decide(selection: Selection) -> Iterator[str]:
     differing = list(_differing(selection))
     if differing:
         yield (
-            f"to decide more, measure again where others differ from {selection.members[0].name}:"
+            f"measure again where others differ from {selection.members[0].name}:"
             f" {', '.join(differing)}; disting plan tells how long"
         )
     if same:
