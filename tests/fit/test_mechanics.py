@@ -74,6 +74,10 @@ def test_what_differs_in_the_actuator_only_is_one_line_with_the_best_cost():
             " (b1); friction at mass 2 (b2): not decided by this data",
         ),
         (
+            ["1:1+lag+delay", "1:1+delay"],
+            "1 mass, force and sensor at mass 1, dead time; lag or none: not decided by this data",
+        ),
+        (
             ["1:1+lag+delay", "1:1"],
             "1 mass, force and sensor at mass 1; lag and dead time or none: not decided by this"
             " data",

@@ -183,8 +183,9 @@ def _structure(selection: Selection) -> Iterator[str]:
     """
     if selection.members:
         yield structure_in_words(fold(selection.members))
+        yield from ["force and sensor are those of the first response"] * _is_joint(selection)
     yield f"{_verdict(selection)}{_standing(selection)}"
-    twins = sum(len(m.twins) for m in selection.members)
+    twins = len({twin.name for m in selection.members for twin in m.twins})
     if twins:
         yield f"{twins} more behave{'s' * (twins == 1)} exactly as one of these"
     if selection.selected is None:
