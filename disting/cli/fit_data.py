@@ -68,8 +68,8 @@ def data(options: argparse.Namespace) -> Data:
 
 
 def notes_of(responses: Sequence[FrequencyResponse]) -> Iterator[str]:
-    """Yield what the readers noticed, each sentence once; of several responses it names the file,
-    or the column, unless it holds for all.
+    """Yield what the readers noticed, each sentence once; of several responses it names the
+    file, or the column, unless it holds for all.
     """
     names = short_names([response.origin for response in responses])
     origins = dict[str, list[str]]()

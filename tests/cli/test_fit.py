@@ -90,7 +90,7 @@ def test_what_is_simulated_is_selected(files, fitted):
 def test_the_printed_result_says_what_matters(fitted):
     said, _ = fitted
     assert "; 2:1+b2+delay explains this data (chi2 per line " in said
-    assert "\n\n241 lines from " in said and "\nnot excluded by this data (" in said
+    assert "\n\ndata: 241 lines from " in said and "\nnot excluded by this data (" in said
     assert "\n16 candidates fitted to 241 frequency lines, validated on test data\n" in said
     assert "selected: 2 masses, damper b2, dead time " in said
     assert "  b2   = " in said and "antiresonance 1" in said and " Hz\n" in said

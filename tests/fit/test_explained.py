@@ -78,9 +78,10 @@ def told(data, found):
     told = found.explanation.noisy or not any(c.chi2 <= LARGEST for c in found.candidates)
     which = "" if told else "that may be selected "
     quality, structure, more = first_lines(found)
-    assert quality.startswith(f"{len(found.task.cost.measured)} lines from ") and more
-    assert structure.startswith(f"none of the candidates {which}explains this data")
-    assert structure.startswith(suspicions(found)[0])
+    assert quality.startswith(f"data: {len(found.task.cost.measured)} lines from ")
+    assert len(more) > len("next: ")
+    assert structure.startswith(f"structure: none of the candidates {which}explains this data")
+    assert structure.startswith(f"structure: {suspicions(found)[0]}")
 
 
 @pytest.mark.slow

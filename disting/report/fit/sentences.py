@@ -37,12 +37,13 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
     """Three lines: the quality of the data, the structure and whether it explains them, what would
     decide more. Where the sensor quantity is open, the question for it follows the first line.
     """
+    data = f"data: {quality_line(selection)}"
     if selection.question:
-        return (quality_line(selection), selection.question)
+        return (data, selection.question)
     explains = selection.explanation.explains
     structure = _structure(selection) if explains else _missed(selection)
     more = _to_decide(selection) if explains else _unexplained(selection)
-    return (quality_line(selection), "; ".join(structure), "; ".join(more))
+    return (data, f"structure: {'; '.join(structure)}", f"next: {'; '.join(more)}")
 
 
 def suspicions(selection: Selection) -> tuple[str, ...]:
@@ -186,8 +187,9 @@ def _structure(selection: Selection) -> Iterator[str]:
     """
     if selection.members:
         yield structure_in_words(fold(selection.members))
+        yield from ["force and sensor are those of the first response"] * _is_joint(selection)
     yield f"{_verdict(selection)}{_standing(selection)}"
-    twins = sum(len(m.twins) for m in selection.members)
+    twins = len({twin.name for m in selection.members for twin in m.twins})
     if twins:
         yield f"{twins} more behave{'s' * (twins == 1)} exactly as one of these"
     if selection.selected is None:
@@ -217,7 +219,7 @@ def _to_decide(selection: Selection) -> Iterator[str]:
     differing = list(_differing(selection))
     if differing:
         yield (
-            f"to decide more, measure again where others differ from {selection.members[0].name}:"
+            f"measure again where others differ from {selection.members[0].name}:"
             f" {', '.join(differing)}; disting plan tells how long"
         )
     if same:
