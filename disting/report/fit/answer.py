@@ -25,11 +25,12 @@ from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
 from disting.report.fit.links import Link, Site, Step, step_to, steps_of
-from disting.report.fit.responses import drawing, fits_of, with_all_sensors
+from disting.report.fit.responses import drawing, with_all_sensors
 from disting.report.fit.sentences import misfit_in_words
 from disting.report.fit.words import (
     between,
     error_in_percent,
+    fits_of,
     name,
     percent,
     readable,
