@@ -262,3 +262,42 @@ def test_tab_offers_no_modules(room):
     module = import_module(f"disting.{room}")
     assert not [name for name in dir(module) if isinstance(getattr(module, name), ModuleType)]
     assert dir(module) == sorted(dir(module)) and "select" in dir(disting.fit)
+
+
+def offered_twice():
+    """Packages that list their public names as imports and with their modules."""
+    package = Path(disting.__file__).parent
+    texts = {path: path.read_text(encoding="utf-8") for path in package.rglob("__init__.py")}
+    return {
+        ".".join(path.relative_to(package.parent).parent.parts): text
+        for path, text in texts.items()
+        if "\noffer(" in text
+    }
+
+
+@pytest.mark.parametrize("package", sorted(offered_twice()))
+def test_names_of_a_package_are_those_that_type_checkers_see(package):
+    tree = ast.parse(offered_twice()[package])
+    (typed,) = [node for node in tree.body if isinstance(node, ast.If)]
+    expected = {
+        alias.asname: getattr(import_module(node.module), alias.name)
+        for node in typed.body
+        for alias in node.names
+    }
+    module = import_module(package)
+    assert {name: getattr(module, name) for name in module.__all__} == expected
+    assert dir(module) == sorted(expected)
+
+
+def test_a_package_offers_functions_that_are_called_as_their_modules():
+    """Whichever is imported first; and its modules, but no other names."""
+    code = (
+        "import disting.fit.select, disting.report.fit.bode, disting.general.alternatives\n"
+        "from disting.fit import select, noise; from disting.general import *\n"
+        "from disting.report.fit import bode\n"
+        "print(*(type(x).__name__ for x in (select, alternatives, bode, noise)))"
+    )
+    assert fresh(code) == ["function", "function", "function", "module"]
+    for name in ("nonsense", "_nonsense"):
+        with pytest.raises(AttributeError, match=r"disting\.fit has no _?nonsense; dir\(\)"):
+            getattr(disting.fit, name)

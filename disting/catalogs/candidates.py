@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from string import ascii_letters
+from typing import TYPE_CHECKING
 
 from disting.algebra.certainty import Certainty
 from disting.catalogs.files import Record, lines, shipped_folder, write_provenance
@@ -24,10 +25,12 @@ from disting.model.chain import Chain, Sensor
 from disting.model.names import name_of
 from disting.model.presentation import plural, summary
 from disting.model.structure import Indices
-from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
+
+if TYPE_CHECKING:  # a matrix that is looked up needs nothing of what decides
+    from disting.verdict.decisions import Decisions
 
 SCHEMA = 1
 FILE = "candidates.jsonl"
@@ -202,7 +205,7 @@ def _chain(r: Record, header: Record) -> Chain:
     )
 
 
-def _rows(decided: Decisions) -> tuple[list[Record], int]:
+def _rows(decided: "Decisions") -> tuple[list[Record], int]:
     """A record for each model but the last, and the error bits of the weakest bounded verdict."""
     grades = {
         (i, j): (where, certainty, bits) for i, j, _, where, certainty, bits in decided.grades()

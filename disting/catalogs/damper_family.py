@@ -22,7 +22,14 @@ import numpy as np
 
 from disting.catalogs.dampers import DamperSets, Masses
 from disting.catalogs.export import premise_text
-from disting.catalogs.files import Record, lines, read_findings, shipped_folder, write_provenance
+from disting.catalogs.files import (
+    Record,
+    damper_name,
+    lines,
+    read_findings,
+    shipped_folder,
+    write_provenance,
+)
 from disting.conditions.finding import WRITTEN
 from disting.conditions.rule import EXACT
 from disting.errors import CatalogError, InputError
@@ -143,11 +150,6 @@ def damper_family(
         progress=progress,
     )
     return DamperFamily(family, sets, the_classes)
-
-
-def damper_name(n_masses: int, damped: bool) -> str:
-    """Name of a file without its suffix, such as dampers-3-damped."""
-    return f"dampers-{n_masses}-{'damped' if damped else 'undamped'}"
 
 
 @cache

@@ -79,6 +79,11 @@ def name_of(n_masses: int, damped: bool) -> str:
     return f"chains-{n_masses}-{'damped' if damped else 'undamped'}"
 
 
+def damper_name(n_masses: int, damped: bool) -> str:
+    """Name of a file of classes without its suffix, such as dampers-3-damped."""
+    return f"dampers-{n_masses}-{'damped' if damped else 'undamped'}"
+
+
 def line(record: Record) -> str:
     """A line of a catalogue file."""
     return json_text(record, ascii_only=True)

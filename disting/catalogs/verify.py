@@ -10,8 +10,8 @@ from pathlib import Path
 from disting.catalogs import network_files
 from disting.catalogs.build import build
 from disting.catalogs.catalog import Catalog, catalog
-from disting.catalogs.damper_family import DamperFamily, damper_family, damper_name, read, text_of
-from disting.catalogs.files import Record, append, lines, name_of, read_findings
+from disting.catalogs.damper_family import DamperFamily, damper_family, read, text_of
+from disting.catalogs.files import Record, append, damper_name, lines, name_of, read_findings
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.side import AnySide
 from disting.errors import CatalogError

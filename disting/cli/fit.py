@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from disting.cli.arguments import is_damped
 from disting.cli.fit_data import Data, data, sensors
@@ -19,19 +20,21 @@ from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.practical import Thresholds
 from disting.fit.judge.reading import read_in_words
-from disting.fit.plan.fit_file import FitRecord, named_by
-from disting.fit.results.export import control_script, write_mat
 from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports, whole_family
 from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
-from disting.fit.search.swarm import by_swarm
 from disting.fit.select import MOST_LINES, select
 from disting.measurement import FrequencyResponse
 from disting.measurement.response import NO_MOTION
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report.fit.selection_json import selection_to_dict
+
+# what few runs need is imported where options name it: an earlier fit, a swarm, files of models
+if TYPE_CHECKING:
+    from disting.fit.plan.fit_file import FitRecord
+    from disting.fit.search.estimate import Method
 
 WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
@@ -111,12 +114,21 @@ def _selected(
             prune=not options.no_prune,
             most_lines=options.lines or MOST_LINES,
             controller=controller,
-            method=by_swarm if options.optimiser == "swarm" else None,
+            method=_method(options.optimiser),
             engine=engine,
             executor=pool,
             progress=progress,
         )
     return replace(selection, command=_again(options.words))
+
+
+def _method(optimiser: str) -> "Method | None":
+    """The search that an option names, None for that of `select`."""
+    if optimiser != "swarm":
+        return None
+    from disting.fit.search.swarm import by_swarm
+
+    return by_swarm
 
 
 def _onward(selection: Selection, out: Path) -> Iterator[str]:
@@ -141,7 +153,7 @@ def _counted(options: argparse.Namespace) -> dict[int, int]:
     return {n: count * 2 ** (n + 2) for n, count in counts.items()}
 
 
-def _left(options: argparse.Namespace) -> FitRecord | None:
+def _left(options: argparse.Namespace) -> "FitRecord | None":
     """The earlier fit that names the candidates; raises InputError where options name others."""
     if options.left is None:
         return None
@@ -151,6 +163,8 @@ def _left(options: argparse.Namespace) -> FitRecord | None:
             f"{options.left} names the candidates: leave"
             f" {enumeration(sorted(own)) or '--damped and --undamped'} away"
         )
+    from disting.fit.plan.fit_file import named_by
+
     return named_by(options.left)
 
 
@@ -207,6 +221,7 @@ def _write(
     test: FrequencyResponse | None,
     options: argparse.Namespace,
 ) -> None:
+    from disting.fit.results.export import control_script, write_mat
     from disting.report.fit import export, write_fit_report
 
     names = selection.selected.practical.names if options.profiles and selection.selected else ()

@@ -18,7 +18,6 @@ from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
 from disting.report.fit.links import commands, new_names
 from disting.report.fit.mechanics_words import actuators_in_words, fold_names
-from disting.report.fit.responses import fits_of
 from disting.report.fit.sentences import (
     first_lines,
     not_in,
@@ -30,6 +29,7 @@ from disting.report.fit.sentences import (
 from disting.report.fit.words import (
     cost_in_words,
     fit_in_words,
+    fits_of,
     name as name_of,
     percent,
     result_unit,

@@ -8,9 +8,8 @@ from disting.catalogs import Catalog, catalog
 from disting.catalogs.damper_family import (
     SHIPPED_SIZES as DAMPER_SIZES,
     damper_catalog,
-    damper_name,
 )
-from disting.catalogs.files import SHIPPED_SIZES, name_of
+from disting.catalogs.files import SHIPPED_SIZES, damper_name, name_of
 from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import Listed, add_out, add_work, size_or_list

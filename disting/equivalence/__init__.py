@@ -17,16 +17,32 @@ Before many candidates are fitted a Gate says which are the same:
 ('R0-p(R1,C1)',)
 """
 
-from disting.equivalence.duplicates import Gate as Gate, gate as gate
-from disting.equivalence.inputs import assignments as assignments, chains_of as chains_of
-from disting.equivalence.listing import (
-    NONE as NONE,
-    Equivalent as Equivalent,
-    Equivalents as Equivalents,
-    Listing as Listing,
-    Origin as Origin,
-    Signs as Signs,
-    among as among,
+from typing import TYPE_CHECKING
+
+from disting.lazy import offer
+
+if TYPE_CHECKING:
+    from disting.equivalence.duplicates import Gate as Gate, gate as gate
+    from disting.equivalence.inputs import assignments as assignments, chains_of as chains_of
+    from disting.equivalence.listing import (
+        NONE as NONE,
+        Equivalent as Equivalent,
+        Equivalents as Equivalents,
+        Listing as Listing,
+        Origin as Origin,
+        Signs as Signs,
+        among as among,
+    )
+    from disting.equivalence.maps import Map as Map, explicit_map as explicit_map
+    from disting.equivalence.search import equivalents as equivalents
+
+offer(
+    __name__,
+    {
+        "duplicates": "Gate gate",
+        "inputs": "assignments chains_of",
+        "listing": "NONE Equivalent Equivalents Listing Origin Signs among",
+        "maps": "Map explicit_map",
+        "search": "equivalents",
+    },
 )
-from disting.equivalence.maps import Map as Map, explicit_map as explicit_map
-from disting.equivalence.search import equivalents as equivalents

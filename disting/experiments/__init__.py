@@ -16,13 +16,31 @@ Experiment(sensor=1)
 `confirms` finds evidence of a verdict under experiments again, as `disting.verify` does.
 """
 
-from disting.experiments.changes import GENERIC as GENERIC, Change as Change
-from disting.experiments.experiment import Experiment as Experiment, MeasuredChain as MeasuredChain
-from disting.experiments.measured_evidence import confirms as confirms
-from disting.experiments.places import (
-    PlacedExperiment as PlacedExperiment,
-    Places as Places,
-    move as move,
-    parse_experiment as parse_experiment,
-    ways as ways,
+from typing import TYPE_CHECKING
+
+from disting.lazy import offer
+
+if TYPE_CHECKING:
+    from disting.experiments.changes import GENERIC as GENERIC, Change as Change
+    from disting.experiments.experiment import (
+        Experiment as Experiment,
+        MeasuredChain as MeasuredChain,
+    )
+    from disting.experiments.measured_evidence import confirms as confirms
+    from disting.experiments.places import (
+        PlacedExperiment as PlacedExperiment,
+        Places as Places,
+        move as move,
+        parse_experiment as parse_experiment,
+        ways as ways,
+    )
+
+offer(
+    __name__,
+    {
+        "changes": "GENERIC Change",
+        "experiment": "Experiment MeasuredChain",
+        "measured_evidence": "confirms",
+        "places": "PlacedExperiment Places move parse_experiment ways",
+    },
 )

@@ -72,84 +72,123 @@ True
 (True, True, 1000.0)
 """
 
-from disting.fit.judge.admissible import Rule as Rule
-from disting.fit.judge.alternatives import Alternative as Alternative
-from disting.fit.judge.candidate import Candidate as Candidate
-from disting.fit.judge.explanation import Explanation as Explanation, Miss as Miss
-from disting.fit.judge.members import Disagreement as Disagreement, Member as Member, Twin as Twin
-from disting.fit.judge.modes import (
-    Result as Result,
-    physical as physical,
-    poles as poles,
-    zeros as zeros,
-)
-from disting.fit.judge.practical import (
-    Practical as Practical,
-    Thresholds as Thresholds,
-    collinearity_index as collinearity_index,
-    condition_indices as condition_indices,
-    importance as importance,
-    practical as practical,
-)
-from disting.fit.judge.quantity import QuantityReading as QuantityReading
-from disting.fit.judge.readings import Reading as Reading
-from disting.fit.noise.covariance import Noise as Noise
-from disting.fit.noise.scatter import Scatter as Scatter
-from disting.fit.plan.design import Design as Design, design as design
-from disting.fit.plan.power import Plan as Plan, plan as plan
-from disting.fit.plan.rival import Rival as Rival, gain as gain
-from disting.fit.results.export import (
-    NumberedStructure as NumberedStructure,
-    control_script as control_script,
-    predict as predict,
-    state_space as state_space,
-    to_control as to_control,
-    to_control_transfer_function as to_control_transfer_function,
-    write_mat as write_mat,
-    zero_pole as zero_pole,
-)
-from disting.fit.results.loop import (
-    Controller as Controller,
-    Margins as Margins,
-    margins as margins,
-)
-from disting.fit.results.model_file import read_model as read_model
-from disting.fit.results.reliance import Statement as Statement
-from disting.fit.results.selection import (
-    Confidence as Confidence,
-    Profile as Profile,
-    Selection as Selection,
-    Sweep as Sweep,
-    confidence as confidence,
-    fit_percent as fit_percent,
-    profile as profile,
-    sweep as sweep,
-)
-from disting.fit.search.candidates import (
-    chosen_ports as chosen_ports,
-    figure_1 as figure_1,
-    variants as variants,
-    whole_family as whole_family,
-)
-from disting.fit.search.cost import (
-    Case as Case,
-    Cost as Cost,
-    lines_by_coherence as lines_by_coherence,
-    lines_by_deviation as lines_by_deviation,
-)
-from disting.fit.search.estimate import Estimate as Estimate, Task as Task
-from disting.fit.search.exchange import estimates as estimates
-from disting.fit.search.joint import (
-    FurtherResponse as FurtherResponse,
-    JointCost as JointCost,
-    JointPlant as JointPlant,
-)
-from disting.fit.search.plant import Plant as Plant
-from disting.fit.search.setup import Setup as Setup
-from disting.fit.select import select as select
-from disting.model.presentation import public_names as _offered
+from typing import TYPE_CHECKING
 
+from disting.lazy import offer
 
-def __dir__() -> list[str]:
-    """What the Tab key offers."""
-    return _offered(globals())
+if TYPE_CHECKING:
+    from disting.fit.judge.admissible import Rule as Rule
+    from disting.fit.judge.alternatives import Alternative as Alternative
+    from disting.fit.judge.candidate import Candidate as Candidate
+    from disting.fit.judge.explanation import Explanation as Explanation, Miss as Miss
+    from disting.fit.judge.members import (
+        Disagreement as Disagreement,
+        Member as Member,
+        Twin as Twin,
+    )
+    from disting.fit.judge.modes import (
+        Result as Result,
+        physical as physical,
+        poles as poles,
+        zeros as zeros,
+    )
+    from disting.fit.judge.practical import (
+        Practical as Practical,
+        Thresholds as Thresholds,
+        collinearity_index as collinearity_index,
+        condition_indices as condition_indices,
+        importance as importance,
+        practical as practical,
+    )
+    from disting.fit.judge.quantity import QuantityReading as QuantityReading
+    from disting.fit.judge.readings import Reading as Reading
+    from disting.fit.noise.covariance import Noise as Noise
+    from disting.fit.noise.scatter import Scatter as Scatter
+    from disting.fit.plan.design import Design as Design, design as design
+    from disting.fit.plan.power import Plan as Plan, plan as plan
+    from disting.fit.plan.rival import Rival as Rival, gain as gain
+    from disting.fit.results.export import (
+        NumberedStructure as NumberedStructure,
+        control_script as control_script,
+        predict as predict,
+        state_space as state_space,
+        to_control as to_control,
+        to_control_transfer_function as to_control_transfer_function,
+        write_mat as write_mat,
+        zero_pole as zero_pole,
+    )
+    from disting.fit.results.loop import (
+        Controller as Controller,
+        Margins as Margins,
+        margins as margins,
+    )
+    from disting.fit.results.model_file import read_model as read_model
+    from disting.fit.results.reliance import Statement as Statement
+    from disting.fit.results.selection import (
+        Confidence as Confidence,
+        Profile as Profile,
+        Selection as Selection,
+        Sweep as Sweep,
+        confidence as confidence,
+        fit_percent as fit_percent,
+        profile as profile,
+        sweep as sweep,
+    )
+    from disting.fit.search.candidates import (
+        chosen_ports as chosen_ports,
+        figure_1 as figure_1,
+        variants as variants,
+        whole_family as whole_family,
+    )
+    from disting.fit.search.cost import (
+        Case as Case,
+        Cost as Cost,
+        lines_by_coherence as lines_by_coherence,
+        lines_by_deviation as lines_by_deviation,
+    )
+    from disting.fit.search.estimate import Estimate as Estimate, Task as Task
+    from disting.fit.search.exchange import estimates as estimates
+    from disting.fit.search.joint import (
+        FurtherResponse as FurtherResponse,
+        JointCost as JointCost,
+        JointPlant as JointPlant,
+    )
+    from disting.fit.search.plant import Plant as Plant
+    from disting.fit.search.setup import Setup as Setup
+    from disting.fit.select import select as select
+
+offer(
+    __name__,
+    {
+        "judge.admissible": "Rule",
+        "judge.alternatives": "Alternative",
+        "judge.candidate": "Candidate",
+        "judge.explanation": "Explanation Miss",
+        "judge.members": "Disagreement Member Twin",
+        "judge.modes": "Result physical poles zeros",
+        "judge.practical": "Practical Thresholds collinearity_index"
+        " condition_indices importance practical",
+        "judge.quantity": "QuantityReading",
+        "judge.readings": "Reading",
+        "noise.covariance": "Noise",
+        "noise.scatter": "Scatter",
+        "plan.design": "Design design",
+        "plan.power": "Plan plan",
+        "plan.rival": "Rival gain",
+        "results.export": "NumberedStructure control_script predict state_space"
+        " to_control to_control_transfer_function write_mat zero_pole",
+        "results.loop": "Controller Margins margins",
+        "results.model_file": "read_model",
+        "results.reliance": "Statement",
+        "results.selection": "Confidence Profile Selection Sweep"
+        " confidence fit_percent profile sweep",
+        "search.candidates": "chosen_ports figure_1 variants whole_family",
+        "search.cost": "Case Cost lines_by_coherence lines_by_deviation",
+        "search.estimate": "Estimate Task",
+        "search.exchange": "estimates",
+        "search.joint": "FurtherResponse JointCost JointPlant",
+        "search.plant": "Plant",
+        "search.setup": "Setup",
+        "select": "select",
+    },
+)

@@ -27,26 +27,52 @@ Evidence of a verdict is found again, as `disting.verify` does: Witnesses by `co
 True
 """
 
-from disting.evidence.general import Witnesses as Witnesses
-from disting.general.alternatives import Alternatives as Alternatives, alternatives as alternatives
-from disting.general.any_model import as_chain as as_chain, without_names as without_names
-from disting.general.equivalent import Equivalent as Equivalent
-from disting.general.fibre import Extent as Extent
-from disting.general.formulas import is_explicit as is_explicit, is_without as is_without
-from disting.general.global_identifiability import (
-    GlobalIdentifiability as GlobalIdentifiability,
-    global_identifiability as global_identifiability,
-)
-from disting.general.identifiability import (
-    LocalIdentifiability as LocalIdentifiability,
-    local_identifiability as local_identifiability,
-    parameter_identifiability as parameter_identifiability,
-)
-from disting.general.matrix_model import AnyModel as AnyModel, MatrixModel as MatrixModel
-from disting.general.model import Model as Model
-from disting.general.model_evidence import confirms as confirms
-from disting.general.model_files import (
-    ModelList as ModelList,
-    read_models as read_models,
-    write_models as write_models,
+from typing import TYPE_CHECKING
+
+from disting.lazy import offer
+
+if TYPE_CHECKING:
+    from disting.evidence.general import Witnesses as Witnesses
+    from disting.general.alternatives import (
+        Alternatives as Alternatives,
+        alternatives as alternatives,
+    )
+    from disting.general.any_model import as_chain as as_chain, without_names as without_names
+    from disting.general.equivalent import Equivalent as Equivalent
+    from disting.general.fibre import Extent as Extent
+    from disting.general.formulas import is_explicit as is_explicit, is_without as is_without
+    from disting.general.global_identifiability import (
+        GlobalIdentifiability as GlobalIdentifiability,
+        global_identifiability as global_identifiability,
+    )
+    from disting.general.identifiability import (
+        LocalIdentifiability as LocalIdentifiability,
+        local_identifiability as local_identifiability,
+        parameter_identifiability as parameter_identifiability,
+    )
+    from disting.general.matrix_model import AnyModel as AnyModel, MatrixModel as MatrixModel
+    from disting.general.model import Model as Model
+    from disting.general.model_evidence import confirms as confirms
+    from disting.general.model_files import (
+        ModelList as ModelList,
+        read_models as read_models,
+        write_models as write_models,
+    )
+
+offer(
+    __name__,
+    {
+        "disting.evidence.general": "Witnesses",
+        "alternatives": "Alternatives alternatives",
+        "any_model": "as_chain without_names",
+        "equivalent": "Equivalent",
+        "fibre": "Extent",
+        "formulas": "is_explicit is_without",
+        "global_identifiability": "GlobalIdentifiability global_identifiability",
+        "identifiability": "LocalIdentifiability local_identifiability parameter_identifiability",
+        "matrix_model": "AnyModel MatrixModel",
+        "model": "Model",
+        "model_evidence": "confirms",
+        "model_files": "ModelList read_models write_models",
+    },
 )

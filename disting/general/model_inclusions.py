@@ -14,10 +14,11 @@ from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import Minor
 from disting.general.matrix_model import AnyModel
+from disting.general.minor import minor_at, minor_of
 from disting.general.network_model import behaviour_of
 from disting.model.question import Settings
-from disting.network.branches import branches, remainder, rest_of
-from disting.network.minors import Places, is_minor, minors, omitted_values
+from disting.network.branches import branches, rest_of
+from disting.network.minors import is_minor, minors
 from disting.network.network import Network
 from disting.questions.inclusion.profiles import by_profiles, inside, order
 
@@ -86,22 +87,6 @@ def _by_minors(small: AnyModel, large: AnyModel, left_is_part: bool) -> Inclusio
     return InclusionFinding(inside(left_is_part), Certainty.THEOREM, evidence=evidence)
 
 
-def minor_of(small: Network, large: Network, left_is_part: bool = True) -> Minor | None:
-    """Return the elements of the large network in the limit that is the small one; None if no such
-    limit is found with bounded work.
-
-    >>> from disting.network import network_of
-    >>> minor_of(network_of("R0-C1"), network_of("R0-p(C1,R1)")).missing
-    ('R1',)
-    """
-    part, whole = small.grounded, large.grounded
-    places = next(minors(part, whole), None)
-    if places is not None:
-        return _minor(part, whole, places, left_is_part)
-    gone = remainder(part, whole)
-    return None if gone is None else Minor(left_is_part, (), *gone)
-
-
 def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
     """Whether the part is the whole without these elements: by its places, or, of one-ports, by
     its branches.
@@ -112,16 +97,12 @@ def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
     if evidence.places:
         places = dict(evidence.places)
         is_known = is_minor(part, whole, places)
-        return is_known and evidence == _minor(part, whole, places, evidence.left_is_part)
+        return is_known and evidence == minor_at(part, whole, places, evidence.left_is_part)
     ports = [(n.sort, n.order, n.sign_of_one_port) for n in (part, whole)]
     form = branches(part)
     is_known = ports[0] == ports[1] and part.sign_of_one_port != 0 and form is not None
     is_known = is_known and not evidence.exponents
     return is_known and form == rest_of(whole, evidence.missing, evidence.rigid)
-
-
-def _minor(part: Network, whole: Network, places: Places, left_is_part: bool) -> Minor:
-    return Minor(left_is_part, tuple(sorted(places.items())), *omitted_values(part, whole, places))
 
 
 def _by_degrees(left: AnyModel, right: AnyModel) -> bool:

@@ -9,27 +9,42 @@ units.
 True
 """
 
-from disting.measurement.files import (
-    beginnings as beginnings,
-    csv_text as csv_text,
-    read as read,
-    read_time_series as read_time_series,
-    write_csv as write_csv,
-)
-from disting.measurement.looking import Look as Look, look as look
-from disting.measurement.objects import (
-    from_arrays as from_arrays,
-    from_control as from_control,
-    from_frame as from_frame,
-    series_from_frame as series_from_frame,
-)
-from disting.measurement.repeats import are_opposite as are_opposite, mean_of as mean_of
-from disting.measurement.response import FrequencyResponse as FrequencyResponse, Signal as Signal
-from disting.measurement.scaling import in_si as in_si
-from disting.measurement.time_series import TimeSeries as TimeSeries
-from disting.model.presentation import public_names as _offered
+from typing import TYPE_CHECKING
 
+from disting.lazy import offer
 
-def __dir__() -> list[str]:
-    """What the Tab key offers."""
-    return _offered(globals())
+if TYPE_CHECKING:
+    from disting.measurement.files import (
+        beginnings as beginnings,
+        csv_text as csv_text,
+        read as read,
+        read_time_series as read_time_series,
+        write_csv as write_csv,
+    )
+    from disting.measurement.looking import Look as Look, look as look
+    from disting.measurement.objects import (
+        from_arrays as from_arrays,
+        from_control as from_control,
+        from_frame as from_frame,
+        series_from_frame as series_from_frame,
+    )
+    from disting.measurement.repeats import are_opposite as are_opposite, mean_of as mean_of
+    from disting.measurement.response import (
+        FrequencyResponse as FrequencyResponse,
+        Signal as Signal,
+    )
+    from disting.measurement.scaling import in_si as in_si
+    from disting.measurement.time_series import TimeSeries as TimeSeries
+
+offer(
+    __name__,
+    {
+        "files": "beginnings csv_text read read_time_series write_csv",
+        "looking": "Look look",
+        "objects": "from_arrays from_control from_frame series_from_frame",
+        "repeats": "are_opposite mean_of",
+        "response": "FrequencyResponse Signal",
+        "scaling": "in_si",
+        "time_series": "TimeSeries",
+    },
+)

@@ -1,6 +1,7 @@
 """The formats of files with measured data: how each is known, and who reads it.
 
-A new format is a row of `FORMATS`; a file is of the first one that it fits.
+A new format is a row of `FORMATS`; a file is of the first one that it fits. Readers of binary files
+are imported when such a file is read.
 """
 
 import inspect
@@ -14,8 +15,6 @@ from disting.measurement.column_words import Column, Role, matching, meaning
 from disting.measurement.columns import columns_of
 from disting.measurement.exports import read_export
 from disting.measurement.impedance import is_impedance, read_impedance
-from disting.measurement.matlab import responses, variables
-from disting.measurement.matlab_models import chosen_response, from_object
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.sinumerik import read_trace
 from disting.measurement.source import Source
@@ -23,7 +22,6 @@ from disting.measurement.table import Table, is_time, signal_columns, time_serie
 from disting.measurement.tabular import frequency_response, response_columns
 from disting.measurement.text_table import decode, table
 from disting.measurement.time_series import TimeSeries
-from disting.measurement.uff import read_uff
 from disting.measurement.understanding import (
     ReadColumn,
     Use,
@@ -113,6 +111,9 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
     """A response object where one is asked for, or where no variables make up a response; else
     variables.
     """
+    from disting.measurement.matlab import responses, variables
+    from disting.measurement.matlab_models import chosen_response, from_object
+
     asked, index = split_index(options.get("response"))
     arrays, stored = variables(file), responses(file)
     of_object = asked is not None and bool(matching(list(stored), asked))
@@ -129,12 +130,22 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
 def _matlab_series(
     file: Source, input: str | int, output: str | int, options: Options
 ) -> TimeSeries:
+    from disting.measurement.matlab import variables
+
     read = check(series_from_variables, options, file)
     return read(variables(file), file.name, str(input), str(output), **options)
 
 
+def _matlab_names(file: Source) -> Iterable[str]:
+    from disting.measurement.matlab import variables
+
+    return variables(file)
+
+
 def _is_matlab_record(file: Source, options: Options) -> bool:
     """Whether there is a clock or a sampling rate, and nothing that is a frequency response."""
+    from disting.measurement.matlab import responses, variables
+
     arrays = variables(file)
     return bool(arrays.keys() & CLOCKS) and not (
         options.keys() & NAMED or holds_frequencies(arrays) or responses(file)
@@ -146,6 +157,8 @@ def _is_universal(file: Source, head: bytes) -> bool:
 
 
 def _from_universal(file: Source, options: Options) -> FrequencyResponse:
+    from disting.measurement.uff import read_uff
+
     return check(read_uff, options, file)(file, **options)
 
 
@@ -207,6 +220,8 @@ def _signal_uses(table: Table, options: Options) -> Iterator[tuple[int, Use]]:
 
 
 def _matlab_columns(file: Source, options: Options) -> tuple[ReadColumn, ...]:
+    from disting.measurement.matlab import responses, variables
+
     stored = responses(file)
     names = [name for name in variables(file) if not any(s.startswith(f"{name}.") for s in stored)]
     names += stored
@@ -236,7 +251,7 @@ FORMATS = (
         name="MATLAB",
         fits=_is_matlab,
         response=_from_matlab,
-        records=Records(_matlab_series, variables, _is_matlab_record),
+        records=Records(_matlab_series, _matlab_names, _is_matlab_record),
         columns=_matlab_columns,
     ),
     Format(

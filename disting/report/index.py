@@ -8,7 +8,8 @@ from operator import itemgetter
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
-from disting.catalogs.damper_family import DamperFamily, damper_name
+from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.files import damper_name
 from disting.catalogs.sizes_files import SizesCatalog
 from disting.report.damper_page import family_title
 from disting.report.describe_machine import machines, parts

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
-from disting.catalogs.damper_family import damper_name
+from disting.catalogs.files import damper_name
 from disting.catalogs.next_files import NextCatalog
 from disting.catalogs.sizes_files import name_of as sizes_name
 from disting.conditions.rule import EXACT, RULES, Role, Rule

@@ -4,17 +4,19 @@ a Protocol that a catalogue and a list of general models implement, models count
 
 import re
 from collections.abc import Iterator, Sized
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from disting.catalogs import Catalog, ModelRow
 from disting.conditions.rule import RULES
 from disting.model.presentation import plural as plural
 from disting.model.question import Domain
 from disting.questions.identifiability.parts import Level
-from disting.verdict.identifiable import Identified
 from disting.verdict.meaning import undetermined_sentence
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
+
+if TYPE_CHECKING:  # words on catalogues are used by pages that need none
+    from disting.catalogs import Catalog, ModelRow
+    from disting.verdict.identifiable import Identified
 
 LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {
@@ -30,7 +32,7 @@ SAID = {relation: relation.value for relation in Relation} | {
 """Relations as pages name them."""
 
 
-def unknown_parameters(row: ModelRow) -> str:
+def unknown_parameters(row: "ModelRow") -> str:
     """What cannot be determined of a model, which pages name in the place of {0}; "" where there is
     nothing.
     """
@@ -60,12 +62,12 @@ class DecidedModels(Protocol):
         """The pairs that are indistinguishable for some parameters only."""
 
 
-def title(catalog: Catalog) -> str:
+def title(catalog: "Catalog") -> str:
     """Such as "Chains of 3 masses, damped"."""
     return f"Chains of {short_title(catalog)}"
 
 
-def short_title(catalog: Catalog) -> str:
+def short_title(catalog: "Catalog") -> str:
     """Such as "3 masses, damped"."""
     return (
         f"{plural(catalog.n_masses, 'mass', 'masses')},"
@@ -73,7 +75,7 @@ def short_title(catalog: Catalog) -> str:
     )
 
 
-def headline(catalog: Catalog) -> str:
+def headline(catalog: "Catalog") -> str:
     """Models, pairs and relations over positive parameters in one sentence.
 
     >>> from disting.catalogs import catalog
@@ -143,7 +145,7 @@ def raise_exponents(text: str) -> str:
     return re.sub(r"\b2\^(-\d+)", lambda match: f"2{match[1].translate(up)}", text)
 
 
-def sets_in_words(found: Identified) -> str:
+def sets_in_words(found: "Identified") -> str:
     """How many parameter vectors over the domain have one behaviour: the numbers found at random
     values, where they are known to depend on the values.
     """

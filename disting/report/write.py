@@ -13,9 +13,8 @@ from disting.catalogs.damper_family import (
     SHIPPED_SIZES as DAMPER_SIZES,
     DamperFamily,
     damper_catalog,
-    damper_name,
 )
-from disting.catalogs.files import SHIPPED_SIZES, name_of
+from disting.catalogs.files import SHIPPED_SIZES, damper_name, name_of
 from disting.catalogs.sizes_files import SizesCatalog, name_of as sizes_name, sizes_catalog
 from disting.files import write_whole
 from disting.report.damper_page import damper_page

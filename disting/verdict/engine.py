@@ -5,45 +5,47 @@ Keys are SHA-256 of the content: what is asked, of which structure, with which s
 code. So nothing is ever invalidated; what changes has another key. Every finished profile is
 stored at once, so a run that is killed resumes there.
 
+An engine is handed to much that asks it for nothing: a fit whose candidates have shipped verdicts,
+a command that looks one up. So what decides on chains, general models and machines, two hundred
+modules, is imported by the method that needs it.
+
 All that leaves the engine is read from the text that is stored, whether it was there or has just
 been written: an answer does not depend on who asked before.
 """
+
+from __future__ import annotations
 
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from disting.algebra.content import full_text
 from disting.behaviour.profile import Profile, profile, profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
-from disting.conditions.side import AnySide
-from disting.experiments.experiment import MeasuredChain
-from disting.experiments.machine_side import ComparedMachine
-from disting.general.any_model import as_model, on_one_variable
-from disting.general.matrix_model import AnyModel
-from disting.general.model_side import ComparedModel
-from disting.general.network_model import behaviour_of
-from disting.general.readings import normalise
 from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical
-from disting.network.network import Network
-from disting.questions.identifiability.analysis import IDENTIFIABILITY, in_names_of
-from disting.questions.identifiability.answer import Identifiability
 from disting.store.code import digest
 from disting.store.scheduling import map_tasks as map_tasks
 from disting.store.store import Store
-from disting.verdict.all_pairs import decisions
-from disting.verdict.cascade import audit, decide
-from disting.verdict.chain_side import ComparedChain
-from disting.verdict.decisions import Decisions, Part
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
+
+if TYPE_CHECKING:
+    from disting.conditions.side import AnySide
+    from disting.experiments.experiment import MeasuredChain
+    from disting.experiments.machine_side import ComparedMachine
+    from disting.general.matrix_model import AnyModel
+    from disting.general.model_side import ComparedModel
+    from disting.network.network import Network
+    from disting.questions.identifiability.answer import Identifiability
+    from disting.verdict.chain_side import ComparedChain
+    from disting.verdict.decisions import Decisions
 
 T = TypeVar("T")
 Progress = Callable[[str, int, int], None]
@@ -78,6 +80,8 @@ class Engine:
 
     def subject(self, name: str, chain: Chain) -> ComparedChain:
         """A side of a comparison whose profiles come from this engine."""
+        from disting.verdict.chain_side import ComparedChain
+
         return ComparedChain(name, chain, self.settings, self.profile, self.answer)
 
     def general_subjects(
@@ -86,6 +90,10 @@ class Engine:
         """The same for general models and networks that are compared with each other, all in one
         variable.
         """
+        from disting.general.any_model import as_model, on_one_variable
+        from disting.general.model_side import ComparedModel
+        from disting.general.network_model import behaviour_of
+        from disting.general.readings import normalise
 
         def profile_of(model: AnyModel) -> Profile:
             """That of its transfer functions."""
@@ -101,6 +109,8 @@ class Engine:
 
     def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
         """The same for a chain under several experiments."""
+        from disting.experiments.machine_side import ComparedMachine
+
         return ComparedMachine(name, measured, self.settings, self.profile, self.answer)
 
     def profile(
@@ -135,6 +145,8 @@ class Engine:
         """The verdict on a pair, from the store or decided and stored; an audited one is always
         computed.
         """
+        from disting.verdict.cascade import audit, decide
+
         if audited:
             return _read_back(json.dumps(audit(left, right, query).to_dict()))
         content = [*left.content, *right.content, full_text(query), self.settings.to_dict()]
@@ -156,6 +168,8 @@ class Engine:
         """All pairs of models, of one size or several; the executor's workers compute what is
         asked for. Models that are chains are compared as chains with each other.
         """
+        from disting.verdict.all_pairs import decisions
+        from disting.verdict.decisions import Part
 
         def prefetch(wanted: Sequence[AnySide], r: Representation, count: int) -> None:
             """Have the profiles of these models computed, many at a time."""
@@ -203,6 +217,8 @@ class Engine:
         progress: Progress = silent,
     ) -> list[Identifiability]:
         """Identifiability of chains, in order; each canonical form is looked at once."""
+        from disting.questions.identifiability.analysis import IDENTIFIABILITY, in_names_of
+
         formed = [(chain, canonical(chain)) for chain in chains]
         self.answer_all(
             IDENTIFIABILITY,

@@ -19,16 +19,18 @@ only others are computed.
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
+from typing import TYPE_CHECKING
 
 from disting.catalogs import candidates as stored
 from disting.errors import CatalogError
 from disting.model.chain import Chain
 from disting.model.presentation import summary
-from disting.questions.positive import renamings
-from disting.verdict.chain_side import ComparedChain
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
+
+if TYPE_CHECKING:  # a side is made by the engine, where a verdict is not shipped
+    from disting.verdict.chain_side import ComparedChain
 
 Limits = Mapping[str, tuple[float, float]]
 """Range of each parameter that is given (one value) or bounded, by name."""
@@ -81,6 +83,9 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
     far as that is known.
     """
     if set(limits) & {*chain.parameters, *other.parameters}:
+        # most fits neither bound nor give a parameter
+        from disting.questions.positive import renamings
+
         return all(
             any(is_within(r, limits) for r in renamings(*pair))
             for pair in ((chain, other), (other, chain))
@@ -95,12 +100,14 @@ def alternatives(
     """The members of a family, of the winner's size, that have the same positive models, or
     some of them, or may have.
     """
-    subject = engine.subject(str(winner), winner)
-    others = (
+    others = [
         c
         for c in family
         if c != winner and c.n_masses == winner.n_masses and not _surely_apart(winner, c)
-    )
+    ]
+    if not others:
+        return ()
+    subject = engine.subject(str(winner), winner)
     the_alternatives = (
         _alternative(subject, engine.subject(str(chain), chain), engine, limits) for chain in others
     )
@@ -108,7 +115,7 @@ def alternatives(
 
 
 def _alternative(
-    winner: ComparedChain, other: ComparedChain, engine: Engine, limits: Limits
+    winner: "ComparedChain", other: "ComparedChain", engine: Engine, limits: Limits
 ) -> Alternative | None:
     """By the conditions, and only where they are silent by the exact decision: inclusions are
     not asked for.

@@ -10,8 +10,7 @@ import numpy as np
 
 from disting.errors import InputError
 from disting.fit.networks import SEED, STARTS, BestFit, search_from
-from disting.fit.search.candidates import reference
-from disting.fit.search.containment import AnyStructure as AnyStructure
+from disting.fit.search.containment import AnyStructure as AnyStructure, name_of as name_of
 from disting.fit.search.descent import Box, fine
 from disting.fit.search.estimate import Estimate, Task, estimate
 from disting.fit.search.exchange import estimates
@@ -46,11 +45,6 @@ class Search:
     again: Callable[[AnyCost], BestFit]
     own: float
     usual: Mapping[str, float]
-
-
-def name_of(structure: AnyStructure) -> str:
-    """What commands and sentences call it."""
-    return reference(structure) if isinstance(structure, Chain) else structure.name
 
 
 def sensor_of(structure: AnyStructure) -> Sensor:

@@ -17,8 +17,8 @@ from itertools import islice
 from math import sqrt
 
 from disting.evidence.limits import Minor
+from disting.fit.search.candidates import reference
 from disting.fit.search.starts import Parameters, Scale
-from disting.general.model_inclusions import minor_of
 from disting.model.chain import Chain
 from disting.model.minors import Fates, Places, fates, minors
 from disting.network.network import Network
@@ -30,6 +30,11 @@ WAYS = 8  # in which one chain becomes another one, at most so many of which are
 # may have run far away
 VANISHING = [10.0**-k for k in (3, 4, 5, *range(6, 97, 10))]
 STIFFEST = 1e12  # times its natural size, for a spring that becomes rigid: rounding grows with it
+
+
+def name_of(structure: AnyStructure) -> str:
+    """Return the name of a structure in commands and sentences."""
+    return reference(structure) if isinstance(structure, Chain) else structure.name
 
 
 def contains(larger: AnyStructure, smaller: AnyStructure) -> bool:
@@ -130,4 +135,6 @@ def _ports(part: Chain, whole: Chain) -> Iterator[Places]:
 
 @lru_cache(maxsize=REMEMBERED)
 def _minor(part: Network, whole: Network) -> Minor | None:
+    from disting.general.minor import minor_of  # chains have their own theorem
+
     return minor_of(part, whole)

@@ -25,8 +25,9 @@ the canonical form of a chain, and `in_names_of` in its names. Of any model `loc
 (<Certainty.BOUNDED: 'bounded'>, 99)
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from disting.lazy import offer
 
 if TYPE_CHECKING:
     from disting.questions.identifiability.analysis import (
@@ -55,29 +56,13 @@ if TYPE_CHECKING:
         Renaming as Renaming,
     )
 
-# The same list, by which a name is found when it is used, as those of `disting` are: whoever reads
-# an answer that is stored needs none of what finds it.
-_NAMES = {
-    "analysis": "IDENTIFIABILITY in_names_of identifiabilities identifiability",
-    "answer": "Identifiability",
-    "check": "confirms",
-    "levels": "Local ParameterIdentifiability by_parameter decode encode joint local",
-    "parts": "Alternative Combination Formula Level Origin Renaming",
-}
-_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
-
-
-def __dir__() -> list[str]:
-    """What the Tab key offers."""
-    return sorted(_HOME)
-
-
-def _named(name: str) -> object:
-    """A name that is imported when it is used."""
-    if name not in _HOME:
-        raise AttributeError(f"{__name__} has no {name}; dir() of it lists what it has")
-    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
-
-
-if not TYPE_CHECKING:  # else any name would be right to a type checker
-    __getattr__ = _named
+offer(
+    __name__,
+    {
+        "analysis": "IDENTIFIABILITY identifiabilities identifiability in_names_of",
+        "answer": "Identifiability",
+        "check": "confirms",
+        "levels": "Local ParameterIdentifiability by_parameter decode encode joint local",
+        "parts": "Alternative Combination Formula Level Origin Renaming",
+    },
+)

@@ -2,17 +2,32 @@
 model of another one.
 """
 
-from disting.questions.positive.confirmation import confirms as confirms, proves as proves
-from disting.questions.positive.ranges import (
-    Ranges as Ranges,
-    confirms_within as confirms_within,
-    ranges as ranges,
-    renamings as renamings,
-    within_ranges as within_ranges,
+from typing import TYPE_CHECKING
+
+from disting.lazy import offer
+
+if TYPE_CHECKING:
+    from disting.questions.positive.confirmation import confirms as confirms, proves as proves
+    from disting.questions.positive.ranges import (
+        Ranges as Ranges,
+        confirms_within as confirms_within,
+        ranges as ranges,
+        renamings as renamings,
+        within_ranges as within_ranges,
+    )
+    from disting.questions.positive.real import (
+        always_real as always_real,
+        confirms_real as confirms_real,
+        real_witness as real_witness,
+    )
+    from disting.questions.positive.shares import positive_finding as positive_finding
+
+offer(
+    __name__,
+    {
+        "confirmation": "confirms proves",
+        "ranges": "Ranges confirms_within ranges renamings within_ranges",
+        "real": "always_real confirms_real real_witness",
+        "shares": "positive_finding",
+    },
 )
-from disting.questions.positive.real import (
-    always_real as always_real,
-    confirms_real as confirms_real,
-    real_witness as real_witness,
-)
-from disting.questions.positive.shares import positive_finding as positive_finding

@@ -2,21 +2,43 @@
 what `disting.fit` found, and asks it for what a figure needs.
 """
 
-from disting.report.fit.bode import bode as bode
-from disting.report.fit.convergence import profile_panels as profile_panels, waterfall as waterfall
-from disting.report.fit.criteria import (
-    models_by_threshold as models_by_threshold,
-    parameters_by_threshold as parameters_by_threshold,
-)
-from disting.report.fit.residuals import residuals as residuals
-from disting.report.fit.selection_json import selection_to_dict as selection_to_dict
-from disting.report.fit.selection_page import fit_page as fit_page
-from disting.report.fit.sensitivity import (
-    collinearity_dots as collinearity_dots,
-    importance_bars as importance_bars,
-)
-from disting.report.fit.write import (
-    export as export,
-    fit_figures as fit_figures,
-    write_fit_report as write_fit_report,
+from typing import TYPE_CHECKING
+
+from disting.lazy import offer
+
+if TYPE_CHECKING:
+    from disting.report.fit.bode import bode as bode
+    from disting.report.fit.convergence import (
+        profile_panels as profile_panels,
+        waterfall as waterfall,
+    )
+    from disting.report.fit.criteria import (
+        models_by_threshold as models_by_threshold,
+        parameters_by_threshold as parameters_by_threshold,
+    )
+    from disting.report.fit.residuals import residuals as residuals
+    from disting.report.fit.selection_json import selection_to_dict as selection_to_dict
+    from disting.report.fit.selection_page import fit_page as fit_page
+    from disting.report.fit.sensitivity import (
+        collinearity_dots as collinearity_dots,
+        importance_bars as importance_bars,
+    )
+    from disting.report.fit.write import (
+        export as export,
+        fit_figures as fit_figures,
+        write_fit_report as write_fit_report,
+    )
+
+offer(
+    __name__,
+    {
+        "bode": "bode",
+        "convergence": "profile_panels waterfall",
+        "criteria": "models_by_threshold parameters_by_threshold",
+        "residuals": "residuals",
+        "selection_json": "selection_to_dict",
+        "selection_page": "fit_page",
+        "sensitivity": "collinearity_dots importance_bars",
+        "write": "export fit_figures write_fit_report",
+    },
 )

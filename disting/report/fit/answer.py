@@ -26,10 +26,11 @@ from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
 from disting.report.fit.links import Link, Site, Step, step_to, steps_of
 from disting.report.fit.mechanics_words import actuators_in_words, headline
-from disting.report.fit.responses import drawing, fits_of, with_all_sensors
+from disting.report.fit.responses import drawing, with_all_sensors
 from disting.report.fit.words import (
     between,
     error_in_percent,
+    fits_of,
     percent,
     readable,
     result_unit,

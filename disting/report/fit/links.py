@@ -8,17 +8,19 @@ from dataclasses import dataclass, replace
 from os import fsencode
 from os.path import relpath
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from disting.catalogs.damper_family import damper_name
-from disting.catalogs.files import name_of as catalog_name
+from disting.catalogs.files import damper_name, name_of as catalog_name
 from disting.fit.judge.members import NOTHING, Member, Twin
-from disting.fit.plan.power import Plan, typical
-from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import listed_form, reference
+from disting.fit.search.containment import AnyStructure, name_of
 from disting.model.chain import Chain
 from disting.model.names import damping_option
+
+if TYPE_CHECKING:  # a fit without a plan has no use for what plans
+    from disting.fit.plan.power import Plan
 
 PURPOSES = {
     "compare": "Whether an experiment tells them apart, and why:",
@@ -172,7 +174,7 @@ def step_to(member: Member, twin: Twin) -> Step:
     return Step(SAME, f"disting compare {member.name} {twin.name}{damped}")
 
 
-def next_command(plan: Plan) -> str:
+def next_command(plan: "Plan") -> str:
     """The command that tells which other experiment tells two structures apart."""
     return f"disting next {command_names(plan.model, plan.other)}"
 
@@ -194,8 +196,10 @@ def named_with_values(
     return f"{command_names(model, *others)} --set {text}"
 
 
-def plan_command(plan: Plan) -> str:
+def plan_command(plan: "Plan") -> str:
     """The command for one pair."""
+    from disting.fit.plan.power import typical  # whoever has a plan has imported it
+
     size = typical(plan.rival.rho) if plan.rival else 0.02
     lines = ""
     if plan.rival:

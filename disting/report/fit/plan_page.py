@@ -1,4 +1,4 @@
-"""The plans against all rivals that a fit names, as a page with a figure and a spectrum for each."""
+"""A page of the plans against all rivals of a fit, with a figure and a spectrum for each."""
 
 import shlex
 from collections.abc import Sequence

@@ -2,12 +2,10 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import isfinite
 
 from markupsafe import Markup
 
-from disting.fit.judge.candidate import Candidate
-from disting.fit.results.selection import Selection, fit_percent
+from disting.fit.results.selection import Selection
 from disting.fit.search.setup import Setup, port
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -83,20 +81,6 @@ def shown_responses(
             )
         )
     return the_shown_responses
-
-
-def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]:
-    """What each response is, and how much of its training data a candidate reproduces, see
-    `fit_percent`; nothing where there is one response.
-    """
-    cost = selection.task.cost
-    if len(cost.parts) == 1:
-        return []
-    pairs = []
-    for at, (setup, part) in enumerate(zip(cost.setups, cost.parts, strict=True)):
-        size = fit_percent(candidate, selection.task, part.measured, at)
-        pairs.append((setup.text, f"{size:.4g} %" if isfinite(size) else "–"))
-    return pairs
 
 
 def with_all_sensors(chain: Chain, selection: Selection) -> Scene:

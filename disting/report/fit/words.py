@@ -3,6 +3,7 @@
 from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.judge.admissible import UNDETERMINED
+from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.modes import Result
 from disting.fit.results.selection import Selection, fit_percent
 from disting.fit.search.cost import Case
@@ -228,3 +229,17 @@ def fit_in_words(
         f"fit: {', '.join(each)} (normalised root mean square of the complex response, 100 % is"
         " perfect)"
     )
+
+
+def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]:
+    """What each response is, and how much of its training data a candidate reproduces, see
+    `fit_percent`; nothing where there is one response.
+    """
+    cost = selection.task.cost
+    if len(cost.parts) == 1:
+        return []
+    pairs = []
+    for at, (setup, part) in enumerate(zip(cost.setups, cost.parts, strict=True)):
+        size = fit_percent(candidate, selection.task, part.measured, at)
+        pairs.append((setup.text, f"{size:.4g} %" if isfinite(size) else "–"))
+    return pairs

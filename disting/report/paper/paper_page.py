@@ -11,8 +11,7 @@ from pathlib import Path
 from markupsafe import Markup, escape
 
 from disting.catalogs import ModelRow
-from disting.catalogs.damper_family import damper_name
-from disting.catalogs.files import name_of
+from disting.catalogs.files import damper_name, name_of
 from disting.files import __version__, write_whole
 from disting.model.family import Family
 from disting.paper import SECTIONS, Claim, Findings, Observed, Outcome

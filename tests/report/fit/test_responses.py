@@ -15,9 +15,9 @@ from disting.fit.search.setup import Setup
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.report.fit.residuals import misfits, misses_of, residuals
-from disting.report.fit.responses import fits_of, in_response, responses, with_all_sensors
+from disting.report.fit.responses import in_response, responses, with_all_sensors
 from disting.report.fit.selection_page import fit_page
-from disting.report.fit.words import fit_in_words
+from disting.report.fit.words import fit_in_words, fits_of
 from tests.report.fit.conftest import DRIVE, VALUES
 
 OMEGA = 2 * np.pi * np.geomspace(10.0, 150.0, 40)
