@@ -50,7 +50,10 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         " FRF.csv): the fewer, the less it excludes"
     )
     p.add_argument("--repeats", type=whole(1, 1000), metavar="R", help=text)
-    text = "write figure, spectrum to run, lines and JSON there; of FIT.json a page with those of each rival"
+    text = (
+        "write figure, spectrum to run, lines and JSON there; of FIT.json a page with those of each"
+        " rival"
+    )
     p.add_argument("--out", type=written_folder, metavar="DIR", help=text)
     add_json(p, "the plan")
     add_damped(p)

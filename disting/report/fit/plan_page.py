@@ -1,4 +1,4 @@
-"""The plans against all rivals that a fit names, as a page with a figure and a spectrum for each."""
+"""Plans against all rivals that a fit names, as a page with figures and spectra."""
 
 import shlex
 from collections.abc import Sequence
