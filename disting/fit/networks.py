@@ -124,9 +124,8 @@ def fit_networks(
     for k, i in enumerate(chosen):
         if fits[k].is_left or fits[k] is best:
             progress("intervals", k, len(chosen))
-            others = [
-                (asked[j], subjects[j].rank) for j, same in enumerate(first) if same == i != j
-            ]
+            twins = [j for j, same in enumerate(first) if same == i != j and not fits[k].contains]
+            others = [(asked[j], subjects[j].rank) for j in twins]
             fits[k] = _detailed(fits[k], plants[k], whitened, data, others)
     ordered = tuple(sorted(fits, key=lambda f: comparable(f.chi2)))
     whole = NetworkSelection(ordered, tuple(asked), tuple(data), scatter, decided)

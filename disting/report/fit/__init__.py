@@ -8,6 +8,7 @@ from disting.report.fit.criteria import (
     models_by_threshold as models_by_threshold,
     parameters_by_threshold as parameters_by_threshold,
 )
+from disting.report.fit.network_page import write_network_report as write_network_report
 from disting.report.fit.residuals import residuals as residuals
 from disting.report.fit.selection_json import selection_to_dict as selection_to_dict
 from disting.report.fit.selection_page import fit_page as fit_page
