@@ -119,15 +119,9 @@ def fit_networks(
     limits = _limits(fits, classes)
     fits = _no_worse_than_contained(fits, limits, [plant for plant, _ in pairs], data, scatter)
     fits = _left([replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits], limits)
-    whitened, best = WhitenedCost(cost, scatter), min(fits, key=lambda f: comparable(f.chi2))
-    plants = [plant for plant, _ in pairs]
-    for k, i in enumerate(chosen):
-        if fits[k].is_left or fits[k] is best:
-            progress("intervals", k, len(chosen))
-            others = [
-                (asked[j], subjects[j].rank) for j, same in enumerate(first) if same == i != j
-            ]
-            fits[k] = _detailed(fits[k], plants[k], whitened, data, others)
+    ranks = {network: subject.rank for network, subject in zip(asked, subjects, strict=True)}
+    whitened, plants = WhitenedCost(cost, scatter), [plant for plant, _ in pairs]
+    fits = _detailed(fits, classes, ranks, plants, whitened, data, progress)
     ordered = tuple(sorted(fits, key=lambda f: comparable(f.chi2)))
     whole = NetworkSelection(ordered, tuple(asked), tuple(data), scatter, decided)
     order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left))
@@ -235,28 +229,47 @@ def _judged(
 
 
 def _detailed(
-    fit: FittedNetwork,
-    plant: AnyNetworkPlant,
+    fits: Sequence[FittedNetwork],
+    classes: Sequence[Sequence[Network]],
+    ranks: Mapping[Network, int],
+    plants: Sequence[AnyNetworkPlant],
     whitened: WhitenedCost,
     data: Sequence[FrequencyResponse],
-    others: Sequence[tuple[Network, int]],
-) -> FittedNetwork:
-    """Return the fit with its intervals, and with the values of others that give the same
-    responses; `others`: these networks and the numbers of their determinable values.
+    progress: Progress,
+) -> list[FittedNetwork]:
+    """Return the fits, those that are left and the best one with intervals and with the values of
+    the other networks of their class; `ranks`: numbers of determinable values.
     """
-    best = np.array([fit.values[name] for name in plant.parameters])
-    relative = np.array([fit.relative[name] for name in plant.parameters])
-    exact = without_noise(data, plant.response(best))
-    twins = list[NetworkTwin]()
-    for at, (network, rank) in enumerate(others):
-        other = network_plant(network, [response.omega for response in data])
-        draw = np.random.default_rng((SEED, at))
-        start = search_from(other, _cost(exact), random_starts(other, exact[0], STARTS, draw)).p
-        same = WhitenedCost(_cost(exact), whitened.known)
-        free = len(other.parameters) - rank
-        twins.append(twin_at(other, start, same, whitened, fit.chi2, free))
-    found = network_intervals(plant, whitened, best, relative)
-    return replace(fit, intervals=found, twins=tuple(twins))
+    own, best = list(fits), min(fits, key=lambda f: comparable(f.chi2))
+    for k, (fit, plant) in enumerate(zip(fits, plants, strict=True)):
+        if not (fit.is_left or fit is best):
+            continue
+        progress("intervals", k, len(fits))
+        p, relative = (
+            np.array([entries[name] for name in plant.parameters])
+            for entries in (fit.values, fit.relative)
+        )
+        exact = without_noise(data, plant.response(p))
+        others = [n for n in classes[k] if n is not fit.network and not fit.contains]
+        twins = (_twin(other, ranks[other], exact, whitened, fit.chi2) for other in others)
+        found = network_intervals(plant, whitened, p, relative)
+        own[k] = replace(fit, intervals=found, twins=tuple(twins))
+    return own
+
+
+def _twin(
+    network: Network,
+    rank: int,
+    exact: Sequence[FrequencyResponse],
+    whitened: WhitenedCost,
+    level: float,
+) -> NetworkTwin:
+    """Return the network with the values that give the responses `exact`."""
+    plant, cost = network_plant(network, [response.omega for response in exact]), _cost(exact)
+    starts = random_starts(plant, exact[0], STARTS, np.random.default_rng(SEED))
+    start = search_from(plant, cost, starts).p
+    free = len(plant.parameters) - rank
+    return twin_at(plant, start, WhitenedCost(cost, whitened.known), whitened, level, free)
 
 
 Limits = Mapping[tuple[int, int], Minor]

@@ -45,6 +45,27 @@ def test_an_element_that_the_data_do_not_show_has_an_end_on_one_side():
     assert all(0 < a < b < np.inf for n, (a, b) in fit.intervals.items() if n != small)
 
 
+def test_an_element_that_has_vanished_comes_back_for_the_intervals():
+    """W1 goes to 1e-30 in the fit; it is bounded by what the data would show, and so are the
+    others with it: the true values, W1 = 0.01 among them, lie inside.
+    """
+    truth = {"R0": 1.0, "R1": 2.0, "C1": 0.01, "W1": 0.01}
+    s = 1j * OMEGA
+    clean = 1 + 1 / (0.01 * s + 1 / (2 + 0.01 / np.sqrt(s)))
+    seen = 0
+    for seed in range(12):
+        (fit,) = fit_networks(measured(clean, seed), [network_of("R0-p(R1-W1,C1)")]).fits
+        low, high = fit.intervals["W1"]
+        assert low < 0.5 and high < 0.5, (seed, fit.intervals)
+        if fit.values["W1"] < 1e-6:
+            seen += 1
+            assert low == 0
+        for name, value in truth.items():
+            low, high = fit.intervals[name]
+            assert low * 0.98 <= value <= high * 1.02, (seed, name, fit.intervals)
+    assert seen >= 2
+
+
 def test_what_only_a_sum_determines_is_known_up_to_the_sum():
     """R0 - R2 - C1: each resistance may be anything up to the sum 3."""
     clean = 3 + 1 / (0.01j * OMEGA)

@@ -6,14 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
-from disting import Engine, Sensor
+from disting import Engine, Sensor, network_of
 from disting.catalogs import catalog
 from disting.catalogs.damper_family import damper_catalog
 from disting.catalogs.network_files import recall
 from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
+from disting.cli import main
 from disting.cli.parser import parser
 from disting.cli.verdicts import list_of
 from disting.fit.judge.quantity import QuantityReading
+from disting.fit.networks import fit_networks
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.joint import FurtherResponse
@@ -24,6 +26,7 @@ from disting.measurement import FrequencyResponse, look
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.links import Site
+from disting.report.fit.network_page import write_network_report
 from disting.report.fit.style import FigureFiles
 from disting.report.listing import Listing, judge
 from disting.report.look import write_look
@@ -76,6 +79,8 @@ def kinds(masses: int) -> dict[str, str]:
         "fit of two responses": "alone/joint/fit.html",
         "fit, nothing explains": "alone/nothing/fit.html",
         "fit, the quantity is open": "alone/quantity/fit.html",
+        "fit of networks": "alone/networks/fit.html",
+        "plan of a fit": "alone/networks/plan.html",
         "look": "alone/look/look.html",
         "look, refused": "alone/refused/look.html",
     }
@@ -109,6 +114,7 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
         folder / "alone" / "look",
     )
     write_look(look(_refused(folder / "refused.csv")), folder / "alone" / "refused")
+    _write_networks(folder / "alone" / "networks")
     found = fits(whole)
     starts = waterfall(found[0][1].described)
     for address, selection, train, test in found:
@@ -116,6 +122,20 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
             write_fit_report(selection, folder / address, train, test)
         else:
             _write_fit(selection, folder / address, train, starts)
+
+
+def _write_networks(folder: Path) -> None:
+    """The page of a fit of circuits of which two are left and two cannot be told apart, and the
+    page of its plan.
+    """
+    omega = 2 * np.pi * np.logspace(-1, 4, 30)
+    noise = np.random.default_rng(2).normal(size=(2, 30)) * 0.04
+    impedance = 10 + 1 / (1 / 80 + 2e-5 * (1j * omega) ** 0.93)
+    measured = impedance * (1 + noise[0] + 1j * noise[1])
+    cell = FrequencyResponse(omega, measured, sensor=Sensor.POSITION, is_impedance=True)
+    texts = ("R0-p(R1,P1)", "R0-p(R1,C1)-p(R2,C2)", "p(R2,R0-P1)", "R0-p(R1,C1)")
+    write_network_report(fit_networks(cell, list(map(network_of, texts))), folder)
+    assert main(["plan", str(folder / "fit.json"), "--out", str(folder)]) == 0
 
 
 def _record(path: Path) -> Path:

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.stats import t as t_distribution
 
 from disting.fit.judge.candidate import OUTSIDE
-from disting.fit.judge.exclusion import limit
+from disting.fit.judge.exclusion import FELT, limit
 from disting.fit.judge.interval import ITERATIONS, STEP, STEPS, STRAIGHT, Interval
 from disting.fit.judge.practical import NoiseModel
 from disting.fit.search.data import WhitenedCost
@@ -28,6 +28,7 @@ from disting.measurement.arrays import Real
 
 LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
 UNKNOWN = 0.5  # deviation of a logarithm from which on tangents do not describe the valley
+NUDGE = 3.0  # factor by which it is seen which way an effect grows
 HALVINGS = 12  # of the last step towards an end
 
 
@@ -53,6 +54,10 @@ def deviations(columns: Real, level: float, noise: NoiseModel) -> list[float]:
 class _Valley:
     """A network about its best values `best`, shape (n_p,), where |e|^2 is `lowest`; `size`: of
     |e|^2 what one degree of freedom has, 1 for scatter alone.
+
+    `felt`, shape (n_p,): the point with each value that has no effect, of an element that has gone
+    to zero or infinity, moved to where it has a little: it does not come back by steps of its
+    logarithm. `growth`: 1 where effect grows with such a value, -1 where it falls, else 0.
     """
 
     plant: AnyNetworkPlant
@@ -60,6 +65,8 @@ class _Valley:
     best: Real
     lowest: float
     size: float
+    felt: Real
+    growth: Real
 
     def rise(self, at: int, logarithm: float, point: Real) -> tuple[float, Real]:
         """Return Q - Q_min with one value held, and the point; the search starts at `point`."""
@@ -71,10 +78,14 @@ class _Valley:
         if not box.free.any():
             cost = float(self.whitened.total(self.plant.response(held[None]))[0])
             return max(cost - self.lowest, 0.0) / self.size, held
+        back = np.where(self.growth != 0, self.felt, held)
+        back[at] = held[at]
+        starts = np.stack([held, back]) if np.any(back != held) else held[None]
         with np.errstate(all="ignore"):  # an element that vanishes leaves the range of numbers
-            points, costs = rough(self.plant, self.whitened, box, held[None], ITERATIONS)
-        risen = (float(costs[0]) - self.lowest) / self.size
-        return (max(risen, 0.0) if isfinite(risen) else inf), points[0]
+            points, costs = rough(self.plant, self.whitened, box, starts, ITERATIONS)
+        best = int(np.argmin(np.nan_to_num(costs, nan=inf)))
+        risen = (float(costs[best]) - self.lowest) / self.size
+        return (max(risen, 0.0) if isfinite(risen) else inf), points[best]
 
 
 def network_intervals(
@@ -87,7 +98,8 @@ def network_intervals(
     wide = float(t_distribution.isf(OUTSIDE / 2, freedom))
     lowest = float(whitened.total(plant.response(best[None]))[0])
     count = max(whitened.n_residuals - len(best), 1)
-    valley = _Valley(plant, whitened, best, lowest, max(1.0, lowest / count))
+    felt, growth = _felt(plant, whitened, best)
+    valley = _Valley(plant, whitened, best, lowest, max(1.0, lowest / count), felt, growth)
     most = limit(1, freedom, level=OUTSIDE)
     straight = STRAIGHT if np.all(relative < UNKNOWN) else 0.0
     found = dict[str, Interval]()
@@ -103,9 +115,31 @@ def network_intervals(
     return found
 
 
+def _felt(plant: AnyNetworkPlant, whitened: WhitenedCost, best: Real) -> tuple[Real, Real]:
+    """Return `felt` and `growth` of a valley."""
+
+    def effects(p: Real) -> Real:
+        """What each value moves when it changes by itself, in units of the scatter."""
+        with np.errstate(all="ignore"):
+            columns = np.nan_to_num(whitened.of(plant, p)[1])
+        return np.asarray(np.linalg.norm(columns, axis=0))
+
+    own = effects(best)
+    felt, growth = best.copy(), np.zeros(len(best))
+    for at in np.flatnonzero((own < FELT) & (own > 0) & np.isinf(plant.highest)):
+        moved = np.ones(len(best))
+        moved[at] = NUDGE
+        growth[at] = 1 if effects(best * moved)[at] > effects(best / moved)[at] else -1
+        felt[at] *= (FELT / own[at]) ** growth[at]
+    return felt, growth
+
+
 def _end(valley: _Valley, at: int, step: float, most: float) -> float:
     """Return the logarithm at which the profile reaches `most`; infinite where it does not."""
-    inside, point = log(max(float(valley.best[at]), np.finfo(float).tiny)), valley.best
+    growth = valley.growth[at]
+    if growth and growth != np.sign(step):
+        return float(np.copysign(inf, step))
+    inside, point = log(max(float(valley.felt[at]), np.finfo(float).tiny)), valley.best
     highest = log(valley.plant.highest[at]) if isfinite(valley.plant.highest[at]) else inf
     for _ in range(STEPS):
         outside = min(inside + step, highest)

@@ -32,8 +32,8 @@ class FittedNetwork:
     not determine; `chi2` per line, 1 for the true one; `excluded_by`: the network that excludes it;
     `apart`: it explains the data apart from its `misses`;
     `columns`: sensitivities of r by the logarithms of the values, shape (n_y, n_p);
-    `intervals` of 95 % of the values, and `twins`, the networks of `same` with their own values:
-    of fits that are left, and of the best one;
+    `intervals` of 95 % of the values: of fits that are not excluded, and of the best one; `twins`,
+    the networks of `same` with their own values: of those of these that contain no other one;
     `contains`: the simplest network left that it contains, "" if there is none.
     """
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         models_by_threshold as models_by_threshold,
         parameters_by_threshold as parameters_by_threshold,
     )
+    from disting.report.fit.network_page import write_network_report as write_network_report
     from disting.report.fit.residuals import residuals as residuals
     from disting.report.fit.selection_json import selection_to_dict as selection_to_dict
     from disting.report.fit.selection_page import fit_page as fit_page
@@ -35,6 +36,7 @@ offer(
         "bode": "bode",
         "convergence": "profile_panels waterfall",
         "criteria": "models_by_threshold parameters_by_threshold",
+        "network_page": "write_network_report",
         "residuals": "residuals",
         "selection_json": "selection_to_dict",
         "selection_page": "fit_page",
