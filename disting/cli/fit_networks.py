@@ -116,6 +116,7 @@ def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[
     scatter = selection.scatter
     yield f"scatter of a line: {100 * scatter.typical:.2g} %, from {scatter.source}"
     yield ""
+    yield from selection.warnings
     yield selection.sentence
     yield ""
     width = max(len(f.network.name) for f in selection.fits)

@@ -13,6 +13,7 @@ from disting.measurement.response import FrequencyResponse
 CAUSES = "probably friction, backlash or the steps of an encoder"
 OTHER_CAUSES = f"{CAUSES}; or a machine that changes between the repeats"
 HOLD = "values hold for this amplitude"
+LEAST = 1e-4  # share of a response below which its size does not matter
 APART = 1.1  # ratio of levels from which on two measurements have different amplitudes
 
 
@@ -64,4 +65,4 @@ def describe_levels(one: FrequencyResponse, other: FrequencyResponse) -> tuple[s
 
 
 def _percent(share: float) -> str:
-    return f"{100 * share:.2g} %"
+    return f"{100 * share:.2g} %" if share >= LEAST else f"below {100 * LEAST:.2g} %"

@@ -81,7 +81,7 @@ def told(data, found):
     assert quality.startswith(f"data: {len(found.task.cost.measured)} lines from ")
     assert len(more) > len("next: ")
     assert structure.startswith(f"structure: none of the candidates {which}explains this data")
-    assert structure.startswith(f"structure: {suspicions(found)[0]}")
+    assert any(said in structure for said in suspicions(found))
 
 
 @pytest.mark.slow

@@ -14,6 +14,7 @@ from disting.fit.noise.scatter import Scatter
 from disting.fit.search.cost import comparable
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
+from disting.measurement.linearity import describe_nonlinearity
 from disting.model.presentation import NotebookTable, summary
 from disting.network.network import Network
 from disting.network.notation.entries import entry_of
@@ -142,12 +143,18 @@ class NetworkSelection(NotebookTable):
         apart = f" apart from {missed}" if chosen.apart else ""
         return f"{chosen.network.name} is the simplest that explains the data{apart}{twins}.{more}"
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on a machine or circuit that is not linear."""
+        return tuple(dict.fromkeys(filter(None, map(describe_nonlinearity, self.measured))))
+
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""
         chosen, (first, *_) = self.selected, self.measured
         return {
             "format": Format.NETWORK_FIT.value,
             "sentence": self.sentence,
+            "warnings": list(self.warnings),
             "selected": chosen.network.name if chosen else None,
             "scatter": self.scatter.typical,
             "frequencies": {

@@ -1,6 +1,8 @@
 """Sentences on what looks wrong in a selection: in its data, its misfit, its values."""
 
 from collections.abc import Iterator
+from dataclasses import replace
+from itertools import combinations
 from math import isfinite
 
 import numpy as np
@@ -15,6 +17,7 @@ from disting.fit.noise.scatter import CLEAR, JUMPS, change, scatter
 from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
+from disting.measurement import FrequencyResponse
 from disting.measurement.linearity import describe_jumps, describe_levels, describe_nonlinearity
 
 FEWEST = 8  # lines of a fit
@@ -142,37 +145,42 @@ def nonlinearity(selection: Selection) -> Iterator[str]:
 
 
 def machine_change(selection: Selection) -> Iterator[str]:
-    """A machine that is not the same in both measurements: where their excitations are known to
+    """A machine that is not the same in two measurements: where their excitations are known to
     differ, one that is not linear.
     """
-    setups = selection.task.cost.setups
-    tests = zip(
-        partners(selection.task.cost, selection.judging), selection.judging.parts, strict=True
-    )
-    for k, (train, judged) in enumerate(tests):
-        test, at = judged.measured, setups.index(selection.judging.setups[k])
-        of = _of_each(selection.judging)[k]
+    for one, other, at, names in _measured_twice(selection):
         fitted = [
-            response_of(selection.described, selection.task, d.omega, at) for d in (train, test)
+            response_of(selection.described, selection.task, d.omega, at) for d in (one, other)
         ]
-        scatters = [scatter(d, [own]) for d, own in zip((train, test), fitted, strict=True)]
-        tau = change(train, test, *scatters)
-        if tau:
-            own = max(this_scatter.typical for this_scatter in scatters)
-            levels = describe_levels(train, test)
-            if levels:
-                yield (
-                    f"the responses{of} at {levels[0]} and {levels[1]} (input, rms) differ by"
-                    f" {100 * tau:.2g} % a line, their scatter is {100 * own:.2g} %: the machine is"
-                    " not linear (friction, backlash); each set of values holds for its own"
-                    " amplitude"
-                )
-                continue
+        scatters = [scatter(d, [own]) for d, own in zip((one, other), fitted, strict=True)]
+        tau, levels = change(one, other, *scatters), describe_levels(one, other)
+        own = max(this_scatter.typical for this_scatter in scatters)
+        if tau and levels:
             yield (
-                f"training and test data{of} differ by {100 * tau:.2g} % a line beyond their"
-                f" scatter of {100 * own:.2g} %: the machine changed between them, for example its"
-                " friction with the amplitude"
+                f"{names} at {levels[0]} and {levels[1]} (input, rms) differ by {100 * tau:.2g} % a"
+                f" line beyond their scatter of {100 * own:.2g} %: the machine is not linear"
+                " (friction, backlash); each set of values holds for its own amplitude"
             )
+        elif tau:
+            yield (
+                f"{names} differ by {100 * tau:.2g} % a line beyond their scatter of"
+                f" {100 * own:.2g} %: the machine changed between them, for example its friction"
+                " with the amplitude"
+            )
+
+
+def _measured_twice(
+    selection: Selection,
+) -> Iterator[tuple[FrequencyResponse, FrequencyResponse, int, str]]:
+    """Pairs of measurements of one response, the number of its setup, and their names."""
+    cost, judging = selection.task.cost, selection.judging
+    whole = enumerate(zip(cost.setups, cost.parts, strict=True))
+    for (i, (setup, one)), (_, (other_setup, other)) in combinations(whole, 2):
+        if replace(setup, delay="") == replace(other_setup, delay=""):
+            yield one.measured, other.measured, i, "two training responses"
+    tests = zip(partners(cost, judging), judging.parts, judging.setups, strict=True)
+    for (train, judged, setup), of in zip(tests, _of_each(judging), strict=True):
+        yield train, judged.measured, cost.setups.index(setup), f"training and test data{of}"
 
 
 def correlated_residuals(selection: Selection) -> Iterator[str]:
