@@ -104,6 +104,17 @@ def test_a_loop_shows_beside_a_strong_excitation(noise):
     assert loop_in_noise(u, y, 1) is not None and loop_in_noise(u, np.cumsum(y), 0) is not None
 
 
+def test_an_input_that_changes_between_samples_is_not_surely_fed_back():
+    """A binary input held for 10 samples of which every fourth is recorded, in open loop."""
+    source, n = np.random.default_rng(0), 80_000
+    u = np.repeat(np.sign(source.normal(size=n // 10)), 10)
+    position = np.cumsum(lfilter([0, 1e-3], [1, -0.999], u))
+    loop = loop_in_noise(u[::4], position[::4], 0)
+    assert loop is None or loop.evidence.endswith("changes between the recorded samples")
+    u, y, _ = closed_loop()
+    assert "unless" not in loop_in_noise(u, y, 1).evidence
+
+
 def test_a_short_or_constant_record_has_no_such_test():
     u, y, _ = closed_loop()
     assert loop_in_noise(u[:400], y[:400], 1) is None
