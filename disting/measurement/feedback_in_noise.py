@@ -15,8 +15,9 @@ loop gives
 which is subtracted. Each of `BLOCKS` parts of the record has its own h, a and r. The mean of the
 remainder over the blocks, divided by its standard error, is t distributed in open loop, so that
 changing noise and the instantaneous frequency of a sweep raise the error and not the statistic.
-Outlying blocks are moved to `OUTLYING` robust deviations from the median. The largest of `LAGS`
-values exceeds its critical value with probability `LEVEL` in open loop. A smooth input that is
+Outlying blocks are moved to `OUTLYING` robust deviations from the median. A loop that is
+slow beside the sampling shows in sums over `RUNS` lags. The largest of all values exceeds its
+critical value with probability `LEVEL` in open loop (Bonferroni). A smooth input that is
 recorded less often than it changes moves the output before it shows: where a smooth input is
 correlated by less than `WEAK`, the evidence says so.
 
@@ -45,6 +46,7 @@ ORDER_OF_WHITENING = 32
 LAGS = 64  # samples into the past and the future
 WEAK = 0.2  # correlation that inputs between the samples reach as well: 0.13 was measured
 WHITE = 0.9  # share of the power of an input that its past does not predict
+RUNS = (1, 4, 16, 64)  # lags of a sum
 BLOCKS = 32
 OUTLYING = 3.0
 TOO_SHORT = 2000  # samples: a block has as many as a lag then
@@ -110,12 +112,12 @@ def loop_in_noise(u: Real, y: Real, order: int) -> NoiseLoop | None:
     values, other = _whitened(own), _whitened(other)
     if not (np.isfinite(values).all() and np.isfinite(other).all()):
         return None
-    rest = _unexplained(values, other)
+    rest = _sums(_unexplained(values, other))
     mean, error = rest.mean(axis=0), rest.std(axis=0, ddof=1) / np.sqrt(BLOCKS)
     # a correlation of n samples has at least the error of white noise
     error = np.maximum(error, 1 / np.sqrt(len(values)))
     sizes = np.abs(mean) / error
-    if sizes.max() < -float(stdtrit(BLOCKS - 1, LEVEL / LAGS / 2)):
+    if sizes.max() < -float(stdtrit(BLOCKS - 1, LEVEL / rest.shape[1] / 2)):
         return None
     correlation = float(np.abs(mean[np.argmax(sizes)]))
     # what whitening leaves of unit power
@@ -177,6 +179,12 @@ def _unexplained(values: Real, other: Real) -> Real:
     middle = np.median(rest, axis=0)
     reach = OUTLYING * 1.4826 * np.median(np.abs(rest - middle), axis=0)
     return np.asarray(np.clip(rest, middle - reach, middle + reach))
+
+
+def _sums(rest: Real) -> Real:
+    """Return sums over neighbouring lags with the variance of a single one, shape (BLOCKS, n)."""
+    sums = (rest.reshape(BLOCKS, -1, m).sum(axis=2) / np.sqrt(m) for m in RUNS)
+    return np.concatenate(list(sums), axis=1)
 
 
 def _blocks(x: Real, size: int) -> Real:
