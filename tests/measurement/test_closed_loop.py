@@ -104,6 +104,32 @@ def test_a_loop_shows_beside_a_strong_excitation(noise):
     assert loop_in_noise(u, y, 1) is not None and loop_in_noise(u, np.cumsum(y), 0) is not None
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_loop_that_is_slow_beside_the_sampling_shows_and_its_bias_is_estimated(seed):
+    """A plant with a time constant of 100 samples, whose disturbance is as strong as its input."""
+    source, n = np.random.default_rng(seed), 80_000
+    r, d = source.normal(size=n), source.normal(size=n)
+    y = lfilter([0, 0.05], [1, -0.99, 0.2 * 0.05], r + d)
+    u = r - 0.2 * np.roll(y, 1)
+    u[0] = r[0]
+    found = TimeSeries(u, y, RATE, "velocity").response(segment=4000, band=(0.5, 20))
+    assert found.is_biased_by_loop
+    exact = freqz([0, 0.05], [1, -0.99], found.frequency, fs=RATE)[1]
+    alone = np.abs(found.G - exact) / np.abs(found.G * found.loop.scatter)
+    assert np.mean(np.abs(found.G - exact) ** 2 / found.deviation**2) < 2 < np.mean(alone**2)
+
+
+def test_an_input_that_changes_between_samples_is_not_surely_fed_back():
+    """A binary input held for 10 samples of which every fourth is recorded, in open loop."""
+    source, n = np.random.default_rng(0), 80_000
+    u = np.repeat(np.sign(source.normal(size=n // 10)), 10)
+    position = np.cumsum(lfilter([0, 1e-3], [1, -0.999], u))
+    loop = loop_in_noise(u[::4], position[::4], 0)
+    assert loop is None or loop.evidence.endswith("changes between the recorded samples")
+    u, y, _ = closed_loop()
+    assert "unless" not in loop_in_noise(u, y, 1).evidence
+
+
 def test_a_short_or_constant_record_has_no_such_test():
     u, y, _ = closed_loop()
     assert loop_in_noise(u[:400], y[:400], 1) is None
