@@ -18,6 +18,7 @@ from disting.report.fit.answer import answer, list_structures, parameter_rows, r
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
 from disting.report.fit.links import Site, next_steps
+from disting.report.fit.look_alikes import look_alike_sentences
 from disting.report.fit.responses import drawing, shown_responses, with_all_sensors
 from disting.report.fit.sentences import first_lines, quantity_rows, suspicions
 from disting.report.fit.style import FigureFiles
@@ -97,6 +98,7 @@ def fit_page(
         weakest=weakest(candidate),
         nearest=nearest(selection)[:NEAREST],
         alternatives=alternatives(selection),
+        look_alikes=list(look_alike_sentences(selection)),
         others=rivals(selection),
         reasoning=reasons(selection),
         measured="J cross-validated" if test is None else "J test",
