@@ -17,6 +17,7 @@ from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
 from disting.report.fit.doubts import limits_in_words
 from disting.report.fit.links import commands, new_names
+from disting.report.fit.look_alikes import look_alike_sentences
 from disting.report.fit.mechanics_words import actuators_in_words, fold_names
 from disting.report.fit.sentences import (
     first_lines,
@@ -65,6 +66,7 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     if selection.selected and selection.explanation.explains:
         yield ""
         yield from _alternatives(selection)
+        yield from look_alike_sentences(selection)
     rest = not_in(answer, suspicions(selection))
     yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
     yield from (

@@ -18,6 +18,7 @@ from disting.fit.search.candidates import listed_form, reference
 from disting.measurement import FrequencyResponse
 from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain
+from disting.report.fit.look_alikes import look_alikes_to_dict
 from disting.report.fit.quality import quality_remarks
 from disting.report.fit.sentences import first_lines, places, suspicions
 
@@ -40,6 +41,7 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
             {**_named(a.chain), "relation": a.relation.value, "reason": a.sentence}
             for a in selection.alternatives
         ],
+        "look_alikes": look_alikes_to_dict(selection),
         "not_fitted": [
             {**_named(c), "same_as": _named(other)} for c, other in selection.same_as.items()
         ],

@@ -24,6 +24,7 @@ from disting.report.fit.answer import (
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
 from disting.report.fit.links import Site, next_steps
+from disting.report.fit.look_alikes import look_alike_sentences
 from disting.report.fit.responses import drawing, shown_responses, with_all_sensors
 from disting.report.fit.sentences import first_lines, not_in, quantity_rows, suspicions
 from disting.report.fit.style import FigureFiles
@@ -104,6 +105,7 @@ def fit_page(
         weakest=weakest(candidate),
         nearest=nearest(selection)[:NEAREST],
         alternatives=alternatives(selection),
+        look_alikes=list(look_alike_sentences(selection)),
         others=rivals(selection),
         reasoning=reasons(selection),
         measured="J cross-validated" if test is None else "J test",

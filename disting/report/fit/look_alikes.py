@@ -1,0 +1,81 @@
+"""Sentences about structures outside the candidates that have the responses of the selected one."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from disting.fit.judge.look_alikes import (
+    LookAlike,
+    LookAlikeKind,
+    LookAlikes,
+    look_alikes,
+)
+from disting.fit.results.selection import Selection
+from disting.fit.search.joint import JointCost
+
+RELATIVE = "force and encoder between base and motor"
+REDUCED = "m1 is then the reduced mass m1 mb/(m1 + mb)"
+VALUES = {
+    LookAlikeKind.BRANCH: "values",
+    LookAlikeKind.ELASTIC_BASE: "values, if the highest resonance is that of the base",
+    LookAlikeKind.FREE_BASE: "values for one of many possible mb",
+}
+
+
+def look_alikes_of(selection: Selection) -> LookAlikes:
+    """Look-alikes of the selected structure, none if nothing is selected."""
+    if not selection.selected or not selection.explanation.explains or selection.question:
+        return LookAlikes(not_looked_for="nothing is selected")
+    if isinstance(selection.task.cost, JointCost):
+        return LookAlikes(not_looked_for="several responses were fitted together")
+    if selection.task.fixed or selection.task.bounds:
+        return LookAlikes(not_looked_for="values are given or bounded")
+    return look_alikes(selection.selected.chain, selection.selected.estimate.parameters)
+
+
+def look_alike_sentences(selection: Selection) -> Iterator[str]:
+    """One sentence for each look-alike; why none is named; the way to fit an elastic base."""
+    of = look_alikes_of(selection)
+    if of.not_looked_for:
+        if selection.selected:
+            yield f"look-alikes outside the candidates were not looked for: {of.not_looked_for}"
+        return
+    yield from (_sentence(x) for x in of.found)
+    if not of.found:
+        yield "no branch of as many masses and no base is proven to have the same responses"
+    if of.base_differs:
+        yield (
+            "an elastic base (force and encoder between base and motor) has other responses; "
+            "--base makes it a candidate"
+        )
+
+
+def look_alikes_to_dict(selection: Selection) -> dict[str, Any]:
+    """Plain data of the look-alikes, values in SI units."""
+    of = look_alikes_of(selection)
+    return {
+        "not_looked_for": of.not_looked_for,
+        "base_differs": of.base_differs,
+        "found": [
+            {
+                "kind": x.kind.value,
+                "name": x.text,
+                "sentence": _sentence(x),
+                "values": dict(x.values) if x.values is not None else None,
+            }
+            for x in of.found
+        ],
+    }
+
+
+def _sentence(x: LookAlike) -> str:
+    what = "a branch " * (x.kind is LookAlikeKind.BRANCH) + x.text
+    if x.kind is not LookAlikeKind.BRANCH:
+        what += f" ({RELATIVE})"
+    reduced = "" if x.kind is LookAlikeKind.BRANCH else f"; {REDUCED}"
+    return f"{what} has the same responses{reduced}{_values(x.kind, x.values)}"
+
+
+def _values(kind: LookAlikeKind, values: Mapping[str, float] | None) -> str:
+    if values is None:
+        return ""
+    return f"; {VALUES[kind]}: {', '.join(f'{n} = {x:.5g}' for n, x in values.items())}"

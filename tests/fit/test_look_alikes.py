@@ -1,0 +1,135 @@
+"""Look-alikes outside the candidates: their responses, computed here from mass, damping and
+stiffness matrices, equal those of the fitted chain.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from disting.fit.judge.look_alikes import LookAlikeKind, look_alikes
+from disting.general.any_model import as_model
+from disting.model.chain import Chain
+from disting.network.chains import of_chain
+from disting.network.element import Element, Port
+from disting.network.network import Network
+from disting.verdict.comparison import compare
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
+
+OMEGA = 2 * np.pi * np.geomspace(1, 2000, 60)
+VALUES = {
+    "m1": 1.23e-3, "m2": 3.11e-3, "m3": 1.7e-3, "m4": 0.7e-3, "k12": 4123.7, "k23": 971.3,
+    "k34": 2000.3, "d12": 0.03, "d23": 0.0123, "d34": 0.01, "b1": 0.02, "b2": 0.01, "b3": 0.03,
+}  # fmt: skip
+
+
+def response(values, joints, force, sensor, base=None):
+    """Position per force by brute force. Joints {name: (i, j)}; ports (plus, minus), 0: ground;
+    `base`: the number of its mass.
+    """
+    s, size = 1j * OMEGA, max(max(pair) for pair in (*joints.values(), force, sensor, (1, 0)))
+    matrix = np.zeros((len(OMEGA), size + 1, size + 1), complex)
+    for name, value in values.items():
+        if name[0] == "m":
+            i = base if name == "mb" else int(name[1:])
+            matrix[:, i, i] += value * s**2
+            continue
+        if name[1:] == "b":
+            i, j = base, 0
+        else:
+            i, j = joints[name[1:]] if name[1:] in joints else (int(name[1:]), 0)
+        for a, b, sign in ((i, i, 1), (j, j, 1), (i, j, -1), (j, i, -1)):
+            matrix[:, a, b] += sign * value * (1 if name[0] == "k" else s)
+    push = np.zeros(size + 1)
+    push[force[0]] += 1
+    push[force[1]] -= 1
+    moved = np.zeros((len(OMEGA), size + 1), complex)
+    moved[:, 1:] = np.linalg.solve(
+        matrix[:, 1:, 1:], np.broadcast_to(push[1:, None], (len(OMEGA), size, 1))
+    )[..., 0]
+    return moved[:, sensor[0]] - moved[:, sensor[1]]
+
+
+def chain_response(chain):
+    joints = {f"{i}{i + 1}": (i, i + 1) for i in range(1, chain.n_masses)}
+    values = {name: VALUES[name] for name in chain.parameters}
+    return response(values, joints, (1, 0), (chain.meas_plus, 0))
+
+
+def look_alike_response(look_alike):
+    if look_alike.kind is LookAlikeKind.BRANCH:
+        edges, _, sensor = (part.strip() for part in look_alike.text.split(";")[:3])
+        pairs = [part.strip().replace("=", "~").split("~") for part in edges.split(",")]
+        joints = {i + j: (int(i), int(j)) for i, j in pairs}
+        return response(look_alike.values, joints, (1, 0), (int(sensor[1:]), 0))
+    n = sum(name[0] == "m" and name != "mb" for name in look_alike.values)
+    joints = {f"{i}{j}": (i, j) for i, j in pairwise(range(1, n + 1))}
+    return response(look_alike.values, joints, (1, n + 1), (1, n + 1), base=n + 1)
+
+
+@pytest.mark.parametrize("damped", [False, True])
+@pytest.mark.parametrize("masses", [1, 2, 3, 4])
+@pytest.mark.parametrize("sensor", [1, 2, 3, 4])
+@pytest.mark.parametrize("grounded", [(), (1,)])
+def test_responses_of_look_alikes_are_those_of_the_chain(masses, sensor, damped, grounded):
+    if sensor > masses:
+        return
+    chain = Chain(masses, 0, 0, 1, 0, sensor, damped=damped or masses == 1, ground_dampers=grounded)
+    mine = chain_response(chain)
+    for look_alike in look_alikes(chain, VALUES).found:
+        if look_alike.values is not None:
+            assert all(value > 0 for value in look_alike.values.values()), look_alike
+            error = np.abs(look_alike_response(look_alike) - mine) / np.abs(mine)
+            assert error.max() < 1e-9, look_alike
+
+
+def kinds(chain):
+    return [(x.kind.value, x.text) for x in look_alikes(chain, VALUES).found]
+
+
+def test_look_alikes_are_those_of_the_theorems():
+    """All rooted trees of as many masses and both bases, undamped; damped ones only for two."""
+    undamped = kinds(Chain(4, damped=False))
+    assert undamped == [
+        ("elastic base", "3 masses on an elastic base"),
+        ("free base", "4 masses on a base that moves freely"),
+        ("branch", "1~2, 1~3, 1~4; F1; S1"),
+        ("branch", "1~2, 1~3, 2~4; F1; S1"),
+        ("branch", "1~2, 2~3, 2~4; F1; S1"),
+    ]
+    assert kinds(Chain(2, damped=True)) == [
+        ("elastic base", "1 mass on an elastic base"),
+        ("free base", "2 masses on a base that moves freely"),
+    ]
+    assert kinds(Chain(3, damped=True)) == [("free base", "3 masses on a base that moves freely")]
+    assert kinds(Chain(3, 0, 0, 1, 0, 2, damped=True)) == [("branch", "1=2, 1=3; F1; S2")]
+    assert kinds(Chain(3, damped=True, ground_dampers=(3,))) == []
+
+
+@pytest.mark.parametrize(("masses", "damped"), [(2, False), (3, False), (4, False), (2, True)])
+def test_engine_confirms_the_theorem_of_the_free_base(masses, damped):
+    """The general engine knows nothing of the theorem."""
+    chain = Chain(masses, damped=damped)
+    base = masses + 1
+    elements = (*of_chain(chain).elements, Element("mb", "m", (base,)))
+    ports = (Port(1, base),)
+    free = Network(elements, ports, ports, chain.sensor.order)
+    verdict = compare(as_model(chain), as_model(free), query=Query(View.POSITIVE, inclusion=False))
+    assert verdict.relation is Relation.INDISTINGUISHABLE
+
+
+@pytest.mark.parametrize("damped", [False, True])
+def test_fitted_mass_is_the_reduced_mass(damped):
+    for masses in (2, 3):
+        for x in look_alikes(Chain(masses, damped=damped), VALUES).found:
+            if x.kind is not LookAlikeKind.BRANCH:
+                m1, mb = x.values["m1"], x.values["mb"]
+                assert m1 * mb / (m1 + mb) == pytest.approx(VALUES["m1"], rel=1e-12)
+
+
+def test_limits_are_named():
+    assert look_alikes(Chain(5, damped=False), VALUES).not_looked_for
+    assert look_alikes(Chain(3, 0, 0, 2, 0, 2), VALUES).not_looked_for
+    assert look_alikes(Chain(3, damped=True), VALUES).base_differs
+    assert not look_alikes(Chain(3, damped=False), VALUES).base_differs
