@@ -18,6 +18,7 @@ from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
+from disting.report.fit.answer import list_lines, list_structures
 from disting.report.fit.mechanics_words import fold_names, headline, structure_in_words
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
@@ -155,6 +156,15 @@ def test_text_and_data_say_the_same(found):
         " dead time or lag: not decided by this data; 2:1+b1+delay explains this data (chi2 per"
     )
     assert lines[2].startswith("next: measure again where others differ from 2:1+b1+delay: ")
+
+
+def test_the_page_lists_the_same_lines_the_best_structure_first(found):
+    listed = list_lines(list_structures(found, found.task.cost.measured, None))
+    plain = selection_to_dict(found)["mechanics"]["lines"]
+    shown = [(line.name, sorted(s.member.name for s in line.structures)) for line in listed]
+    assert shown == [(line["name"], sorted(line["members"])) for line in plain]
+    assert [line.structures[0].member.name for line in listed] == [line["best"] for line in plain]
+    assert listed[0].adds == "dead time or lag"
 
 
 def test_no_suspicion_is_lost_and_none_is_said_twice(found):
