@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, strategies as st
 
 from disting.cli.fit_text import fit_text
+from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.mechanics import fold
 from disting.fit.judge.members import Member
-from disting.fit.judge.practical import Practical
+from disting.fit.judge.practical import Practical, Thresholds
 from disting.fit.noise.covariance import Noise
 from disting.fit.search.candidates import figure_1, reference
 from disting.fit.search.estimate import Estimate
@@ -22,7 +23,7 @@ from disting.report.fit.answer import list_lines, list_structures
 from disting.report.fit.mechanics_words import fold_names, headline, structure_in_words
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
-from tests.fit.drives import response
+from tests.fit.drives import OMEGA, response
 
 
 def member(name, j=1.0, **zero):
@@ -182,3 +183,18 @@ def test_where_one_structure_is_left_nothing_is_to_decide():
     assert first_lines(alone)[2].startswith(
         "next: nothing is left to decide between the candidates"
     )
+
+
+def test_of_too_few_lines_more_are_asked_for():
+    few = select(response(DRIVE, VALUES, omega=OMEGA[::12], noise=0.01, seed=1), [DRIVE])
+    assert first_lines(few)[1].startswith("structure: 10 lines are too few to judge 2:1+b1+delay")
+    assert first_lines(few)[2] == "next: measure at least 18 lines"
+
+
+def test_where_no_candidate_may_be_selected_nothing_is_called_decided():
+    train = response(DRIVE, VALUES, noise=0.01, seed=1)
+    strict = Thresholds(1.5, 1.5, 1.01)
+    none = select(train, [DRIVE], thresholds=strict, rule=Rule.PAPER)
+    assert none.selected is None and selection_to_dict(none)["mechanics"] is None
+    assert "; no candidate is selected: " in first_lines(none)[1]
+    assert first_lines(none)[2].startswith("next: more lines, a wider band or known parameters")
