@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, strategies as st
 
 from disting.cli.fit_text import fit_text
+from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.mechanics import fold
 from disting.fit.judge.members import Member
-from disting.fit.judge.practical import Practical
+from disting.fit.judge.practical import Practical, Thresholds
 from disting.fit.noise.covariance import Noise
 from disting.fit.search.candidates import figure_1, reference
 from disting.fit.search.estimate import Estimate
@@ -18,10 +19,11 @@ from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.names import chain_of
+from disting.report.fit.answer import list_lines, list_structures
 from disting.report.fit.mechanics_words import fold_names, headline, structure_in_words
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
-from tests.fit.drives import response
+from tests.fit.drives import OMEGA, response
 
 
 def member(name, j=1.0, **zero):
@@ -157,6 +159,15 @@ def test_text_and_data_say_the_same(found):
     assert lines[2].startswith("next: measure again where others differ from 2:1+b1+delay: ")
 
 
+def test_the_page_lists_the_same_lines_the_best_structure_first(found):
+    listed = list_lines(list_structures(found, found.task.cost.measured, None))
+    plain = selection_to_dict(found)["mechanics"]["lines"]
+    shown = [(line.name, sorted(s.member.name for s in line.structures)) for line in listed]
+    assert shown == [(line["name"], sorted(line["members"])) for line in plain]
+    assert [line.structures[0].member.name for line in listed] == [line["best"] for line in plain]
+    assert listed[0].adds == "dead time or lag"
+
+
 def test_no_suspicion_is_lost_and_none_is_said_twice(found):
     text = "\n".join(fit_text(found, found.task.cost.measured))
     for sentence in suspicions(found):
@@ -172,3 +183,18 @@ def test_where_one_structure_is_left_nothing_is_to_decide():
     assert first_lines(alone)[2].startswith(
         "next: nothing is left to decide between the candidates"
     )
+
+
+def test_of_too_few_lines_more_are_asked_for():
+    few = select(response(DRIVE, VALUES, omega=OMEGA[::12], noise=0.01, seed=1), [DRIVE])
+    assert first_lines(few)[1].startswith("structure: 10 lines are too few to judge 2:1+b1+delay")
+    assert first_lines(few)[2] == "next: measure at least 18 lines"
+
+
+def test_where_no_candidate_may_be_selected_nothing_is_called_decided():
+    train = response(DRIVE, VALUES, noise=0.01, seed=1)
+    strict = Thresholds(1.5, 1.5, 1.01)
+    none = select(train, [DRIVE], thresholds=strict, rule=Rule.PAPER)
+    assert none.selected is None and selection_to_dict(none)["mechanics"] is None
+    assert "; no candidate is selected: " in first_lines(none)[1]
+    assert first_lines(none)[2].startswith("next: more lines, a wider band or known parameters")

@@ -77,11 +77,6 @@ class Folded:
     undecided: Parts = ()
     actuators: tuple[Parts, ...] = ()
 
-    @property
-    def members(self) -> tuple[Member, ...]:
-        """All structures, line by line."""
-        return tuple(member for line in self.lines for member in line.members)
-
 
 def fold(members: Sequence[Member]) -> Folded:
     """Fold structures to mechanics; lines and members keep their order."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from disting.fit.judge.mechanics import ACTUATOR, Folded, Line, Parts
+from disting.fit.judge.mechanics import ACTUATOR, Folded, Parts
 from disting.report.words import plural, with_and
 
 NOT_DECIDED = "not decided by this data"
@@ -66,11 +66,6 @@ def actuators_in_words(actuators: Sequence[Parts]) -> str:
         for parts in sorted(actuators, key=lambda parts: (not parts, len(parts)))
     ]
     return with_or(words)
-
-
-def line_in_words(line: Line) -> str:
-    """Return the name of a folded line, and what its actuator may add."""
-    return f"{line.name}, {actuators_in_words(line.actuators)}"
 
 
 def fold_names(names: Iterable[str]) -> list[str]:

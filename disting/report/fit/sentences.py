@@ -215,6 +215,9 @@ def _standing(selection: Selection) -> str:
 
 def _to_decide(selection: Selection) -> Iterator[str]:
     """What would decide more between the structures that are left."""
+    if not selection.members:
+        yield "more lines, a wider band or known parameters (--fix) may determine all parameters"
+        return
     same = list(_alike(selection))
     differing = list(_differing(selection))
     if differing:
@@ -251,8 +254,6 @@ def _alike(selection: Selection) -> Iterator[tuple[str, list[str]]]:
 
 def _differing(selection: Selection) -> Iterator[str]:
     """Where the lines of the folded set, and another actuator, differ most from the first one."""
-    if not selection.members:
-        return
     first, *others = fold(selection.members).lines
     shown = [(line.name, line.best) for line in others]
     shown += [(actuators_in_words([actuator(m.candidate.chain)]), m) for m in first.members[1:]]
@@ -284,6 +285,9 @@ def _missed(selection: Selection) -> Iterator[str]:
 def _unexplained(selection: Selection) -> Iterator[str]:
     """What may explain the data."""
     yield from _other_quantities(selection)
+    if selection.explanation.too_few:
+        yield f"measure at least {selection.explanation.needed} lines"
+        return
     if selection.explanation.noisy:
         yield "more excitation or more periods lower the noise"
     if bad(selection):
