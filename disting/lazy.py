@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from types import ModuleType
+from typing import TYPE_CHECKING as TYPE_CHECKING
 
 
 def offer(package: str, modules: Mapping[str, str]) -> None:

@@ -163,6 +163,45 @@ def test_a_verdict_is_looked_up_without_what_decides_it():
     assert not [name for name in loaded if name.startswith(("disting.fibres.", "disting.general"))]
 
 
+MOST_OF_A_FIT = 213  # modules of the package, half of what a fit loaded before
+MOST_LINES_OF_A_FIT = 40_000  # half of 82,000
+NOT_FOR_A_FIT = (
+    "fit.plan", "fit.networks", "fibres.ideals", "general", "experiments.machine_side",
+    "questions.inclusion", "report.page", "report.drawing", "verdict.cascade", "verdict.chain_side",
+    "catalogs.catalog", "measurement.matlab", "measurement.uff", "simulation.bench",
+)  # fmt: skip
+
+
+def test_a_fit_loads_half_of_what_it_loaded(tmp_path):
+    """Of two simulated measurements, printed as text: neither a plan nor a simulation, no engine
+    for networks, no page, no reader of another format.
+    """
+    for seed in ("1", "2"):
+        command = (
+            *("simulate", "--samples", "1024", "--periods", "3"),
+            *("--seed", seed, "--csv", str(tmp_path / f"{seed}.csv")),
+        )
+        subprocess.run(
+            [sys.executable, "-m", "disting", *command],
+            check=True,
+            capture_output=True,
+            timeout=600,
+        )
+    words = ["fit", str(tmp_path / "1.csv"), "--test", str(tmp_path / "2.csv"), "--masses", "2"]
+    code = (
+        f"import sys; from disting.cli import main; status = main({words})\n"
+        "loaded = {n: m.__file__ for n, m in sys.modules.items() if n.startswith('disting')}\n"
+        "lines = sum(len(open(f, encoding='utf-8').readlines()) for f in loaded.values())\n"
+        "print('loaded', status, lines, *loaded)"
+    )
+    said = fresh(code)
+    status, lines, *loaded = said[said.index("loaded") + 1 :]
+    assert status == "0" and "disting.fit.select" in loaded
+    assert len(loaded) <= MOST_OF_A_FIT and int(lines) <= MOST_LINES_OF_A_FIT
+    needless = tuple(f"disting.{name}." for name in NOT_FOR_A_FIT)
+    assert [name for name in loaded if f"{name}.".startswith(needless)] == []
+
+
 def test_sympy_is_loaded_for_its_expressions_alone(tmp_path):
     """Not where formulas are written; all in one process, whose last line asks for an expression."""
     maps = "equivalents 3:4 --to 3:1 --undamped --"

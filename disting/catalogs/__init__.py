@@ -1,8 +1,6 @@
 """A whole family compared: built, stored, looked up, verified."""
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.catalogs.catalog import Catalog as Catalog, catalog as catalog

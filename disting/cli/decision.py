@@ -15,8 +15,7 @@ from disting.cli.relations import query
 from disting.cli.workers import engine_for, told_if_long
 from disting.errors import InputError, enumeration
 from disting.evidence.positive import PositiveFinding
-from disting.experiments.experiment import Experiment, MeasuredChain
-from disting.experiments.places import Places, move, parse_experiment
+from disting.experiments import Experiment, MeasuredChain, Places, move, parse_experiment
 from disting.files import json_text
 from disting.general.any_model import measurand
 from disting.general.matrix_model import AnyModel

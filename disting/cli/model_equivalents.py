@@ -15,13 +15,10 @@ from disting.conditions.finding import Outcome
 from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
 from disting.files import Format, json_text
-from disting.general.alternatives import Alternatives
+from disting.general import Alternatives, AnyModel, Extent, read_models
 from disting.general.any_model import as_model, of_network
 from disting.general.balls import POSITIVE, Synthesis
 from disting.general.equivalent import spell
-from disting.general.fibre import Extent
-from disting.general.matrix_model import AnyModel
-from disting.general.model_files import read_models
 from disting.general.synthesis import NoFormulas
 from disting.model.names import read_together
 from disting.model.presentation import plural

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 from disting.cli.arguments import FILE, split_reference
 from disting.cli.output import keep_apart
 from disting.errors import InputError
+from disting.general import AnyModel, MatrixModel, read_models
 from disting.general.any_model import as_chain, of_network
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.model_files import read_models
 from disting.model.chain import Chain, Sensor, text_drawing
 from disting.model.names import NAME, damping_option, read_together
 from disting.model.structure import Sort

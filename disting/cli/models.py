@@ -26,19 +26,16 @@ from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import Work, announce, engine_for
 from disting.errors import InputError, enumeration
-from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.experiments import Experiment, MeasuredChain, parse_experiment
 from disting.experiments.identifiable import IDENTIFIABLE
-from disting.experiments.places import parse_experiment
 from disting.general.any_model import of_network
 from disting.model.chain import LEGEND, text_drawing
 from disting.model.family import Family
 from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option
 from disting.model.question import Domain
-from disting.network.network import Network
-from disting.network.notation import network_of
-from disting.questions.identifiability.levels import ParameterIdentifiability
-from disting.questions.identifiability.parts import Level
+from disting.network import Network, network_of
+from disting.questions.identifiability import Level, ParameterIdentifiability
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.identifiable import Identified, identify, identify_measured
 

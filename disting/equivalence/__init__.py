@@ -17,9 +17,7 @@ Before many candidates are fitted a Gate says which are the same:
 ('R0-p(R1,C1)',)
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.equivalence.duplicates import Gate as Gate, gate as gate

@@ -12,12 +12,11 @@ from disting.algebra.certainty import residues
 from disting.algebra.symbols import RationalFunction, symbols
 from disting.equivalence.maps import explicit_map
 from disting.evidence.conditions import Renaming
+from disting.general import AnyModel, Model
 from disting.general.any_model import on_one_variable
 from disting.general.closed_form import ClosedForm, confirm
 from disting.general.elimination import fix_free
 from disting.general.field import Assignment, Field
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
 from disting.general.sections import Section
 from disting.general.synthesis import NeedsRoots, NoFormulas
 from disting.general.values_of_parts import by_parts

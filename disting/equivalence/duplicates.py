@@ -12,11 +12,10 @@ from disting.errors import ContradictionError, InputError, enumeration, of_type
 from disting.evidence.general import Explicit
 from disting.experiments.menu import Costs
 from disting.files import Format
+from disting.general import AnyModel, Model
 from disting.general.any_model import as_model, on_one_variable
 from disting.general.closed_form import ClosedForm, confirm
 from disting.general.formulas import fit, of_way
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
 from disting.general.synthesis import NoFormulas
 from disting.general.values_of_parts import by_parts
 from disting.general.which_models import way

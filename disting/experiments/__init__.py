@@ -16,9 +16,7 @@ Experiment(sensor=1)
 `confirms` finds evidence of a verdict under experiments again, as `disting.verify` does.
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.experiments.changes import GENERIC as GENERIC, Change as Change

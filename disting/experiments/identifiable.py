@@ -24,7 +24,8 @@ from disting.experiments.maps import stacked_map
 from disting.fibres.synthesis.decide import safety_of_point
 from disting.fibres.synthesis.task import Confirmation
 from disting.model.question import Question, Settings
-from disting.questions.identifiability.levels import (
+from disting.questions.identifiability import (
+    Level,
     Local,
     ParameterIdentifiability,
     by_parameter,
@@ -33,7 +34,6 @@ from disting.questions.identifiability.levels import (
     joint,
     local,
 )
-from disting.questions.identifiability.parts import Level
 
 SILENT = "no sensor moves, so nothing is determined"
 

@@ -72,9 +72,7 @@ True
 (True, True, 1000.0)
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.fit.judge.admissible import Rule as Rule

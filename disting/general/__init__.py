@@ -27,9 +27,7 @@ Evidence of a verdict is found again, as `disting.verify` does: Witnesses by `co
 True
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.evidence.general import Witnesses as Witnesses

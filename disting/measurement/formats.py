@@ -5,7 +5,7 @@ are imported when such a file is read.
 """
 
 import inspect
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -111,11 +111,10 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
     """A response object where one is asked for, or where no variables make up a response; else
     variables.
     """
-    from disting.measurement.matlab import responses, variables
     from disting.measurement.matlab_models import chosen_response, from_object
 
     asked, index = split_index(options.get("response"))
-    arrays, stored = variables(file), responses(file)
+    arrays, stored = _variables(file), _responses(file)
     of_object = asked is not None and bool(matching(list(stored), asked))
     of_variable = asked is not None and bool(matching(list(arrays), asked))
     if of_object or (stored and (not of_variable if asked else not holds_response(arrays))):
@@ -130,25 +129,27 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
 def _matlab_series(
     file: Source, input: str | int, output: str | int, options: Options
 ) -> TimeSeries:
-    from disting.measurement.matlab import variables
-
     read = check(series_from_variables, options, file)
-    return read(variables(file), file.name, str(input), str(output), **options)
+    return read(_variables(file), file.name, str(input), str(output), **options)
 
 
-def _matlab_names(file: Source) -> Iterable[str]:
+def _variables(file: Source) -> Mapping[str, Any]:
     from disting.measurement.matlab import variables
 
     return variables(file)
 
 
+def _responses(file: Source) -> Mapping[str, Any]:
+    from disting.measurement.matlab import responses
+
+    return responses(file)
+
+
 def _is_matlab_record(file: Source, options: Options) -> bool:
     """Whether there is a clock or a sampling rate, and nothing that is a frequency response."""
-    from disting.measurement.matlab import responses, variables
-
-    arrays = variables(file)
+    arrays = _variables(file)
     return bool(arrays.keys() & CLOCKS) and not (
-        options.keys() & NAMED or holds_frequencies(arrays) or responses(file)
+        options.keys() & NAMED or holds_frequencies(arrays) or _responses(file)
     )
 
 
@@ -220,10 +221,8 @@ def _signal_uses(table: Table, options: Options) -> Iterator[tuple[int, Use]]:
 
 
 def _matlab_columns(file: Source, options: Options) -> tuple[ReadColumn, ...]:
-    from disting.measurement.matlab import responses, variables
-
-    stored = responses(file)
-    names = [name for name in variables(file) if not any(s.startswith(f"{name}.") for s in stored)]
+    stored = _responses(file)
+    names = [name for name in _variables(file) if not any(s.startswith(f"{name}.") for s in stored)]
     names += stored
     signals = ((role, options.get(name)) for name, role in NAMES_OF_SIGNALS.items())
     usual = ((role, next((n for n in kind if n in names), None)) for role, kind in USUAL.items())
@@ -251,7 +250,7 @@ FORMATS = (
         name="MATLAB",
         fits=_is_matlab,
         response=_from_matlab,
-        records=Records(_matlab_series, _matlab_names, _is_matlab_record),
+        records=Records(_matlab_series, _variables, _is_matlab_record),
         columns=_matlab_columns,
     ),
     Format(

@@ -8,7 +8,6 @@ Nothing is drawn, and nothing that draws is imported, before somebody looks.
 
 from collections.abc import Mapping
 from pkgutil import resolve_name
-from types import ModuleType
 from typing import Any, Protocol
 
 from disting.errors import printable
@@ -81,13 +80,6 @@ class NotebookPicture(Presentation):
 
     def _repr_svg_(self) -> str:
         return self._presenter.svg(self)
-
-
-def public_names(names: Mapping[str, object]) -> list[str]:
-    """What the Tab key offers of a package with these global names: its public ones, no modules."""
-    return sorted(
-        name for name, of in names.items() if name[0] != "_" and not isinstance(of, ModuleType)
-    )
 
 
 def summary(of: object, text: str) -> str:

@@ -1,8 +1,6 @@
 """Linear networks: machines that branch, loop and have gears, circuits, compartments."""
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.model.structure import Sort as Sort

@@ -13,9 +13,7 @@ from itertools import combinations
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers
 from disting.conditions.rule import RULES
-from disting.fit.results.selection import Selection
-from disting.fit.search.candidates import figure_1
-from disting.fit.select import select
+from disting.fit import Selection, figure_1, select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family

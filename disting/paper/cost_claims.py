@@ -4,14 +4,13 @@ from math import pi, sqrt
 
 import numpy as np
 
+from disting.fit import Case, Cost, Plant
 from disting.fit.judge.practical import (
     collinearity_index,
     condition_indices,
     importance,
     unit_columns,
 )
-from disting.fit.search.cost import Case, Cost
-from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.paper.claim import Claim, Findings, Observed

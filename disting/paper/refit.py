@@ -12,11 +12,8 @@ from types import MappingProxyType
 
 import numpy as np
 
+from disting.fit import Cost, Plant, Task, estimates
 from disting.fit.judge.modes import oscillations, poles, zeros
-from disting.fit.search.cost import Cost
-from disting.fit.search.estimate import Task
-from disting.fit.search.exchange import estimates
-from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain

@@ -2,9 +2,8 @@
 
 import numpy as np
 
+from disting.fit import Plant, figure_1
 from disting.fit.results.selection import CRITERIA, sweep
-from disting.fit.search.candidates import figure_1
-from disting.fit.search.plant import Plant
 from disting.model.chain import Chain
 from disting.paper.claim import Claim, Findings, Observed, name_list
 from disting.paper.cost_claims import DRIVE, DRIVE_VALUES, OMEGA, TABLE_1

@@ -2,9 +2,7 @@
 formulas out for people.
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.report.damper_page import damper_page as damper_page

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from itertools import accumulate
 
 from disting.model.structure import Sort
-from disting.network.element import Element
-from disting.network.network import Network
+from disting.network import Element, Network
 from disting.report.network_symbols import Track, draw_symbol
 from disting.report.scene import Anchor, Circle, Ink, Layer, Path, Place, Text
 

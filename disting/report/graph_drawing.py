@@ -12,9 +12,8 @@ from itertools import combinations
 from math import cos, pi, sin
 
 from disting.model.structure import Sort
-from disting.network.element import Element
+from disting.network import Element, Network
 from disting.network.graph import edges
-from disting.network.network import Network
 from disting.report.network_symbols import Sheet, Track, draw_symbol, gear
 from disting.report.scene import (
     Anchor,

@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 from markupsafe import Markup
 
 from disting.equivalence.duplicates import duplicate
+from disting.general import AnyModel, Model
 from disting.general.any_model import measurand
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
 from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.report.environment import render

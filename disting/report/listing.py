@@ -10,11 +10,8 @@ from itertools import combinations, permutations
 
 from disting.equivalence.reach import REACHED, Reach
 from disting.errors import InputError
-from disting.general.any_model import without_names
+from disting.general import AnyModel, Model, ModelList, without_names
 from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
-from disting.general.model_files import ModelList
 from disting.general.model_side import ComparedModel
 from disting.general.special_values import SpecialValues, special_values
 from disting.model.presentation import plural

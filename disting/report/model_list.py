@@ -14,9 +14,8 @@ from disting.catalogs.export import cell
 from disting.equivalence.duplicates import model_of
 from disting.errors import InputError, of_type
 from disting.files import as_path, write_whole
+from disting.general import Model, ModelList
 from disting.general.any_model import measurand
-from disting.general.model import Model
-from disting.general.model_files import ModelList
 from disting.model.presentation import plural
 from disting.report.domains import VIEWS
 from disting.report.environment import render, source

@@ -5,12 +5,10 @@ compartments with arrows (`graph_drawing`), circuits in series and parallel as c
 
 from functools import lru_cache
 
-from disting.general.any_model import as_chain
-from disting.general.matrix_model import AnyModel
+from disting.general import AnyModel, as_chain
 from disting.model.chain import Chain, Sensor
 from disting.model.structure import Sort
-from disting.network.element import Element
-from disting.network.network import Network
+from disting.network import Element, Network
 from disting.report.circuit_drawing import circuit_layers, series_parallel
 from disting.report.drawing import draw
 from disting.report.graph_drawing import graph_layers, port_signs

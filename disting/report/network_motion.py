@@ -15,10 +15,9 @@ from disting.evidence.positive import Share
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Sensor
 from disting.model.structure import Sort
-from disting.network.element import Element
+from disting.network import Element, Network
 from disting.network.gears import unknown_ratios, without_gears
 from disting.network.graph import edges
-from disting.network.network import Network
 from disting.report.domains import one_sided_pairs, with_exceptions
 from disting.report.environment import render
 from disting.report.listing import JudgedList, Listing

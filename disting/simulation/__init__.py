@@ -2,9 +2,7 @@
 friction, dead time and lag.
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.simulation.bench import (

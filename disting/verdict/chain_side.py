@@ -21,8 +21,7 @@ from disting.model.minors import embeddings
 from disting.model.question import Domain, Question
 from disting.model.structure import Structure
 from disting.model.symmetry import Form, between, canonical
-from disting.questions.identifiability.analysis import IDENTIFIABILITY
-from disting.questions.identifiability.answer import Identifiability
+from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
 from disting.questions.inclusion.confirmation import confirms as confirms_inclusion
 from disting.questions.inclusion.decide import (
     CLOSURE,

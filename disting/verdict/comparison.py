@@ -21,16 +21,14 @@ from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, short
 from disting.evidence.conditions import Ranks
 from disting.experiments.experiment import Experiment, MeasuredChain
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.model import Model
+from disting.general import AnyModel, MatrixModel, Model
 from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import read_together
 from disting.model.question import Domain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
-from disting.questions.identifiability.answer import Identifiability
-from disting.questions.identifiability.levels import ParameterIdentifiability
+from disting.questions.identifiability import Identifiability, ParameterIdentifiability
 from disting.verdict.cascade import steps
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions

@@ -11,20 +11,22 @@ from disting.experiments.experiment import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.experiments.listing import without_dead_time
 from disting.experiments.machine_model import expand, shape
-from disting.general.any_model import as_chain, without_names
+from disting.general import Model, as_chain, without_names
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel, MatrixModel, of_ratios
-from disting.general.model import Model
 from disting.general.solutions import CHEAP_UP_TO, SOLUTIONS
 from disting.model.chain import Chain
 from disting.model.question import Domain
 from disting.model.symmetry import canonical
-from disting.questions.identifiability.analysis import IDENTIFIABILITY, in_names_of
-from disting.questions.identifiability.answer import Identifiability
+from disting.questions.identifiability import (
+    IDENTIFIABILITY,
+    Identifiability,
+    Level,
+    ParameterIdentifiability,
+    in_names_of,
+)
 from disting.questions.identifiability.chain_domains import find_chain_over_domain, is_settled
 from disting.questions.identifiability.domains import find_over_domain
-from disting.questions.identifiability.levels import ParameterIdentifiability
-from disting.questions.identifiability.parts import Level
 from disting.verdict.engine import Engine, Progress, silent
 
 Identified = Identifiability | ParameterIdentifiability

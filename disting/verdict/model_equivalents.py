@@ -6,11 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from disting.errors import InputError, short
-from disting.general.alternatives import Alternatives, alternatives
+from disting.general import Alternatives, AnyModel, Extent, alternatives
 from disting.general.any_model import as_model, on_one_variable
 from disting.general.balls import Synthesis, positive_sets
-from disting.general.fibre import Extent
-from disting.general.matrix_model import AnyModel
 from disting.general.synthesis import NoFormulas
 from disting.general.target import rational_values
 from disting.model.presentation import NotebookTable, summary

@@ -29,8 +29,7 @@ from disting.general.matrix_model import MatrixModel, of_ratios
 from disting.general.response import network_powers, network_ratios
 from disting.model.kinds import CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS, Kind
 from disting.model.structure import Sort
-from disting.network.element import Port
-from disting.network.network import Network
+from disting.network import Network, Port
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.next_experiments import Menu, places_of

@@ -9,11 +9,9 @@ from enum import StrEnum
 from typing import Any
 
 from disting.errors import DistingError, InputError, of_type, short
-from disting.experiments.experiment import Experiment
-from disting.experiments.places import PlacedExperiment, Places, move, parse_experiment, ways
+from disting.experiments import Experiment, PlacedExperiment, Places, move, parse_experiment, ways
 from disting.files import Format, __version__
-from disting.general.matrix_model import MatrixModel
-from disting.general.model import Model
+from disting.general import MatrixModel, Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import read_together
 from disting.model.presentation import plural, summary

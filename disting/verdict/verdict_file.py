@@ -18,9 +18,7 @@ from disting.errors import DistingError, InputError, short
 from disting.evidence.kind import is_well_typed
 from disting.experiments.experiment import Experiment
 from disting.files import Format, __version__
-from disting.general.any_model import as_chain
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general import AnyModel, Model, as_chain
 from disting.general.model_entries import as_entry, read_entry
 from disting.general.naming import LARGEST_CHAIN, refuse_misnamed_models
 from disting.model.chain import Chain, Sensor

@@ -26,12 +26,11 @@ from disting.catalogs.damper_family import (
     _written,
     damper_catalog,
     damper_family,
-    damper_name,
     read,
     text_of,
     write,
 )
-from disting.catalogs.files import SETTLED, append, read_findings, shipped_folder
+from disting.catalogs.files import SETTLED, append, damper_name, read_findings, shipped_folder
 from disting.catalogs.verify import (
     DECIDES,
     false_findings,

@@ -5,9 +5,7 @@ For any two models that are given as coefficient maps, not only chains; chains w
 apart first (`by_two_rows`). Independent of `disting.fibres.synthesis`.
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.evidence.kinds import Decision as Decision

@@ -25,9 +25,7 @@ the canonical form of a chain, and `in_names_of` in its names. Of any model `loc
 (<Certainty.BOUNDED: 'bounded'>, 99)
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.questions.identifiability.analysis import (

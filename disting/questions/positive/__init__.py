@@ -2,9 +2,7 @@
 model of another one.
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.questions.positive.confirmation import confirms as confirms, proves as proves

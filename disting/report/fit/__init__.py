@@ -2,9 +2,7 @@
 what `disting.fit` found, and asks it for what a figure needs.
 """
 
-from typing import TYPE_CHECKING
-
-from disting.lazy import offer
+from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.report.fit.bode import bode as bode

@@ -12,14 +12,10 @@ from disting.catalogs.sizes_files import SizesCatalog
 from disting.conditions.inclusion import Inclusion
 from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
-from disting.fit.judge.candidate import Candidate
+from disting.fit import Candidate, Selection
 from disting.fit.plan.power import Plan, is_trusted
-from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
-from disting.general.global_identifiability import GlobalIdentifiability
-from disting.general.matrix_model import MatrixModel
-from disting.general.model import Model
-from disting.general.model_files import ModelList
+from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
 from disting.measurement import FrequencyResponse, Look
 from disting.measurement.look_text import fact_rows
 from disting.model.family import Family

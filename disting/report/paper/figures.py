@@ -11,8 +11,7 @@ from disting.catalogs.dampers import DamperTable, spell
 from disting.fit.judge.modes import physical
 from disting.model.family import Family
 from disting.paper import Findings
-from disting.report.fit.bode import bode
-from disting.report.fit.criteria import models_by_threshold, parameters_by_threshold
+from disting.report.fit import bode, models_by_threshold, parameters_by_threshold
 from disting.report.matrix import (
     CORNERS,
     LETTERS,
