@@ -99,8 +99,13 @@ def estimate(
         notes=(*notes, *response.notes),
         distortion=between,
         method=Method(length, len(inputs), transient, trends=tuple(removed)),
-        loop=_loop(inputs[:, chosen], outputs[:, chosen], response),
+        loop=_loop(inputs[:, chosen], _of_changes(y, length)[:, chosen], response),
     )
+
+
+def _of_changes(y: Real, period: int) -> Complex:
+    """Spectra of the differences of samples: those of a position that wanders leak less."""
+    return _spectra(np.diff(y, prepend=y[0]), period)
 
 
 def _loop(inputs: Complex, outputs: Complex, response: FrequencyResponse) -> Feedback | None:
