@@ -7,8 +7,9 @@ A controller C turns noise v of the output into input: with S = 1/(1 + C G) the 
 where w acts beside the controller and is recorded. The noise of w moves input and output in the
 ratio G, as the excitation does, and biases nothing. That of v moves them in the ratio -1/C.
 
-Periodic excitation. Around their means over P periods, the spectra of input and output divided by
-G leave residuals u, z with P - 1 degrees of freedom for each line; a group of lines has M of them
+Periodic excitation. Around their means over P periods, the spectra of the input and of the changes
+of the output (a position that wanders would leak into all lines), these divided by their ratio,
+leave residuals u, z with P - 1 degrees of freedom for each line; a group of lines has M of them
 (P - 1 times its lines). In open loop z = b u + e, where e is independent of u and b is 0, or
 positive where the recorded noise moves the machine or is partly noise of the sensor of the input.
 Distortion turns b by an angle below `CONE`. With b' the complex regression of z on u, R its

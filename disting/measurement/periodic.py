@@ -96,9 +96,14 @@ def estimate(
     refuse_few(omega, notes, band)
     response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
     method = Method(length, len(inputs), transient, trends=tuple(removed))
-    loop = _loop(inputs[:, chosen], outputs[:, chosen], response)
+    loop = _loop(inputs[:, chosen], _of_changes(y, length)[:, chosen], response)
     response = replace(response, notes=(*notes, *response.notes), method=method, loop=loop)
     return _with_distortion(response, between, len(inputs))
+
+
+def _of_changes(y: Real, period: int) -> Complex:
+    """Spectra of the differences of samples: those of a position that wanders leak less."""
+    return _spectra(np.diff(y, prepend=y[0]), period)
 
 
 def _loop(inputs: Complex, outputs: Complex, response: FrequencyResponse) -> Feedback | None:
