@@ -129,7 +129,8 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
         print(printable("\n".join(rivals_in_words(named, plans, back, effort.source, str(path)))))
     if options.out:
         designed = [(own_plan, design(own_plan)) for own_plan, _ in plans]
-        write_plans(named, designed, effort.source, path, whole, options.out)
+        back = [*(other for _, other in plans if other is not None), *reverse.values()]
+        write_plans(named, designed, back, effort.source, path, whole, options.out)
         if options.json != "-":
             print(f"\nwritten to {options.out}; open {options.out / 'plan.html'}")
     return 0

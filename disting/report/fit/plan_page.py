@@ -41,6 +41,7 @@ class ShownPlan:
 def write_plans(
     named: FitRecord | NamedNetworks,
     plans: Sequence[Designed],
+    reverse: Sequence[Plan],
     source: str,
     file: Path,
     plain: dict[str, Any],
@@ -49,12 +50,13 @@ def write_plans(
     """Write plan.html, plan.json (`plain`), and for each rival that more measuring excludes a
     figure, the lines and the spectrum to run; return the paths, in order.
 
-    `file` is the fit that names the rivals, `source` says where the noise is known from. The same
-    plans give the same bytes.
+    `reverse`: plans against the selected structure, if one that gives its response or contains it
+    is true; `file` is the fit that names the rivals, `source` says where the noise is known from.
+    The same plans give the same bytes.
     """
     folder.mkdir(parents=True, exist_ok=True)
     shown = [_shown(plan, best, folder, k) for k, (plan, best) in enumerate(plans, 1)]
-    page = _page(named, shown, source, file, folder)
+    page = _page(named, shown, reverse, source, file, folder)
     files: list[tuple[str, bytes | list[str]]] = [("plan.html", [page])]
     files.append(("plan.json", [json_text(plain, indent=1), "\n"]))
     for k, ((plan, best), row) in enumerate(zip(plans, shown, strict=True), 1):
@@ -93,6 +95,7 @@ def _shown(plan: Plan, best: Design | None, folder: Path, k: int) -> ShownPlan:
 def _page(
     named: FitRecord | NamedNetworks,
     shown: Sequence[ShownPlan],
+    reverse: Sequence[Plan],
     source: str,
     file: Path,
     folder: Path,
@@ -100,7 +103,9 @@ def _page(
     name = name_of(named.model)
     return render(
         "plan.html",
-        title=_title(shown, named.same),
+        title=_title(shown, named),
+        explained=named.explained,
+        reverse=[(back.names[0], answer_in_words(back)) for back in reverse],
         name=name,
         values=", ".join(f"{n} = {readable(v, 4)}" for n, v in named.values.items()),
         source=source,
@@ -122,12 +127,14 @@ def _onward(named: FitRecord | NamedNetworks, file: Path) -> list[Step]:
     return [Step("Which other experiment tells them apart:", command)] if named.same else []
 
 
-def _title(shown: Sequence[ShownPlan], same: object) -> str:
+def _title(shown: Sequence[ShownPlan], named: FitRecord | NamedNetworks) -> str:
     """Return the answer in a few words."""
     more = [row.name for row in shown if row.answer == "measure more"]
     enough = sum(row.answer == "enough" for row in shown)
     if not shown:
-        return "Measuring more tells nothing apart" if same else "There is nothing to tell apart"
+        if not named.explained:
+            return "The fit explains nothing, so it names no rival"
+        return "Measuring more tells nothing apart" if named.same else "The fit left no rival"
     if more:
         return (
             f"Measure more to exclude {more[0]}"
