@@ -13,11 +13,11 @@ adds to that of the noise: with sigma_n^2 the variance of the mean by noise,
   tell sigma_n,k^2.
 
 Such a power q_j of single lines is averaged over the `NEAR` nearest of each excited line, as it is
-(right for the steps of an encoder) and as a share of the response (right for friction), of which
-the geometric mean is taken:
+or as a share of the response,
 
-    sigma_s,k^4 = |G_k|^2 (mean_j q_j) (mean_j q_j / |G_j|^2).
+    sigma_s,k^2 = mean_j q_j    or    |G_k|^2 mean_j q_j / |G_j|^2,
 
+whichever is more likely: the steps of an encoder are alike on all lines, friction distorts a force.
 It counts only where the whole is larger than noise alone allows (F test over all lines).
 """
 
@@ -86,14 +86,27 @@ def _is_larger(total: Real, noise: Real, size: Real, repeats: tuple[float, float
 
 
 def _averaged(power: Real, at: Real, omega: Real, size: Real) -> Real:
-    """sigma_s at lines `omega` of a response of this `size` from powers of the lines `at`."""
+    """sigma_s at lines `omega` of a response of this `size` from powers of the lines `at`: as
+    they are or as shares of the response, whichever describes them better.
+    """
+    other_size = np.interp(at, omega, size)
+    ways = [(np.ones_like(other_size), np.ones_like(size)), (other_size, size)]
+
+    def deviance(of: Real) -> float:
+        """Mean of ln mu + q / mu, twice the negative logarithm of the likelihood."""
+        expected = _means(power / of**2, at, at) * of**2
+        return float(np.mean(np.log(expected) + power / expected))
+
+    of, shown = min(ways, key=lambda way: deviance(way[0]))
+    count = min(NEAR, len(at))
+    unsure = count / (count - 1)  # the mean of q / sigma_s^2 is to be 1
+    return np.asarray(np.sqrt(unsure * _means(power / of**2, at, omega)) * shown)
+
+
+def _means(power: Real, at: Real, omega: Real) -> Real:
+    """Means of powers of lines `at` over those near each line of `omega`, none of them far below
+    that of all.
+    """
     nearest = np.argsort(np.abs(np.log(omega[:, None] / at)), axis=1, kind="stable")[:, :NEAR]
-    added = _means(power, nearest)
-    share = _means(power / np.interp(at, omega, size) ** 2, nearest)
-    return np.asarray(np.sqrt(np.sqrt(added * share) * size))
-
-
-def _means(power: Real, nearest: np.ndarray[tuple[int, int], np.dtype[np.intp]]) -> Real:
-    """Means over the lines near each line, shape (n_f,), none of them far below that of all."""
-    least = SMALLEST * max(float(power.mean()), 0.0)
+    least = SMALLEST * max(float(power.mean()), np.finfo(float).tiny)
     return np.asarray(np.maximum(power[nearest].mean(axis=1), least))
