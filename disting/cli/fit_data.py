@@ -89,6 +89,11 @@ def _check(options: argparse.Namespace) -> None:
             "--demo brings its own data: leave --test, --read, --column, --quantity, --hold,"
             " --experiment and several sensors away"
         )
+    if options.base and (several or options.family):
+        raise InputError(
+            "--base needs one response and one place of the force: remove --experiment,"
+            " --family and further sensors"
+        )
     if options.family and several:
         raise InputError("--family moves the sensor: leave it away where several are fitted")
     if options.profiles and not options.out:

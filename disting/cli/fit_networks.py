@@ -32,6 +32,7 @@ UNITS = {
 }  # of an impedance in ohm
 UNKNOWN = {
     "--test", "--experiment", "--sensor", "--masses", "--actuator", "--gap", "--family", "--left",
+    "--base",
     "--damped", "--undamped", "--fix", "--bound", "--weights", "--rule", "--thresholds", "--case",
     "--optimiser", "--no-prune", "--controller", "--out", "--site", "--profiles", "--demo",
 }  # fmt: skip
