@@ -2,7 +2,6 @@
 stiffness matrices, equal those of the fitted chain.
 """
 
-import json
 import subprocess
 import sys
 from itertools import pairwise
@@ -10,12 +9,18 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from disting.cli.fit_text import fit_text
+from disting.errors import InputError
 from disting.fit.judge.look_alikes import LookAlikeKind, look_alikes
+from disting.fit.search.candidates import on_elastic_bases
+from disting.fit.select import select
 from disting.general.any_model import as_model
-from disting.model.chain import Chain
+from disting.measurement import read
+from disting.model.chain import Chain, Sensor
 from disting.network.chains import of_chain
 from disting.network.element import Element, Port
 from disting.network.network import Network
+from disting.report.fit.selection_json import selection_to_dict
 from disting.verdict.comparison import compare
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
@@ -153,27 +158,24 @@ def two_masses(m1, m2, k, d):
     return 1 / (m1 * S**2 + 1 / (1 / (k + d * S) + 1 / (m2 * S**2)))
 
 
-def fitted(tmp_path, response, *options):
-    """The printed text and the JSON of a fit of an acceleration with 0.3 % noise."""
+def fitted(tmp_path, response, candidates):
+    """The printed text and the plain data of a fit of an acceleration with 0.3 % noise."""
     rng = np.random.default_rng(3)
     noise = rng.standard_normal(len(S)) + 1j * rng.standard_normal(len(S))
     measured = response * S**2 * (1 + 0.003 * noise)
-    file, out = tmp_path / "drive.csv", tmp_path / "fit.json"
+    file = tmp_path / "drive.csv"
     columns = np.c_[S.imag / (2 * np.pi), measured.real, measured.imag]
     head = "Frequency [Hz],Re [rad/s^2/Nm],Im [rad/s^2/Nm]"
     np.savetxt(file, columns, header=head, delimiter=",", comments="")
-    words = ["fit", str(file), "--quantity", "acceleration", "--jobs", "1", "--json", str(out)]
-    done = subprocess.run(
-        [sys.executable, "-m", "disting", *words, *options], capture_output=True, text=True
-    )
-    assert "Traceback" not in done.stderr
-    return done.stdout, json.loads(out.read_text())
+    train = read(file, sensor=Sensor.ACCELERATION)
+    selection = select(train, candidates)
+    return "\n".join(fit_text(selection, train)), selection_to_dict(selection)
 
 
 def test_fit_of_a_drive_on_an_elastic_base_names_the_base(tmp_path):
     """The true base is among the named ones, with its values."""
     drive = two_masses(1e-3, 2e-3, 300, 0) + 1 / (5e-3 * S**2 + 2000)
-    text, plain = fitted(tmp_path, drive, "--masses", "3", "--undamped")
+    text, plain = fitted(tmp_path, drive, [Chain(3, damped=False)])
     assert "2 masses on an elastic base with its resonance at 100.7 Hz" in text
     assert "m1 is then the reduced mass m1 mb/(m1 + mb)" in text
     bases = [x["values"] for x in plain["look_alikes"]["found"] if x["kind"] == "elastic base"]
@@ -184,7 +186,7 @@ def test_fit_of_a_drive_on_an_elastic_base_names_the_base(tmp_path):
 def test_fit_of_a_branch_names_the_branch(tmp_path):
     load = sum(1 / (1 / k + 1 / (m * S**2)) for k, m in ((300, 1e-3), (900, 0.8e-3)))
     drive = 1 / (1e-3 * S**2 + load)
-    text, plain = fitted(tmp_path, drive, "--masses", "3", "--undamped")
+    text, plain = fitted(tmp_path, drive, [Chain(3, damped=False)])
     assert "a branch 1~2, 1~3; F1; S1 has the same responses" in text
     (branch,) = (x["values"] for x in plain["look_alikes"]["found"] if x["kind"] == "branch")
     ends = sorted((branch[f"m{i}"], branch[f"k1{i}"]) for i in (2, 3))
@@ -192,21 +194,31 @@ def test_fit_of_a_branch_names_the_branch(tmp_path):
 
 
 def test_damped_elastic_base_is_fitted_as_a_candidate(tmp_path):
-    """Chains do not explain it and the text names the option; with it the base is selected."""
+    """A chain does not explain it and the text names the option; on the base it is selected."""
     drive = two_masses(1e-3, 2e-3, 300, 0.02) + 1 / (5e-3 * S**2 + 0.3 * S + 2000)
-    text, plain = fitted(tmp_path, drive, "--masses", "2")
+    plain_chains = [Chain(2), Chain(3)]
+    text, plain = fitted(tmp_path, drive, plain_chains)
     assert not plain["explained"]
     assert "no candidate stands on an elastic base; --base adds those" in text
-    text, plain = fitted(tmp_path, drive, "--masses", "2", "--base")
+    text, plain = fitted(tmp_path, drive, [*plain_chains, *on_elastic_bases([Chain(2)])])
     assert plain["explained"]
     assert (plain["selected"]["gap"], plain["selected"]["actuator"]) == (1, [1, 2])
     assert "mass 1 is the base" in text
 
 
-@pytest.mark.parametrize("options", [["--gap", "1"], ["--family"], ["--sensor", "1:2"]])
-def test_base_refuses_what_it_is_not_for(options):
-    words = [sys.executable, "-m", "disting", "fit", "--demo", "--base", *options]
+def test_damped_base_of_as_many_masses_is_no_duplicate_and_an_undamped_one_is(tmp_path):
+    drive = two_masses(1e-3, 2e-3, 300, 0.02)
+    for damped, fits in ((True, 3), (False, 2)):
+        chains = [Chain(2, damped=damped), Chain(3, damped=damped)]
+        bases = on_elastic_bases(chains[:1])
+        _, plain = fitted(tmp_path, drive, [*chains, *bases])
+        assert len(plain["candidates"]) == fits
+
+
+def test_base_refuses_what_it_is_not_for():
+    words = [sys.executable, "-m", "disting", "fit", "--demo", "--base", "--gap", "1"]
     done = subprocess.run(words, capture_output=True, text=True)
     assert done.returncode == 2
-    assert "--base" in done.stderr
-    assert "Traceback" not in done.stderr
+    assert "--base needs one response" in done.stderr
+    with pytest.raises(InputError, match="--base"):
+        on_elastic_bases([Chain(3, 1, 1, 2, 1, 2)])

@@ -129,7 +129,18 @@ def _lossless(chain: Chain, found: Collection[LookAlike]) -> tuple[str, ...]:
 
 def _branches(chain: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
     for network in _same_branches(chain):
-        yield LookAlike(LookAlikeKind.BRANCH, network.name, _synthesized(chain, values, network))
+        yield LookAlike(LookAlikeKind.BRANCH, network.name, _values_of(network, chain, values))
+
+
+def _values_of(
+    network: Network, chain: Chain, values: Mapping[str, float]
+) -> Mapping[str, float] | None:
+    """One set of values. A ground damper at force and sensor is a term of 1/G by itself."""
+    if chain.ground_dampers != (1,) or chain.meas_plus != 1 or "b1" not in network.parameters:
+        return _synthesized(chain, values, network)
+    kept = tuple(e for e in network.elements if e.value != "b1")
+    rest = _synthesized(replace(chain, ground_dampers=()), values, replace(network, elements=kept))
+    return None if rest is None else {**rest, "b1": values["b1"]}
 
 
 def _same_branches(chain: Chain) -> Iterator[Network]:
@@ -211,7 +222,7 @@ def _synthesized(
 ) -> Mapping[str, float] | None:
     """Positive values by synthesis, None where there is no formula."""
     model = as_model(of_chain(chain))
-    at = {name: Fraction(value) for name, value in values.items()}
+    at = {name: Fraction(values[name]) for name in chain.parameters}
     try:
         first, second = on_one_variable([model, as_model(network)])
         sets = positive_sets(first, dict(rational_values(model, at)), second).sets
@@ -281,7 +292,7 @@ def _free_chain(squares: Real, shares: Real) -> dict[str, float]:
     for i in range(1, len(shares)):
         alpha = vector @ (squares * vector)
         rest = squares * vector - alpha * vector - beta * before
-        beta = np.linalg.norm(rest)
+        beta = float(np.linalg.norm(rest))
         before, vector = vector, rest / beta
         spring = alpha * mass - spring
         mass = spring**2 / (beta**2 * mass)
