@@ -22,7 +22,7 @@ from disting.fit.judge.practical import Thresholds
 from disting.fit.judge.reading import read_in_words
 from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.selection import Selection
-from disting.fit.search.candidates import chosen_ports, whole_family
+from disting.fit.search.candidates import chosen_ports, on_elastic_bases, whole_family
 from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
 from disting.fit.select import MOST_LINES, select
 from disting.measurement import FrequencyResponse
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
 # options that name candidates, and where results go, with the number of words that follow
-CANDIDATES = {"--masses": 1, "--actuator": 1, "--gap": 1, "--family": 0}
+CANDIDATES = {"--masses": 1, "--actuator": 1, "--gap": 1, "--family": 0, "--base": 0}
 OUTPUTS = {"--out": 1, "--json": 1, "--site": 1, "--profiles": 0, "--left": 1, "--demo": 0}
 CIRCUIT = "R0-p(R1,C1)"  # the simplest with a capacitor
 FEW = 30  # candidates that are fitted sooner than workers start
@@ -202,6 +202,7 @@ def _candidates(
         chains = chosen_ports(
             options.masses, options.actuator, sensors(options)[0], options.gap, quantity
         )
+        chains += on_elastic_bases(chains) if options.base else ()
     if not left:
         chains = tuple(replace(chain, damped=is_damped(options)) for chain in chains)
     names = {name for chain in chains for name in chain.parameters}

@@ -50,6 +50,7 @@ what was measured
 candidates
   --masses 1-3            how many masses (default: 1-4)
   --undamped              springs without dampers beside them
+  --base                  also on an elastic base, with the encoder fixed to it
   --fix m1=0.02           a known parameter; --bound k12=0..500 is its range
   --models NETWORK        circuits, compartments or branched machines instead
 
@@ -224,6 +225,11 @@ def _structures(group: argparse._ArgumentGroup) -> None:
         action="store_true",
         help="force, sensor and gap anywhere: every chain of these sizes",
     )
+    text = (
+        "also each chain on an elastic base that is one more mass; the force acts, and the encoder"
+        " looks, between base and drive"
+    )
+    group.add_argument("--base", action="store_true", help=text)
 
 
 def _ports(group: argparse._ArgumentGroup) -> None:

@@ -116,6 +116,12 @@ def _check(options: argparse.Namespace) -> None:
             "--demo brings its own data: leave --test, --read, --column, --quantity, --hold,"
             " --experiment and several sensors away"
         )
+    moved = options.family or options.gap or ":" in options.actuator + options.sensor
+    if options.base and (several or moved):
+        raise InputError(
+            "--base needs one response, force and sensor at one mass each: remove --experiment,"
+            " --family, --gap, further sensors and ports such as 1:2"
+        )
     if options.family and several:
         raise InputError("--family moves the sensor: leave it away where several are fitted")
     if options.profiles and not options.out:

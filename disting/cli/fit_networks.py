@@ -25,6 +25,7 @@ from disting.report.fit.network_words import standing, value_lines
 
 UNKNOWN = {
     "--test", "--experiment", "--sensor", "--masses", "--actuator", "--gap", "--family", "--left",
+    "--base",
     "--damped", "--undamped", "--fix", "--bound", "--weights", "--rule", "--thresholds", "--case",
     "--optimiser", "--no-prune", "--controller", "--site", "--profiles", "--demo",
 }  # fmt: skip

@@ -66,7 +66,7 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     if selection.selected and selection.explanation.explains:
         yield ""
         yield from _alternatives(selection)
-        yield from look_alike_sentences(selection)
+    yield from look_alike_sentences(selection)
     rest = not_in(answer, suspicions(selection))
     yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
     yield from (

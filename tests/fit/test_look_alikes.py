@@ -2,18 +2,28 @@
 stiffness matrices, equal those of the fitted chain.
 """
 
+import subprocess
+import sys
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from disting.cli.fit_text import fit_text
+from disting.errors import InputError
+from disting.fit.judge.alternatives import representatives
 from disting.fit.judge.look_alikes import LookAlikeKind, look_alikes
+from disting.fit.search.candidates import on_elastic_bases
+from disting.fit.select import select
 from disting.general.any_model import as_model
-from disting.model.chain import Chain
+from disting.measurement import read
+from disting.model.chain import Chain, Sensor
 from disting.network.chains import of_chain
 from disting.network.element import Element, Port
 from disting.network.network import Network
+from disting.report.fit.selection_json import selection_to_dict
 from disting.verdict.comparison import compare
+from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
 
@@ -78,10 +88,10 @@ def test_responses_of_look_alikes_are_those_of_the_chain(masses, sensor, damped,
     chain = Chain(masses, 0, 0, 1, 0, sensor, damped=damped or masses == 1, ground_dampers=grounded)
     mine = chain_response(chain)
     for look_alike in look_alikes(chain, VALUES).found:
-        if look_alike.values is not None:
-            assert all(value > 0 for value in look_alike.values.values()), look_alike
-            error = np.abs(look_alike_response(look_alike) - mine) / np.abs(mine)
-            assert error.max() < 1e-9, look_alike
+        assert look_alike.values is not None, look_alike
+        assert all(value > 0 for value in look_alike.values.values()), look_alike
+        error = np.abs(look_alike_response(look_alike) - mine) / np.abs(mine)
+        assert error.max() < 1e-9, look_alike
 
 
 def kinds(chain):
@@ -92,14 +102,16 @@ def test_look_alikes_are_those_of_the_theorems():
     """All rooted trees of as many masses and both bases, undamped; damped ones only for two."""
     undamped = kinds(Chain(4, damped=False))
     assert undamped == [
-        ("elastic base", "3 masses on an elastic base"),
+        ("elastic base", "3 masses on an elastic base with its resonance at 122 Hz"),
+        ("elastic base", "3 masses on an elastic base with its resonance at 326 Hz"),
+        ("elastic base", "3 masses on an elastic base with its resonance at 349.2 Hz"),
         ("free base", "4 masses on a base that moves freely"),
         ("branch", "1~2, 1~3, 1~4; F1; S1"),
         ("branch", "1~2, 1~3, 2~4; F1; S1"),
         ("branch", "1~2, 2~3, 2~4; F1; S1"),
     ]
     assert kinds(Chain(2, damped=True)) == [
-        ("elastic base", "1 mass on an elastic base"),
+        ("elastic base", "1 mass on an elastic base with its resonance at 344.3 Hz"),
         ("free base", "2 masses on a base that moves freely"),
     ]
     assert kinds(Chain(3, damped=True)) == [("free base", "3 masses on a base that moves freely")]
@@ -133,3 +145,83 @@ def test_limits_are_named():
     assert look_alikes(Chain(3, 0, 0, 2, 0, 2), VALUES).not_looked_for
     assert look_alikes(Chain(3, damped=True), VALUES).base_differs
     assert not look_alikes(Chain(3, damped=False), VALUES).base_differs
+
+
+def test_damping_alone_tells_a_damped_branch_from_a_chain():
+    assert look_alikes(Chain(3, damped=True), VALUES).lossless == ("1~2, 1~3; F1; S1",)
+    assert look_alikes(Chain(3, 0, 0, 1, 0, 2, damped=True), VALUES).lossless == ()
+    assert look_alikes(Chain(3, damped=False), VALUES).lossless == ()
+
+
+S = 2j * np.pi * np.geomspace(3, 500, 100)
+
+UNDAMPED = [Chain(n, damped=False, lag=lag) for n in (2, 3) for lag in (False, True)]
+
+
+def two_masses(m1, m2, k, d):
+    return 1 / (m1 * S**2 + 1 / (1 / (k + d * S) + 1 / (m2 * S**2)))
+
+
+def fitted(tmp_path, response, candidates, s=S):
+    """The printed text and the plain data of a fit of an acceleration with 0.3 % noise."""
+    rng = np.random.default_rng(3)
+    noise = rng.standard_normal(len(s)) + 1j * rng.standard_normal(len(s))
+    measured = response * s**2 * (1 + 0.003 * noise)
+    file = tmp_path / "drive.csv"
+    columns = np.c_[s.imag / (2 * np.pi), measured.real, measured.imag]
+    head = "Frequency [Hz],Re [rad/s^2/Nm],Im [rad/s^2/Nm]"
+    np.savetxt(file, columns, header=head, delimiter=",", comments="")
+    train = read(file, sensor=Sensor.ACCELERATION)
+    selection = select(train, candidates)
+    return "\n".join(fit_text(selection, train)), selection_to_dict(selection)
+
+
+def test_fit_of_a_drive_on_an_elastic_base_names_the_base(tmp_path):
+    """The true base is among the named ones, with its values."""
+    drive = two_masses(1e-3, 2e-3, 300, 0) + 1 / (5e-3 * S**2 + 3500)
+    text, plain = fitted(tmp_path, drive, UNDAMPED)
+    assert "2 masses on an elastic base with its resonance at 133" in text
+    assert "m1 is then the reduced mass m1 mb/(m1 + mb)" in text
+    bases = [x["values"] for x in plain["look_alikes"]["found"] if x["kind"] == "elastic base"]
+    true = {"m1": 1e-3, "m2": 2e-3, "k12": 300, "mb": 5e-3, "kb": 3500}
+    assert any(x == pytest.approx(true, rel=0.02) for x in bases)
+
+
+def test_fit_of_a_branch_names_the_branch(tmp_path):
+    s = 2j * np.pi * np.geomspace(3, 500, 60)
+    load = sum(1 / (1 / k + 1 / (m * s**2)) for k, m in ((300, 1e-3), (900, 0.8e-3)))
+    drive = 1 / (1e-3 * s**2 + load)
+    text, plain = fitted(tmp_path, drive, [Chain(3, damped=False)], s)
+    assert "a branch 1~2, 1~3; F1; S1 has the same responses" in text
+    (branch,) = (x["values"] for x in plain["look_alikes"]["found"] if x["kind"] == "branch")
+    ends = sorted((branch[f"m{i}"], branch[f"k1{i}"]) for i in (2, 3))
+    assert np.array(ends) == pytest.approx(np.array([(0.8e-3, 900), (1e-3, 300)]), rel=0.02)
+
+
+def test_damped_elastic_base_is_fitted_as_a_candidate(tmp_path):
+    """A chain does not explain it and the text names the option; on the base it is selected."""
+    drive = two_masses(1e-3, 2e-3, 300, 0.02) + 1 / (5e-3 * S**2 + 0.3 * S + 2000)
+    plain_chains = [Chain(2), Chain(3)]
+    text, plain = fitted(tmp_path, drive, plain_chains)
+    assert not plain["explained"]
+    assert "no candidate stands on an elastic base; --base adds those" in text
+    text, plain = fitted(tmp_path, drive, [*plain_chains, *on_elastic_bases([Chain(2)])])
+    assert plain["explained"]
+    assert (plain["selected"]["gap"], plain["selected"]["actuator"]) == (1, [1, 2])
+    assert "mass 1 is the base" in text
+
+
+def test_damped_base_of_as_many_masses_is_no_duplicate_and_an_undamped_one_is():
+    for damped in (True, False):
+        chain, (base,) = Chain(3, damped=damped), on_elastic_bases([Chain(2, damped=damped)])
+        first = representatives([chain, base], Engine(), {})
+        assert first[base] == (base if damped else chain)
+
+
+def test_base_refuses_what_it_is_not_for():
+    words = [sys.executable, "-m", "disting", "fit", "--demo", "--base", "--gap", "1"]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "--base needs one response" in done.stderr
+    with pytest.raises(InputError, match="--base"):
+        on_elastic_bases([Chain(3, 1, 1, 2, 1, 2)])

@@ -28,7 +28,7 @@ In every case the fitted mass 1 is m1 mb / (m1 + mb), the limit at high frequenc
 an elastic base is a term 1 / (mb s^2 + db s + kb) of the response beside those of the drive.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -81,13 +81,15 @@ class LookAlike:
 @dataclass(frozen=True, slots=True)
 class LookAlikes:
     """Look-alikes of a chain. `not_looked_for`: the reason why none were looked for, else "".
-    `base_differs`: a drive on an elastic base, with as many masses if the base is counted, has other
-    responses (proven), so that data can decide between them.
+    `base_differs`: a drive on an elastic base, with as many masses if the base is counted, has
+    other responses (proven), so that data can decide between them. `lossless`: branches that are
+    the same if all dampers are removed and not known to be the same with them.
     """
 
     found: tuple[LookAlike, ...] = ()
     not_looked_for: str = ""
     base_differs: bool = False
+    lossless: tuple[str, ...] = ()
 
 
 def look_alikes(chain: Chain, values: Mapping[str, float]) -> LookAlikes:
@@ -111,22 +113,44 @@ def _look_alikes(chain: Chain, values: tuple[tuple[str, float], ...]) -> LookAli
     at = dict(values)
     elastic, differs = _elastic_base(chain, at)
     found = (*elastic, *_free_base(chain, at), *_branches(chain, at))
-    return LookAlikes(found, base_differs=differs)
+    return LookAlikes(found, base_differs=differs, lossless=_lossless(chain, found))
+
+
+def _lossless(chain: Chain, found: Collection[LookAlike]) -> tuple[str, ...]:
+    if not chain.damped or chain.n_masses == 1:
+        return ()
+    bare = replace(chain, damped=False, ground_dampers=())
+    with_dampers = {x.text.replace("=", "~") for x in found}
+    return tuple(n.name for n in _same_branches(bare) if n.name not in with_dampers)
 
 
 # branches
 
 
 def _branches(chain: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
+    for network in _same_branches(chain):
+        yield LookAlike(LookAlikeKind.BRANCH, network.name, _values_of(network, chain, values))
+
+
+def _values_of(
+    network: Network, chain: Chain, values: Mapping[str, float]
+) -> Mapping[str, float] | None:
+    """One set of values. A ground damper at force and sensor is a term of 1/G by itself."""
+    if chain.ground_dampers != (1,) or chain.meas_plus != 1 or "b1" not in network.parameters:
+        return _synthesized(chain, values, network)
+    kept = tuple(e for e in network.elements if e.value != "b1")
+    rest = _synthesized(replace(chain, ground_dampers=()), values, replace(network, elements=kept))
+    return None if rest is None else {**rest, "b1": values["b1"]}
+
+
+def _same_branches(chain: Chain) -> Iterator[Network]:
+    """Trees other than the chain that have the same responses by the theorems."""
     model, own = as_model(of_chain(chain)), _layout_of(chain)
     for layout in _layouts(chain.n_masses, _distance(own[0], own[1]), len(own[2])):
-        if layout == _smallest(chain.n_masses, own):
-            continue
-        network = _network(layout, chain)
-        if replaceable(model, as_model(network)):
-            yield LookAlike(
-                LookAlikeKind.BRANCH, network.name, _synthesized(chain, values, network)
-            )
+        if layout != _smallest(chain.n_masses, own):
+            network = _network(layout, chain)
+            if replaceable(model, as_model(network)):
+                yield network
 
 
 def _layout_of(chain: Chain) -> Layout:
@@ -198,7 +222,7 @@ def _synthesized(
 ) -> Mapping[str, float] | None:
     """Positive values by synthesis, None where there is no formula."""
     model = as_model(of_chain(chain))
-    at = {name: Fraction(value) for name, value in values.items()}
+    at = {name: Fraction(values[name]) for name in chain.parameters}
     try:
         first, second = on_one_variable([model, as_model(network)])
         sets = positive_sets(first, dict(rational_values(model, at)), second).sets
@@ -223,15 +247,18 @@ def _elastic_base(chain: Chain, values: Mapping[str, float]) -> tuple[tuple[Look
     bases = [Chain(n, 1, 1, 2, 1, 2, chain.sensor, chain.damped, chosen) for chosen in dampers]
     others = alternatives(chain, bases, Engine(), {})
     same = [a for a in others if a.relation is Relation.INDISTINGUISHABLE]
-    found = tuple(
-        LookAlike(
-            LookAlikeKind.ELASTIC_BASE,
-            _base_text(n - 1, a.chain),
-            None if chain.ground_dampers else _values_on_elastic_base(chain, values),
-        )
-        for a in same
-    )
+    found = tuple(x for a in same for x in _named_base(chain, a.chain, values))
     return found, not others
+
+
+def _named_base(chain: Chain, base: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
+    """The drive on a base, once for each resonance that may be that of the base."""
+    kind, text = LookAlikeKind.ELASTIC_BASE, _base_text(chain.n_masses - 1, base)
+    if chain.ground_dampers:
+        yield LookAlike(kind, text, None)
+        return
+    for hertz, there in _values_on_elastic_base(chain, values):
+        yield LookAlike(kind, f"{text} with its resonance at {hertz:.4g} Hz", there)
 
 
 def _base_text(masses: int, base: Chain) -> str:
@@ -240,20 +267,22 @@ def _base_text(masses: int, base: Chain) -> str:
     return text + f" with dampers to the ground at {' and '.join(grounded)}" * bool(grounded)
 
 
-def _values_on_elastic_base(chain: Chain, values: Mapping[str, float]) -> Mapping[str, float]:
-    """Values where the highest mode is that of the base; each other mode would do as well."""
+def _values_on_elastic_base(
+    chain: Chain, values: Mapping[str, float]
+) -> Iterator[tuple[float, Mapping[str, float]]]:
+    """For each mode the undamped frequency in Hz and the values if it is that of the base."""
     n = chain.n_masses
     m = np.array([values[f"m{i}"] for i in range(1, n + 1)])
     k = np.array([values[f"k{i}{i + 1}"] for i in range(1, n)])
     stiffness = np.diag(np.append(k, 0) + np.append(0, k)) - np.diag(k, 1) - np.diag(k, -1)
     squares, shapes = np.linalg.eigh(stiffness / np.sqrt(np.outer(m, m)))
-    shares = shapes[0] ** 2 / m[0]  # G = sum of share / (s^2 + square)
-    base = {"mb": 1 / shares[-1], "kb": squares[-1] / shares[-1]}
-    if chain.damped:  # two masses: one mode, damped as the joint is
-        base["db"] = base["kb"] * values["d12"] / values["k12"]
-    return _free_chain(np.append(0.0, squares[1:-1]), shares[:-1]) | {
-        name: float(x) for name, x in base.items()
-    }
+    squares[0], shares = 0.0, shapes[0] ** 2 / m[0]  # G = sum of share / (s^2 + square)
+    for at in range(1, n):
+        base = {"mb": float(1 / shares[at]), "kb": float(squares[at] / shares[at])}
+        if chain.damped:  # two masses: one mode, damped as the joint is
+            base["db"] = base["kb"] * values["d12"] / values["k12"]
+        drive = _free_chain(np.delete(squares, at), np.delete(shares, at))
+        yield float(np.sqrt(squares[at]) / (2 * np.pi)), drive | base
 
 
 def _free_chain(squares: Real, shares: Real) -> dict[str, float]:
@@ -263,7 +292,7 @@ def _free_chain(squares: Real, shares: Real) -> dict[str, float]:
     for i in range(1, len(shares)):
         alpha = vector @ (squares * vector)
         rest = squares * vector - alpha * vector - beta * before
-        beta = np.linalg.norm(rest)
+        beta = float(np.linalg.norm(rest))
         before, vector = vector, rest / beta
         spring = alpha * mass - spring
         mass = spring**2 / (beta**2 * mass)

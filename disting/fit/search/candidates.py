@@ -89,6 +89,29 @@ def chosen_ports(
     return tuple(variant for chain in chains for variant in variants(chain))
 
 
+def on_elastic_bases(chains: Sequence[Chain]) -> tuple[Chain, ...]:
+    """The chains without ground dampers, each on an elastic base that is mass 1 of the new chain;
+    force and sensor act between the base and the masses at which they were. Raises InputError for
+    chains with a gap and for ports between two masses.
+
+    >>> [str(c) for c in on_elastic_bases([Chain(2)])]
+    ['3 masses, gap 1, force 1-2, sensor 1-2, damped']
+    """
+    if any(c.gap or c.act_minus or c.meas_minus for c in chains):
+        raise InputError(
+            "--base is for chains without a gap, their force and sensor at one mass each:"
+            " remove --gap, or name single masses"
+        )
+    return tuple(
+        replace(
+            c, n_masses=c.n_masses + 1, gap=1, act_minus=1, act_plus=c.act_plus + 1,
+            meas_minus=1, meas_plus=c.meas_plus + 1,
+        )
+        for c in chains
+        if not c.ground_dampers
+    )  # fmt: skip
+
+
 def listed_form(chain: Chain) -> Form:
     """The form of a chain that is in the family of its size, with the names that its parameters
     have there.

@@ -16,7 +16,7 @@ RELATIVE = "force and encoder between base and motor"
 REDUCED = "m1 is then the reduced mass m1 mb/(m1 + mb)"
 VALUES = {
     LookAlikeKind.BRANCH: "values",
-    LookAlikeKind.ELASTIC_BASE: "values, if the highest resonance is that of the base",
+    LookAlikeKind.ELASTIC_BASE: "values",
     LookAlikeKind.FREE_BASE: "values for one of many possible mb",
 }
 
@@ -36,10 +36,23 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
     """One sentence for each look-alike; why none is named; the way to fit an elastic base."""
     of = look_alikes_of(selection)
     if of.not_looked_for:
-        if selection.selected:
+        if not selection.explanation.explains and _may_have_base(selection):
+            yield (
+                "no candidate stands on an elastic base; --base adds those with force and encoder"
+                " between base and motor"
+            )
+        elif selection.selected and selection.selected.chain.gap == 1:
+            yield "mass 1 is the base if the force acts between base and motor (mass 2)"
+        elif selection.selected:
             yield f"look-alikes outside the candidates were not looked for: {of.not_looked_for}"
         return
     yield from (_sentence(x) for x in of.found)
+    if of.lossless:
+        yield (
+            f"without dampers the branch{'es' if len(of.lossless) > 1 else ''}"
+            f" {' and '.join(of.lossless)} would have the same responses: only damping tells"
+            " a branch from this chain"
+        )
     if not of.found:
         yield "no branch of as many masses and no base is proven to have the same responses"
     if of.base_differs:
@@ -49,12 +62,17 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
         )
 
 
+def _may_have_base(selection: Selection) -> bool:
+    return not selection.question and all(c.chain.gap == 0 for c in selection.candidates)
+
+
 def look_alikes_to_dict(selection: Selection) -> dict[str, Any]:
     """Plain data of the look-alikes, values in SI units."""
     of = look_alikes_of(selection)
     return {
         "not_looked_for": of.not_looked_for,
         "base_differs": of.base_differs,
+        "lossless": list(of.lossless),
         "found": [
             {
                 "kind": x.kind.value,
