@@ -91,6 +91,7 @@ NAMELESS: tuple[Call, ...] = tuple(
         "network_of": ("R0-p(R1",),
         "read_models": ("missing.json",),
         "transfer_function": ("nonsense",),
+        "values_in": ("R{R=20",),
         "verdict_file": ("3:1", "nonsense"),
         "verify": ({"format": "another"},),
     }.items()

@@ -16,6 +16,7 @@ from, and what differs.
 import json
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
+from itertools import chain
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
@@ -190,8 +191,10 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
     with other numbers, and all others of the family.
     """
     sides, _, records = _known(family, engine, folder)
+    (given,) = engine.general_subjects([model])
+    itself = (i for i, s in enumerate(sides, 1) if s.asked_about[0] == given.asked_about[0])
     like = (i for i, s in enumerate(sides, 1) if replaceable(model, s.subject))
-    own = next(like, 0) if records else 0
+    own = next(chain(itself, like), 0) if records else 0
     for r in records:
         if "finding" not in r or own not in (r["left"], r["right"]):
             continue

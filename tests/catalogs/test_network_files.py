@@ -26,6 +26,7 @@ from disting.general.any_model import of_network, without_names
 from disting.general.forms import BRIEFLY, WAS_BRIEF
 from disting.general.identifiability import PARAMETERS
 from disting.general.model_side import positive_question
+from disting.general.plain_maps import PLAIN_MAPS
 from disting.network.families import family_of
 from disting.network.notation import network_of
 from disting.verdict.engine import Engine, question_key
@@ -135,8 +136,9 @@ def test_pairs_of_a_large_family_are_found_again(searched):
     asked = [r for r in asked if not isinstance(r["finding"].evidence, OfPart)]
     engine = Engine()
     for r in random.Random(name).sample(asked, 2):
-        _, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
-        assert engine.answer(BRIEFLY, models, engine.settings) == r["finding"]
+        question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
+        searched_by = question if question is PLAIN_MAPS else BRIEFLY
+        assert engine.answer(searched_by, models, engine.settings) == r["finding"]
 
 
 def test_what_pairs_have_from_others_is_true_of_them(searched):
@@ -205,14 +207,18 @@ def test_some_of_a_large_family_alone_get_what_the_whole_gets(group, kinds):
     )
 
 
-@pytest.mark.parametrize("text", ["#~1, 1~2; F1; S1", "#~2, 2~1; F2; S2"])
+FAMILY_TEXTS = ("#~1, 1~2; F1; S1",)
+
+
+@pytest.mark.parametrize("text", [*FAMILY_TEXTS, "#~2, 2~1; F2; S2"])
 def test_a_network_of_a_family_in_any_numbers_is_looked_up(text):
     given, engine = of_network(network_of(text)), Engine()
     others = [of_network(n) for n in family_of("machines-2").networks if n.name != text]
     recall_of(given, "machines-2", engine)
     known = len(engine.answers)
     found = model_equivalents(given, others, engine=engine)
-    assert known and len(engine.answers) == known
+    computed = len(engine.answers) - known
+    assert known and (computed == 0) is (text in FAMILY_TEXTS)  # maps name the parameters
     fresh = model_equivalents(given, others, engine=Engine())
     assert [(x.model.name, x.verdict.relation) for x in found] == [
         (x.model.name, x.verdict.relation) for x in fresh

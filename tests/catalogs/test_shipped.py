@@ -162,12 +162,12 @@ def test_csv_and_json_hold_every_pair():
 
 def test_evidence_of_an_unknown_name_is_damage_when_it_is_read(tmp_path):
     """It was a KeyError when its sentence was asked for."""
-    name = "chains-2-undamped.jsonl"
+    name = "chains-3-undamped.jsonl"
     text = (shipped_folder() / name).read_text(encoding="utf-8")
     assert '"Foster"' in text
     (tmp_path / name).write_text(text.replace('"Foster"', '"FostNer"'), encoding="utf-8")
     with pytest.raises(CatalogError, match="cannot be read"):
-        catalog(2, folder=tmp_path, damped=False).to_json()
+        catalog(3, folder=tmp_path, damped=False).to_json()
 
 
 def test_writing_leaves_no_partial_files(tmp_path):

@@ -47,7 +47,7 @@ def test_a_fit_in_which_nothing_explains_ends_with_status_1(tmp_path):
     assert done.returncode == 1 and "Traceback" not in done.stderr
     assert "explains" in done.stdout or "noise" in done.stdout
     assert "the best one, which does not explain the data: 1 mass" in done.stdout
-    assert "selected" not in done.stdout and "\nnext:" not in done.stdout
+    assert "selected" not in done.stdout and "\nnext:\n" not in done.stdout
     assert called("fit", path, "--models", "p(R1,C1)", "--quantity", "position").returncode == 1
 
 

@@ -379,7 +379,7 @@ def test_a_loop_is_among_the_first_lines_where_it_shows():
     found = [replace(select(d, [Chain(1)]), readings=(), quantities=()) for d in data]
     said = [" ".join(suspicions(one)) for one in found]
     assert ["were recorded in a closed loop" in one for one in said] == [True, False, False]
-    assert first_lines(found[0])[1] == alone.loop_sentence
+    assert alone.loop_sentence in first_lines(found[0])[0]
     assert all("is the machine a chain" in one for one in said[1:])
 
 

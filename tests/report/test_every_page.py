@@ -215,7 +215,7 @@ def test_every_page_has_its_sign_the_product_and_help(site: Path) -> None:
             continue
         for name in ("index", "guide/start", "guide/index", "guide/glossary"):
             assert f"{'../' * (len(way) - 1)}{name}.html" in links, page
-    assert alone == 6 + len(HOSTILE)  # fits, the question for the quantity, two looks
+    assert alone == 8 + len(HOSTILE)  # fits, the question for the quantity, a plan, two looks
 
 
 def test_coefficients_stay_inside_in_a_font_that_is_wider(tab, site: Path) -> None:  # type: ignore[no-untyped-def]

@@ -38,11 +38,6 @@ from itertools import combinations, permutations, product
 import numpy as np
 
 from disting.fit.judge.alternatives import alternatives
-from disting.general.any_model import as_model, on_one_variable
-from disting.general.balls import positive_sets
-from disting.general.replacement import replaceable
-from disting.general.synthesis import NoFormulas
-from disting.general.target import rational_values
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.network.chains import of_chain
@@ -145,12 +140,20 @@ def _values_of(
 
 def _same_branches(chain: Chain) -> Iterator[Network]:
     """Trees other than the chain that have the same responses by the theorems."""
-    model, own = as_model(of_chain(chain)), _layout_of(chain)
-    for layout in _layouts(chain.n_masses, _distance(own[0], own[1]), len(own[2])):
-        if layout != _smallest(chain.n_masses, own):
-            network = _network(layout, chain)
-            if replaceable(model, as_model(network)):
-                yield network
+    own = _layout_of(chain)
+    layouts = _layouts(chain.n_masses, _distance(own[0], own[1]), len(own[2]))
+    others = [layout for layout in layouts if layout != _smallest(chain.n_masses, own)]
+    if not others:
+        return
+    # the engine of networks, which a fit needs here alone
+    from disting.general.any_model import as_model
+    from disting.general.replacement import replaceable
+
+    model = as_model(of_chain(chain))
+    for layout in others:
+        network = _network(layout, chain)
+        if replaceable(model, as_model(network)):
+            yield network
 
 
 def _layout_of(chain: Chain) -> Layout:
@@ -221,6 +224,12 @@ def _synthesized(
     chain: Chain, values: Mapping[str, float], network: Network
 ) -> Mapping[str, float] | None:
     """Positive values by synthesis, None where there is no formula."""
+    # as in `_same_branches`
+    from disting.general.any_model import as_model, on_one_variable
+    from disting.general.balls import positive_sets
+    from disting.general.synthesis import NoFormulas
+    from disting.general.target import rational_values
+
     model = as_model(of_chain(chain))
     at = {name: Fraction(values[name]) for name in chain.parameters}
     try:

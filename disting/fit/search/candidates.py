@@ -95,7 +95,7 @@ def on_elastic_bases(chains: Sequence[Chain]) -> tuple[Chain, ...]:
     chains with a gap and for ports between two masses.
 
     >>> [str(c) for c in on_elastic_bases([Chain(2)])]
-    ['3 masses, gap 1, force 1-2, sensor 1-2, damped']
+    ['3 masses, gap 1, force 2-1, sensor 2-1, damped']
     """
     if any(c.gap or c.act_minus or c.meas_minus for c in chains):
         raise InputError(
