@@ -12,7 +12,7 @@ from disting.measurement.response import FrequencyResponse
 
 CAUSES = "probably friction, backlash or the steps of an encoder"
 OTHER_CAUSES = f"{CAUSES}; or a machine that changes between the repeats"
-HOLD = "values hold for this amplitude"
+HOLD = "values hold for this amplitude, and may lie outside their intervals"
 LEAST = 1e-4  # share of a response below which its size does not matter
 APART = 1.1  # ratio of levels from which on two measurements have different amplitudes
 

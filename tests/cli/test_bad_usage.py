@@ -84,7 +84,7 @@ def refused(capsys, *arguments):
         status = end.code
     out, error = capsys.readouterr()
     # what the simulated data is like
-    told = [line for line in error.splitlines() if "simulation:" not in line]
+    told = [line for line in error.splitlines() if "detected in the input" not in line]
     assert (status, out, len(told)) == (2, "", 1)
     assert told[0].startswith("disting: ")
     return told[0]

@@ -86,7 +86,7 @@ def test_the_sentence_names_both_sizes():
     noise, level = (100 * np.median(x / size) for x in (found.noise, found.nonlinear))
     said = describe_nonlinearity(found)
     assert said.startswith(f"noise {noise:.2g} %, distortion {level:.2g} % (probably friction")
-    assert said.endswith("values hold for this amplitude")
+    assert said.endswith("values hold for this amplitude, and may lie outside their intervals")
     assert not describe_nonlinearity(replace(found, nonlinear=None, distortion=None))
 
 

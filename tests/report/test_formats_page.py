@@ -13,6 +13,7 @@ from disting.measurement import csv_text
 from disting.measurement.response import FrequencyResponse
 from disting.report.fit import write
 from disting.report.fit.left_words import MEASURED_COLUMNS
+from disting.report.fit.network_page import COLUMNS as NETWORKS
 from disting.report.fit.write import COLUMNS as CANDIDATES
 from disting.report.model_list import COLUMNS as MODELS
 from disting.simulation.excitation import HEADER as SPECTRUM
@@ -40,6 +41,7 @@ def test_every_header_is_shown_as_it_is_written() -> None:
         NEXT,
         NEXT + MEASURED_COLUMNS,
         ("rank", "name", *CANDIDATES),
+        NETWORKS,
     )
     written = [",".join(columns) for columns in named]
     assert [*written, PLAN, ",".join(SPECTRUM), response()] == SHOWN
@@ -57,7 +59,7 @@ def test_no_other_module_writes_a_table() -> None:
     assert found <= {
         "catalogs/catalog.py", "catalogs/damper_family.py", "catalogs/dampers.py",
         "catalogs/decisions_text.py", "catalogs/export.py", "cli/dampers.py", "cli/next.py", "cli/verdicts.py",
-        "measurement/files.py", "report/fit/write.py",
+        "measurement/files.py", "report/fit/network_page.py", "report/fit/plan_page.py", "report/fit/write.py",
         "report/model_list.py", "report/write.py", "simulation/excitation.py",
     }  # fmt: skip
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.ndimage import median_filter
 
 from disting.fit.judge.admissible import FROM_ZERO, KNOWN, UNDETERMINED
-from disting.fit.judge.explanation import correlations, partners
+from disting.fit.judge.explanation import Level, correlations, partners
 from disting.fit.judge.members import Disagreement
 from disting.fit.judge.modes import between_lines
 from disting.fit.judge.reading import bad_lines
@@ -137,7 +137,8 @@ def nonlinearity(selection: Selection) -> Iterator[str]:
         fitted = response_of(selection.described, selection.task, own.omega, k)
         sentence = describe_nonlinearity(own)
         seen = scatter(own, [fitted])
-        if not sentence and seen.source == JUMPS and own.noise is not None:
+        explains = selection.explanation.level is Level.EXPLAINS  # else the misfit makes the jumps
+        if not sentence and explains and seen.source == JUMPS and own.noise is not None:
             noise = float(np.median(own.noise / np.abs(own.G)))
             sentence = describe_jumps(float(np.sqrt(2)) * seen.typical, noise)
         if sentence:
