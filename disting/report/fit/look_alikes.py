@@ -57,7 +57,9 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
         yield "no branch of as many masses and no base is proven to have the same responses"
     if of.base_differs:
         offer = "; --base makes it a candidate" if _may_have_base(selection) else ""
-        yield f"an elastic base (force and encoder between base and motor) has other responses{offer}"
+        yield (
+            "an elastic base (force and encoder between base and motor) has other responses" + offer
+        )
 
 
 def _may_have_base(selection: Selection) -> bool:
