@@ -5,6 +5,8 @@ Theorems on networks and searches that rest on them speak of generic values. Whe
 exists, the same statement holds for all values, so it is the stronger one.
 """
 
+from dataclasses import replace
+
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.evidence.general import Explicit
@@ -15,17 +17,20 @@ from disting.general.which_models import Way, way
 from disting.model.question import Domain, Question, Settings
 
 NO_MAP = "no map with plus signs only was found"
+SMALL = 5  # parameters: of so few all orders are tried, whatever the numbering
+EVERY = replace(BRIEF, orders=120)
 
 
 def plain_maps(left: AnyModel, right: AnyModel) -> Explicit | None:
     """The map that has no exception, if a brief search finds one."""
-    ways = list[Way]()
+    size = max(len(m.parameters) for m in (left, right))
+    effort, ways = EVERY if size <= SMALL else BRIEF, list[Way]()
     for model, other in ((left, right), (right, left)):
-        one_way = way(model, other, Domain.POSITIVE, BRIEF)
+        one_way = way(model, other, Domain.POSITIVE, effort)
         if one_way is None or not one_way.covering:
             return None
         ways.append(one_way)
-    evidence = explicit(ways, left, right, Domain.POSITIVE, BRIEF)
+    evidence = explicit(ways, left, right, Domain.POSITIVE, effort)
     is_plain = evidence is not None and evidence.without_exception(Domain.POSITIVE)
     return evidence if is_plain and evidence and fit(evidence, left, right) else None
 
