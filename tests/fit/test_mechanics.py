@@ -181,7 +181,8 @@ def test_where_one_structure_is_left_nothing_is_to_decide():
     assert [m.name for m in alone.members] == [reference(DRIVE)]
     assert "this data excludes every other candidate" in first_lines(alone)[1]
     assert first_lines(alone)[2].startswith(
-        "next: nothing is left to decide between the candidates"
+        "next: nothing is left to decide between the candidates; machines outside them, such as a"
+        " branch or an elastic base, are not excluded"
     )
 
 

@@ -56,7 +56,8 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
     if not of.found:
         yield "no branch of as many masses and no base is proven to have the same responses"
     if of.base_differs:
-        offer = "; --base makes it a candidate" if _may_have_base(selection) else ""
+        offer = ", but they may lie within the scatter: compare with --base"
+        offer = offer if _may_have_base(selection) else ""
         yield (
             "an elastic base (force and encoder between base and motor) has other responses" + offer
         )

@@ -233,7 +233,10 @@ def _to_decide(selection: Selection) -> Iterator[str]:
             f" and {states} can tell, disting next looks for one that can"
         )
     if not (differing or same):
-        yield "nothing is left to decide between the candidates"
+        yield (
+            "nothing is left to decide between the candidates; machines outside them, such as a"
+            " branch or an elastic base, are not excluded"
+        )
         larger = {m.name for m in selection.containing}
         unknown = fold_names(n for m in selection.members for n in m.open if n not in larger)
         if unknown:
