@@ -82,6 +82,11 @@ class Side(ABC, Generic[S]):
         return None
 
     @property
+    def chain_note(self) -> str:
+        """What the chain's parameters are called in it, where they have other names."""
+        return ""
+
+    @property
     def structure(self) -> Structure | None:
         """Its masses, springs and dampers, if it is made of such and measured in one way."""
         return None

@@ -24,6 +24,8 @@ from disting.general.powers import Cell, Powers, in_v, out_of_v, separating_weig
 from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.model.structure import Sort
+from disting.network.chains import RenamedChain, as_renamed_chain
+from disting.network.denotation import Naming, naming_of
 from disting.network.network import Network
 from disting.questions.same.exact import SAFETY, as_finding
 
@@ -50,6 +52,18 @@ def as_chain(model: Chain | AnyModel) -> Chain | None:
     if isinstance(model, Chain):
         return model
     return model.chain if isinstance(model, Model) else None
+
+
+def renamed_chain(model: Chain | AnyModel) -> RenamedChain | None:
+    """The chain as which a model is compared, if it is one in whatever names of its parameters."""
+    chain = as_chain(model)
+    if chain is not None:
+        return RenamedChain(chain, {name: name for name in chain.parameters})
+    if isinstance(model, Chain) or model.network is None:
+        return None
+    found = as_renamed_chain(model.network)
+    is_misnamed = found and naming_of(model.name, found.chain) is Naming.FALSE
+    return None if is_misnamed else found
 
 
 def of_network(network: Network) -> AnyModel:

@@ -28,10 +28,10 @@ from disting.general import model_evidence
 from disting.general.any_model import (
     LEFT,
     RIGHT,
-    as_chain,
     as_network,
     cells_of,
     is_renamed,
+    renamed_chain,
     same,
     with_names,
     without_names,
@@ -56,6 +56,7 @@ from disting.general.replacement import same_in_units
 from disting.model.chain import Chain, Premise
 from disting.model.presentation import GENERIC
 from disting.model.question import Domain, Question, Relation
+from disting.network.chains import RenamedChain
 from disting.questions.same.exact import resting_on_ranks
 
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
@@ -75,10 +76,20 @@ class ComparedModel(Side[AnyModel]):
         """The transfer functions, whatever they are called."""
         return behaviour_of(self.subject)
 
+    @cached_property
+    def renamed_chain(self) -> RenamedChain | None:
+        """The chain that it is, in whatever names of its parameters, if it is one."""
+        return renamed_chain(self.subject)
+
     @property
     def chain(self) -> Chain | None:
         """The chain that it is, if it is one."""
-        return as_chain(self.subject)
+        return None if self.renamed_chain is None else self.renamed_chain.chain
+
+    @property
+    def chain_note(self) -> str:
+        """What the chain's parameters are called in it."""
+        return self.renamed_chain.note(self.name) if self.renamed_chain else ""
 
     @property
     def premise(self) -> Premise | None:

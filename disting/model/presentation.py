@@ -17,6 +17,7 @@ PRESENTER = "disting.report.notebook:Notebook"
 LONGEST = 110  # characters of a line on a prompt
 COUNTED = "degrees count powers of "  # begins a note on models with other powers than those of s
 HALVES = f"{COUNTED}s^(1/2)"  # of models with Warburg elements
+AS_CHAIN = "compared as the chain"
 GENERIC = (
     "the exponents of constant phase elements are generic, those of both networks the same in some"
     " order"

@@ -1,8 +1,13 @@
-"""Chains as networks, and networks that are chains: same elements, same names, same ports."""
+"""Chains as networks, and networks that are chains: in the chain's own names, or in others."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from disting.errors import ConstraintViolation, InputError
 from disting.model.chain import Chain, Sensor
-from disting.model.structure import Damper, Mass, Sort, Spring, Structure
+from disting.model.names import name_of
+from disting.model.presentation import AS_CHAIN
+from disting.model.structure import Damper, GroundDamper, Mass, Sort, Spring, Structure
 from disting.network.element import Element, Port
 from disting.network.network import Network
 
@@ -67,3 +72,88 @@ def _content(network: Network) -> tuple[object, ...]:
     """All but the order of elements and of the ends of joints."""
     elements = {(e.value, e.letter, frozenset(e.nodes), e.ratio) for e in network.elements}
     return elements, network.ports, network.order
+
+
+@dataclass(frozen=True, slots=True)
+class RenamedChain:
+    """A chain, and what its parameters are called in a network, by their names in the chain."""
+
+    chain: Chain
+    names: dict[str, str]
+
+    def note(self, name: str) -> str:
+        """Return what a verdict on the network of that name has to say of its parameters, "" where
+        the chain calls them the same.
+        """
+        pairs = [f"{own} is {other}" for own, other in self.names.items() if own != other]
+        chain = name_of(self.chain)
+        return f"{AS_CHAIN} {chain}: {', '.join(pairs)} of {name}" if pairs else ""
+
+
+def as_renamed_chain(network: Network) -> RenamedChain | None:
+    """Return the chain that a network is, whatever its masses and parameters are called; None if it
+    is none of the class.
+
+    >>> from disting.network import network_of
+    >>> found = as_renamed_chain(network_of("3=1=2; F3; S1"))
+    >>> str(found.chain), found.names["k12"], found.names["m1"]
+    ('3:1', 'k13', 'm3')
+    """
+    if network.sort is not Sort.MACHINE or network.shape != (1, 1):
+        return None
+    if any(e.letter not in "mdk" or e.known_ratio != 1 for e in network.elements):
+        return None
+    found = (_read_as_chain(network, places) for places in _numberings(network))
+    return next(filter(None, found), None)
+
+
+def _numberings(network: Network) -> Iterator[dict[int, int]]:
+    """Yield the numberings under which the springs join neighbours: first the masses from the
+    ground on, then the free ones from either end.
+    """
+    near: dict[int, list[int]] = {i: [] for i in (0, *network.nodes)}
+    for element in network.elements:
+        if element.letter == "k":
+            a, b = element.nodes
+            near[a].append(b)
+            near[b].append(a)
+    grounded = _walk(near, 0)
+    free = [i for i in near if i not in grounded]
+    ends = [i for i in free if len(near[i]) <= 1]
+    for path in [_walk(near, end) for end in ends] or [[]]:
+        order = [*grounded, *path]
+        if sorted(order) == sorted(near):
+            yield {old: new for new, old in enumerate(order)}
+
+
+def _walk(near: dict[int, list[int]], start: int) -> list[int]:
+    path = [start]
+    while more := [i for i in near[path[-1]] if i not in path]:
+        path.append(more[0])
+    return path
+
+
+def _read_as_chain(network: Network, places: dict[int, int]) -> RenamedChain | None:
+    """Return the chain that it is in these numbers, if it is one."""
+    moved = [replace(e, nodes=tuple(places[i] for i in e.nodes)) for e in network.elements]
+    joints = {frozenset(e.nodes) for e in moved if e.letter == "k"}
+    own = [_own_name(e, joints) for e in moved]
+    if not all(own) or len(set(own)) < len(own) or len({e.value for e in moved}) < len(own):
+        return None
+    elements = tuple(replace(e, value=name) for e, name in zip(moved, own, strict=True))
+    force, sensor = (Port(places[p.plus], places[p.minus]) for p in network.ports)
+    chain = as_chain(Network(elements, (force,), (sensor,), network.order, network.name))
+    names = {name: e.value for name, e in zip(own, moved, strict=True)}
+    return None if chain is None else RenamedChain(chain, names)
+
+
+def _own_name(element: Element, joints: set[frozenset[int]]) -> str:
+    """Return what a chain calls the element at this place, "" where it has none."""
+    at, *others = sorted(element.nodes)
+    if element.letter == "m":
+        return Mass(at).parameter
+    if element.letter == "k":
+        return Spring(at).parameter
+    if frozenset(element.nodes) in joints:
+        return Damper(at).parameter
+    return "" if at else GroundDamper(others[0]).parameter

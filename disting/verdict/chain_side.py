@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from disting.algebra.content import full_text
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.expansion import is_renaming
 from disting.conditions.finding import Finding, Outcome, positive_ways
@@ -54,7 +55,21 @@ ChainPair = tuple["ComparedChain", "ComparedChain"]
 
 @dataclass(frozen=True)
 class ComparedChain(Side[Chain]):
-    """A chain; profiles are those of the canonical form, which all symmetric chains share."""
+    """A chain; profiles are those of the canonical form, which all symmetric chains share. `note`
+    says what its parameters are called in the network that it is.
+    """
+
+    note: str = ""
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The names of its parameters where they are others."""
+        return (self.note,) if self.note else ()
+
+    @property
+    def content(self) -> tuple[str, ...]:
+        """All that its verdicts depend on, as text."""
+        return (self.name, full_text(self.subject), *self.notes)
 
     @property
     def model(self) -> ChainModel:

@@ -78,11 +78,13 @@ class Engine:
     def __repr__(self) -> str:
         return summary(self, f"seed {self.settings.seed!r}, {self.store!r}")
 
-    def subject(self, name: str, chain: Chain) -> ComparedChain:
-        """A side of a comparison whose profiles come from this engine."""
+    def subject(self, name: str, chain: Chain, note: str = "") -> ComparedChain:
+        """A side of a comparison whose profiles come from this engine; `note` says what its
+        parameters are called in the network that it is.
+        """
         from disting.verdict.chain_side import ComparedChain
 
-        return ComparedChain(name, chain, self.settings, self.profile, self.answer)
+        return ComparedChain(name, chain, self.settings, self.profile, self.answer, note)
 
     def general_subjects(
         self, models: Sequence[AnyModel | Network], names: Sequence[str] = ()
@@ -180,7 +182,7 @@ class Engine:
             self.answer_all(question, pairs, executor=executor, progress=progress)
 
         chains = {
-            place: self.subject(s.name, s.chain)
+            place: self.subject(s.name, s.chain, s.chain_note)
             for place, s in enumerate(subjects)
             if s.chain is not None and s.chain is not s.subject
         }

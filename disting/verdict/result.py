@@ -16,7 +16,7 @@ from disting.evidence.kinds import Evidence, evidence_from as evidence_from
 from disting.evidence.positive import PositiveFinding
 from disting.evidence.real import BothWays
 from disting.model.chain import Premise
-from disting.model.presentation import COUNTED, GENERIC, NotebookTable, summary
+from disting.model.presentation import AS_CHAIN, COUNTED, GENERIC, NotebookTable, summary
 from disting.model.question import Domain, Relation as Relation
 
 
@@ -27,7 +27,7 @@ def error_bound(certainty: str, safety: int) -> str:
     return bits_in_words(safety) if certainty == Certainty.BOUNDED else "0"
 
 
-TOLD = (COUNTED, GENERIC)  # how notes begin that belong to what is said
+TOLD = (COUNTED, GENERIC, AS_CHAIN)  # how notes begin that belong to what is said
 WHERE = {Stage.TF: "transfer function", Stage.MARKOV: "Markov parameters"}
 _APART, _SAME = (
     {Outcome.FAILS: Relation.DISTINGUISHABLE},

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, short
 from disting.experiments.experiment import Experiment, MeasuredChain
-from disting.general.any_model import as_chain, as_model, of_network
+from disting.general.any_model import as_model, of_network, renamed_chain
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import name_of, names_of, read_together
@@ -127,9 +127,12 @@ def plain_sides(
     names.
     """
     left_name, right_name = names_beside(left, right)
-    a, b = as_chain(left), as_chain(right)
+    a, b = renamed_chain(left), renamed_chain(right)
     if a is not None and b is not None:
-        return engine.subject(left_name, a), engine.subject(right_name, b)
+        return (
+            engine.subject(left_name, a.chain, a.note(left_name)),
+            engine.subject(right_name, b.chain, b.note(right_name)),
+        )
     models = [as_model(left), as_model(right)]
     refuse_ports(models)
     first, second = engine.general_subjects(models, (left_name, right_name))

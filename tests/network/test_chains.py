@@ -8,7 +8,7 @@ from disting import Chain, Family, Inclusion, Query, Sensor, View, compare, veri
 from disting.general.any_model import of_network
 from disting.general.model import Model
 from disting.model.chain import text_drawing
-from disting.network.chains import as_chain, of_chain
+from disting.network.chains import as_chain, as_renamed_chain, of_chain
 from disting.network.network import Network
 from disting.network.notation import network_of
 from disting.verdict.verdict_file import verdict_file
@@ -77,6 +77,33 @@ def test_a_chain_in_its_own_names_is_compared_as_that_chain():
     found = compare("1=2=3; F1; S1", "3:11")
     assert found.evidence is not None and found.sure == "proven (duality theorem)"
     assert found.premises[0] is not None
+
+
+@pytest.mark.parametrize(
+    ("text", "chain", "own"),
+    [
+        ("3=1=2; F3; S3", "1=2=3; F3; S3", {"m3": "m3", "m2": "m1", "k12": "k12", "k23": "k13"}),
+        ("2~1~3; F2; S2", "1~2~3; F1; S1", {"m1": "m2", "m2": "m1", "k12": "k12", "k23": "k13"}),
+        ("#~2, 1~3; F1:2; S1:2", "#~1, 2~3; F2:1; S2:1", {"m1": "m2", "k01": "k02"}),
+    ],
+)
+def test_a_chain_in_other_names_is_compared_as_that_chain(text, chain, own):
+    found = as_renamed_chain(network_of(text))
+    assert found is not None and own.items() <= found.names.items()
+    assert compare(text, chain).relation.value == "indistinguishable"
+    assert found.chain.structure == as_chain(network_of(chain)).structure
+
+
+@pytest.mark.parametrize("text", ["1~2, 1~3, 1~4; F1; S1", "1~2, 2~3, 1~3; F1; S1"])
+def test_no_chain_is_made_of_another_network(text):
+    assert as_renamed_chain(network_of(text)) is None
+
+
+def test_a_verdict_on_a_chain_in_other_names_tells_them():
+    found = compare("2~1~3; F2; S2", "1~2~3; F1; S3")
+    assert found.sentence.endswith(
+        " Compared as the chain 3:1: m2 is m1, m1 is m2, k23 is k13 of 2~1~3; F2; S2."
+    )
 
 
 def test_the_file_of_a_verdict_on_networks_holds_and_a_changed_element_does_not():
