@@ -4,9 +4,74 @@ a measurement cannot tell apart, with proof, and what else to measure then.
 >>> from disting import Family, compare
 >>> compare(Family(3)[9], Family(3)[10]).relation.value
 'indistinguishable'
+
+The names by subject; `help(disting.compare)` explains one of them.
+
+Compare, and verdicts:
+
+    compare                  verdict on two models
+    compare_everywhere       verdicts for all places of a further sensor, force or lock
+    findings                 what each condition finds on two models
+    prove                    proof of a verdict that rests on random points
+    Verdict, Relation        a verdict; distinguishable, indistinguishable, sometimes, undecided
+    Certainty, Inclusion     how sure it is; which model has responses that the other cannot produce
+    Domain                   complex, real or positive parameters
+    Query, View              which representations and conditions may decide
+    CONDITIONS               the conditions of the paper, in order
+    Step, Finding, Outcome   a condition in one representation, and what it found
+    Engine, Settings         decides all pairs of a list; seeds and limits of a computation
+    Decisions                its answer: matrix and classes
+    Experiment               a further way to measure: sensor, force, locked mass, added inertia
+
+One model, and what has the same response:
+
+    identifiability          which parameters data determine
+    Identifiability, ParameterIdentifiability, Level   its answer; global, local, ..
+    local_identifiability, global_identifiability      the same of a model with formulas
+    equivalents              all parameters of other models with the same transfer function
+    explicit_map             formulas for these parameters
+    alternatives             parameters of one model with the response of another, at given values
+    Alternatives             its answer
+    gate                     which of many models are worth a fit
+
+Models and networks:
+
+    Chain, Family, Symmetry  masses in a row; all of one size; symmetries of a chain
+    Sensor                   sensor quantity: position, velocity or acceleration
+    Network, Element, Port   machines that branch, circuits, compartments
+    network_of, values_in    a network, and its values, from a text such as "R0-p(R1,C1)"
+    Model, MatrixModel       state spaces and transfer functions with parameters
+    ModelList, read_models, write_models               lists of models in files
+    transfer_function        G(s) of a chain as a SymPy expression
+
+Catalogues:
+
+    catalog                  the shipped verdicts on all chains of a size
+    Catalog, ModelRow        its matrix, classes and rows
+
+Measurements and fit:
+
+    measurement              frequency responses and records from files and arrays
+    fit                      the structures that explain a measured response
+    simulation               what a bench would measure
+    report                   pages and figures
+
+Evidence and files:
+
+    verdict_file, everywhere_file   a verdict with all that its check needs, for JSON
+    verify, Verification     check such a file
+    Store, CacheWarning      the cache of finished work
+
+Errors:
+
+    DistingError             base of all errors that disting raises
+    InputError               an argument or a file that cannot be understood
+    ConstraintViolation      a chain that is no model of the class
+    CatalogError             a catalogue file that is missing or damaged
+    ContradictionError       a defect of disting: two conditions contradict each other
 """
 
-TYPE_CHECKING = False  # as type checkers know it; the module typing would double the start
+TYPE_CHECKING = False  # the name that type checkers know; the module typing would double the start
 if TYPE_CHECKING:
     from disting import (
         fit as fit,
@@ -79,67 +144,21 @@ if TYPE_CHECKING:
     from disting.verdict.verdict_file import verdict_file as verdict_file
     from disting.verdict.verification import Verification as Verification, verify as verify
 
-# The same list, by which a name is found when it is used: to import all takes half a second.
-_NAMES = {
-    "disting.algebra.certainty": "Certainty",
-    "disting.behaviour.expansion": "transfer_function",
-    "disting.catalogs": "Catalog ModelRow catalog",
-    "disting.conditions.finding": "Finding Outcome",
-    "disting.conditions.inclusion": "Inclusion",
-    "disting.conditions.table": "CONDITIONS",
-    "disting.equivalence": "equivalents explicit_map gate",
-    "disting.errors": "CatalogError ConstraintViolation ContradictionError DistingError InputError",
-    "disting.experiments.experiment": "Experiment",
-    "disting.files": "__version__",
-    "disting.general.alternatives": "Alternatives alternatives",
-    "disting.general.global_identifiability": "global_identifiability",
-    "disting.general.identifiability": "local_identifiability",
-    "disting.general.matrix_model": "MatrixModel",
-    "disting.general.model": "Model",
-    "disting.general.model_files": "ModelList read_models write_models",
-    "disting.model.chain": "Chain Sensor",
-    "disting.model.family": "Family",
-    "disting.model.question": "Domain Settings",
-    "disting.model.symmetry": "Symmetry",
-    "disting.network.element": "Element Port",
-    "disting.network.network": "Network",
-    "disting.network.notation": "network_of values_in",
-    "disting.questions.identifiability.answer": "Identifiability",
-    "disting.questions.identifiability.levels": "ParameterIdentifiability",
-    "disting.questions.identifiability.parts": "Level",
-    "disting.store": "CacheWarning Store",
-    "disting.verdict.comparison": "compare findings identifiability prove",
-    "disting.verdict.decisions": "Decisions",
-    "disting.verdict.engine": "Engine",
-    "disting.verdict.placement_verdicts": "compare_everywhere everywhere_file",
-    "disting.verdict.query": "Query View",
-    "disting.verdict.result": "Relation Step Verdict",
-    "disting.verdict.verdict_file": "verdict_file",
-    "disting.verdict.verification": "Verification verify",
-}
-_HOME = {name: module for module, names in _NAMES.items() for name in names.split()}
-_ROOMS = ("fit", "measurement", "report", "simulation")  # beside the names above
-__all__ = sorted(_HOME.keys() - {"__version__"})
-
-
-def __dir__() -> list[str]:
-    """What the Tab key offers: the public names, and the rooms that have names of their own."""
-    return [*__all__, *_ROOMS, "__version__"]
-
-
-def _named(name: str) -> object:
-    """A public name or a room, imported when it is used: `disting.fit` after `import disting`."""
-    from importlib import import_module
-    from importlib.util import find_spec
-
-    if name in _HOME:
-        attribute: object = getattr(import_module(_HOME[name]), name)
-        globals()[name] = attribute
-        return attribute
-    if name.startswith("_") or find_spec(f"disting.{name}") is None:
-        raise AttributeError(f"disting has no {name}; dir(disting) lists what it has")
-    return import_module(f"disting.{name}")
-
-
 if not TYPE_CHECKING:  # else any name would be right to a type checker
-    __getattr__ = _named
+
+    def _offered():
+        """This package, from now on with its public names, which are imported when they are used.
+
+        Called when the first of them is: `import disting` alone loads no other module.
+        """
+        from disting.lazy import offer
+
+        for shim in ("__getattr__", "__dir__"):
+            globals().pop(shim, None)
+        return offer(__name__)
+
+    def __getattr__(name):
+        return getattr(_offered(), name)
+
+    def __dir__():
+        return dir(_offered())

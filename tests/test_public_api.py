@@ -1,6 +1,7 @@
 """The public names, literally: adding or removing one is a decision that shows here."""
 
 import ast
+import pydoc
 import re
 import subprocess
 import sys
@@ -104,17 +105,26 @@ def test_public_names():
     assert sorted(dir(disting)) == sorted([*NAMES, *ROOMS, "__version__"])
 
 
-def test_what_type_checkers_are_told_is_what_a_name_gives():
-    """The names stand twice: as imports that are never made, and with their modules."""
-    tree = ast.parse(Path(disting.__file__).read_text(encoding="utf-8"))
-    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
-    told = {
-        alias.asname: getattr(import_module(node.module), alias.name)
-        for node in imports
-        if node.module.startswith("disting")
-        for alias in node.names
-    }
-    assert told == {name: getattr(disting, name) for name in [*NAMES, *ROOMS, "__version__"]}
+LONGEST_HELP = 400  # lines; with all members of all names it would be 7,400
+HELPFUL = (
+    "", ".catalogs", ".equivalence", ".experiments", ".fit", ".general", ".measurement", ".network",
+    ".questions.identifiability", ".report", ".report.fit", ".simulation",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("room", HELPFUL)
+def test_help_is_short_and_has_every_public_name(room):
+    module = import_module(f"disting{room}")
+    text = pydoc.render_doc(module, renderer=pydoc.plaintext)
+    listed = "\n".join(line for line in text.splitlines() if line.startswith(" " * 8))
+    assert [name for name in module.__all__ if not re.search(rf"\b{name}\b", listed)] == []
+    assert len(text.splitlines()) < LONGEST_HELP and "CLASSES" not in text
+
+
+def test_help_of_a_fresh_process_is_as_short():
+    """The public names of `disting` are offered when the first of them is used, here by pydoc."""
+    code = "import pydoc, disting; print(len(pydoc.render_doc(disting).splitlines()))"
+    assert int(*fresh(code)) < LONGEST_HELP
 
 
 def fresh(code):
@@ -143,7 +153,7 @@ def test_modules_are_found_below_the_package_and_other_names_are_not():
         "disting.errors",
     ]
     for name in ("nonsense", "_nonsense"):
-        with pytest.raises(AttributeError, match=r"dir\(disting\) lists what it has"):
+        with pytest.raises(AttributeError, match=r"dir\(disting\) lists its names"):
             getattr(disting, name)
 
 
@@ -233,7 +243,8 @@ DOCUMENTED = (
 @pytest.mark.parametrize("room", DOCUMENTED)
 def test_every_public_name_has_an_example(room):
     """In its own docstring, or in that of its room, which shows them at work one after the other."""
-    found, shown = callables(room), import_module(f"disting{room}").__doc__
+    found, lines = callables(room), import_module(f"disting{room}").__doc__.splitlines()
+    shown = "\n".join(line for line in lines if not line.startswith("    "))  # no list of names
     assert len(found) > 7
     without = [
         name
@@ -302,29 +313,30 @@ def test_tab_offers_no_modules(room):
     assert dir(module) == sorted(dir(module)) and "select" in dir(disting.fit)
 
 
-def offered_twice():
-    """Packages that list their public names as imports and with their modules."""
+def offering():
+    """Sources of the packages that list their public names as imports for type checkers."""
     package = Path(disting.__file__).parent
     texts = {path: path.read_text(encoding="utf-8") for path in package.rglob("__init__.py")}
     return {
         ".".join(path.relative_to(package.parent).parent.parts): text
         for path, text in texts.items()
-        if "\noffer(" in text
+        if "offer(__name__)" in text
     }
 
 
-@pytest.mark.parametrize("package", sorted(offered_twice()))
+@pytest.mark.parametrize("package", sorted(offering()))
 def test_names_of_a_package_are_those_that_type_checkers_see(package):
-    tree = ast.parse(offered_twice()[package])
-    (typed,) = [node for node in tree.body if isinstance(node, ast.If)]
+    tree = ast.parse(offering()[package])
+    typed = next(node for node in tree.body if isinstance(node, ast.If))
     expected = {
         alias.asname: getattr(import_module(node.module), alias.name)
         for node in typed.body
         for alias in node.names
     }
     module = import_module(package)
-    assert {name: getattr(module, name) for name in module.__all__} == expected
-    assert dir(module) == sorted(expected)
+    assert {name: getattr(module, name) for name in dir(module)} == expected
+    rooms = ROOMS if package == "disting" else []
+    assert sorted([*module.__all__, *rooms]) == sorted(expected.keys() - {"__version__"})
 
 
 def test_a_package_offers_functions_that_are_called_as_their_modules():
@@ -337,5 +349,7 @@ def test_a_package_offers_functions_that_are_called_as_their_modules():
     )
     assert fresh(code) == ["function", "function", "function", "module"]
     for name in ("nonsense", "_nonsense"):
-        with pytest.raises(AttributeError, match=r"disting\.fit has no _?nonsense; dir\(\)"):
+        with pytest.raises(
+            AttributeError, match=r"disting\.fit has no _?nonsense; dir\(disting\.fit\)"
+        ):
             getattr(disting.fit, name)

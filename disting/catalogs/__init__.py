@@ -1,4 +1,11 @@
-"""A whole family compared: built, stored, looked up, verified."""
+"""A whole family compared: built, stored, looked up, verified.
+
+The names:
+
+    catalog    the shipped verdicts on all chains of a size
+    Catalog    its matrix, classes and verdicts
+    ModelRow   a model with its rank and its group
+"""
 
 from disting.lazy import TYPE_CHECKING, offer
 
@@ -6,4 +13,4 @@ if TYPE_CHECKING:
     from disting.catalogs.catalog import Catalog as Catalog, catalog as catalog
     from disting.catalogs.pairs import ModelRow as ModelRow
 
-offer(__name__, {"catalog": "Catalog catalog", "pairs": "ModelRow"})
+offer(__name__)

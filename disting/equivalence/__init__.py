@@ -15,6 +15,17 @@ Before many candidates are fitted a Gate says which are the same:
 >>> from disting import network_of
 >>> gate([network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")]).kept
 ('R0-p(R1,C1)',)
+
+The names:
+
+    equivalents            all parameters of other models with the same transfer function
+    Equivalents, Listing   its answer; the part on one structure, `among` says which were searched
+    Equivalent             one set of parameters
+    Signs, Origin, NONE    signs of its values; where it comes from; the text for an empty listing
+    chains_of              the structures that a text such as "3:11" or "3" means
+    assignments            values from texts such as "m1=1,k12=3/4"
+    explicit_map, Map      formulas for equivalent parameters
+    gate, Gate             which of many models are worth a fit
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -34,13 +45,4 @@ if TYPE_CHECKING:
     from disting.equivalence.maps import Map as Map, explicit_map as explicit_map
     from disting.equivalence.search import equivalents as equivalents
 
-offer(
-    __name__,
-    {
-        "duplicates": "Gate gate",
-        "inputs": "assignments chains_of",
-        "listing": "NONE Equivalent Equivalents Listing Origin Signs among",
-        "maps": "Map explicit_map",
-        "search": "equivalents",
-    },
-)
+offer(__name__)

@@ -14,6 +14,16 @@ the other.
 Experiment(sensor=1)
 
 `confirms` finds evidence of a verdict under experiments again, as `disting.verify` does.
+
+The names:
+
+    Experiment, Change             a way to measure; a change of the machine at one mass
+    MeasuredChain                  a chain under several experiments
+    parse_experiment               an experiment from a text such as "sensor=2"
+    PlacedExperiment, Places, ways   experiments on two chains; which mass is which
+    move                           an experiment at the places of the other chain
+    confirms                       check evidence of a verdict again
+    GENERIC                        a size that is drawn once, the same for all models
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -33,12 +43,4 @@ if TYPE_CHECKING:
         ways as ways,
     )
 
-offer(
-    __name__,
-    {
-        "changes": "GENERIC Change",
-        "experiment": "Experiment MeasuredChain",
-        "measured_evidence": "confirms",
-        "places": "PlacedExperiment Places move parse_experiment ways",
-    },
-)
+offer(__name__)

@@ -70,6 +70,46 @@ True
 >>> measured = FrequencyResponse(asked.rival.cost.measured.omega, predict(drive, values, omega))
 >>> asked.power > 0.5, gain(asked.rival, measured) > 100, design(asked).rate
 (True, True, 1000.0)
+
+The names by subject. Candidates, and the fit:
+
+    figure_1, whole_family        candidate structures by size
+    chosen_ports, variants        those with given ports; dampers, lag, dead time of one structure
+    select                        fit candidates to measured responses
+    FurtherResponse, Setup        a further response of the machine; how one was measured
+    Case, Thresholds, Rule        which residuals; limits of the criteria; who may be selected
+    lines_by_coherence, lines_by_deviation   weights of the lines
+    Task, Cost, JointCost         what is minimised, for one and for several responses
+    Plant, JointPlant             the model's responses at the measured frequencies
+    estimates, Estimate           best parameters of each structure
+
+What a fit finds:
+
+    Selection, Candidate, Member  the answer; a fitted candidate; a structure that is not excluded
+    Explanation, Miss             does it explain the data; where it misses them
+    Practical, practical, importance, collinearity_index, condition_indices
+                                  which parameters the data determine
+    Noise, Scatter                scatter of the lines
+    Alternative, Twin, Disagreement, Reading, QuantityReading, Statement
+                                  structures that behave the same; what else the answer rests on
+
+Results:
+
+    Result, physical, poles, zeros   resonances, inertias; poles and zeros of a structure
+    predict, fit_percent          response of a chain with values; share of the response explained
+    confidence, Confidence        standard errors of the response
+    profile, Profile              smallest cost at each value of one parameter
+    sweep, Sweep                  the best candidate at each threshold of one criterion
+    Controller, margins, Margins  a controller, and the stability of its loop
+    state_space, zero_pole, to_control, to_control_transfer_function
+                                  the model for other programs
+    control_script, write_mat, NumberedStructure   the same as files
+    read_model                    structure and values from fit.json
+
+What to measure next:
+
+    plan, Plan, Rival, gain       how much measuring tells a rival from the model
+    design, Design                the best band and spectrum for that
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -155,38 +195,4 @@ if TYPE_CHECKING:
     from disting.fit.search.setup import Setup as Setup
     from disting.fit.select import select as select
 
-offer(
-    __name__,
-    {
-        "judge.admissible": "Rule",
-        "judge.alternatives": "Alternative",
-        "judge.candidate": "Candidate",
-        "judge.explanation": "Explanation Miss",
-        "judge.members": "Disagreement Member Twin",
-        "judge.modes": "Result physical poles zeros",
-        "judge.practical": "Practical Thresholds collinearity_index"
-        " condition_indices importance practical",
-        "judge.quantity": "QuantityReading",
-        "judge.readings": "Reading",
-        "noise.covariance": "Noise",
-        "noise.scatter": "Scatter",
-        "plan.design": "Design design",
-        "plan.power": "Plan plan",
-        "plan.rival": "Rival gain",
-        "results.export": "NumberedStructure control_script predict state_space"
-        " to_control to_control_transfer_function write_mat zero_pole",
-        "results.loop": "Controller Margins margins",
-        "results.model_file": "read_model",
-        "results.reliance": "Statement",
-        "results.selection": "Confidence Profile Selection Sweep"
-        " confidence fit_percent profile sweep",
-        "search.candidates": "chosen_ports figure_1 variants whole_family",
-        "search.cost": "Case Cost lines_by_coherence lines_by_deviation",
-        "search.estimate": "Estimate Task",
-        "search.exchange": "estimates",
-        "search.joint": "FurtherResponse JointCost JointPlant",
-        "search.plant": "Plant",
-        "search.setup": "Setup",
-        "select": "select",
-    },
-)
+offer(__name__)

@@ -25,6 +25,18 @@ Evidence of a verdict is found again, as `disting.verify` does: Witnesses by `co
 >>> from disting.general import is_explicit
 >>> is_explicit(compare(lag, other).evidence, lag, other)
 True
+
+The names:
+
+    Model, MatrixModel, AnyModel      one input and output; several; either of them
+    ModelList, read_models, write_models   lists of models in files
+    as_chain, without_names           the chain that a model is; a model with plain names
+    alternatives, Alternatives        parameters with the response of another model
+    Equivalent, Extent                one set of them; none, finitely many or a family
+    local_identifiability, LocalIdentifiability     which parameters are locally determined
+    global_identifiability, GlobalIdentifiability   how many parameter vectors fit
+    parameter_identifiability         the level of each parameter
+    Witnesses, confirms, is_explicit, is_without    evidence of verdicts, and its checks
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -57,20 +69,4 @@ if TYPE_CHECKING:
         write_models as write_models,
     )
 
-offer(
-    __name__,
-    {
-        "disting.evidence.general": "Witnesses",
-        "alternatives": "Alternatives alternatives",
-        "any_model": "as_chain without_names",
-        "equivalent": "Equivalent",
-        "fibre": "Extent",
-        "formulas": "is_explicit is_without",
-        "global_identifiability": "GlobalIdentifiability global_identifiability",
-        "identifiability": "LocalIdentifiability local_identifiability parameter_identifiability",
-        "matrix_model": "AnyModel MatrixModel",
-        "model": "Model",
-        "model_evidence": "confirms",
-        "model_files": "ModelList read_models write_models",
-    },
-)
+offer(__name__)

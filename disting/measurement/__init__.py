@@ -7,6 +7,18 @@ units.
 >>> position = from_arrays(frequency, -1 / (2 * np.pi * frequency) ** 2 / 0.01, sensor="position")
 >>> bool(abs(position.to_quantity("acceleration").G - 100).max() < 1e-9)
 True
+
+The names:
+
+    read, read_time_series           a frequency response, a record from a file
+    look, Look                       what is read from a file and what is assumed
+    from_arrays, from_frame, from_control   a response from numpy, pandas, python-control
+    series_from_frame                a record from pandas
+    FrequencyResponse, TimeSeries, Signal   response; record; name and unit of a signal
+    mean_of, are_opposite            mean of repeats; whether two responses differ in sign
+    in_si                            a response in SI units
+    write_csv, csv_text              a response as a text file
+    beginnings                       columns at which the responses of a file begin
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -34,15 +46,4 @@ if TYPE_CHECKING:
     from disting.measurement.scaling import in_si as in_si
     from disting.measurement.time_series import TimeSeries as TimeSeries
 
-offer(
-    __name__,
-    {
-        "files": "beginnings csv_text read read_time_series write_csv",
-        "looking": "Look look",
-        "objects": "from_arrays from_control from_frame series_from_frame",
-        "repeats": "are_opposite mean_of",
-        "response": "FrequencyResponse Signal",
-        "scaling": "in_si",
-        "time_series": "TimeSeries",
-    },
-)
+offer(__name__)

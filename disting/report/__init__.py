@@ -1,5 +1,13 @@
 """Catalogues as pages and figures. This layer renders verdicts and never decides; it writes
 formulas out for people.
+
+The names:
+
+    write_report, write_family    a site of catalogues; pages of your own models
+    page, index, model_page, damper_page   single pages as HTML
+    chain_svg, chain_png, network_svg, network_png   drawings
+    describe                      a chain in words
+    matrix_svg, matrix_png        the verdict matrix of a catalogue
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -22,17 +30,4 @@ if TYPE_CHECKING:
     from disting.report.page import page as page
     from disting.report.write import write_report as write_report
 
-offer(
-    __name__,
-    {
-        "damper_page": "damper_page",
-        "drawing": "chain_png chain_svg describe",
-        "index": "index",
-        "matrix": "matrix_png matrix_svg",
-        "model": "model_page",
-        "model_list": "write_family",
-        "network_drawing": "network_png network_svg",
-        "page": "page",
-        "write": "write_report",
-    },
-)
+offer(__name__)

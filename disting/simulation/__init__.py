@@ -1,5 +1,14 @@
 """Simulated measurements of machines: what a bench would record, with noise, quantisation,
 friction, dead time and lag.
+
+The names:
+
+    simulate, simulate_all         a record of one force and one sensor; of all of a network
+    Bench, Friction                sampling, noise, quantisation; friction of a mass
+    Excitation, Kind               the excitation signal
+    frequency_response             G(j omega) of a model with values
+    matrices, Matrices, port_vectors   M, D, K of a machine; vectors of force and sensor
+    demo, DEMO_MODEL, DEMO_PARAMETERS, DEMO_BENCH   the record of the demonstration
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -23,12 +32,4 @@ if TYPE_CHECKING:
     )
     from disting.simulation.stepping import Friction as Friction
 
-offer(
-    __name__,
-    {
-        "bench": "DEMO_BENCH DEMO_MODEL DEMO_PARAMETERS Bench demo simulate simulate_all",
-        "excitation": "Excitation Kind",
-        "mechanics": "Matrices frequency_response matrices port_vectors",
-        "stepping": "Friction",
-    },
-)
+offer(__name__)

@@ -44,18 +44,4 @@ if TYPE_CHECKING:
         normalise as normalise,
     )
 
-offer(
-    __name__,
-    {
-        "disting.evidence.kinds": "Decision",
-        "by_shares": "tell_chains_apart",
-        "by_two_rows": "confirms_by_rows included_by_rows refuted_by_rows",
-        "confirm": "confirms find_again holds_for refuted_at safety_of",
-        "full_rows": "same_by_full_rows",
-        "membership": "Limits decide decide_matched",
-        "one_value": "one_value",
-        "shares": "MOST TRIES Try",
-        "stacked_map": "Fraction StackedMap stacked_maps",
-        "system": "CoefficientMap PolynomialMap Terms coefficient_map match_maps normalise",
-    },
-)
+offer(__name__)

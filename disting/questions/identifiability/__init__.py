@@ -23,6 +23,17 @@ the canonical form of a chain, and `in_names_of` in its names. Of any model `loc
 >>> from disting.questions.identifiability import joint
 >>> joint([100, 120])
 (<Certainty.BOUNDED: 'bounded'>, 99)
+
+The names:
+
+    identifiability, identifiabilities, IDENTIFIABILITY   of one chain, of many; the question
+    Identifiability, Level           the answer; global, local, .. of a parameter
+    Combination, Formula, Renaming   what is determined; a term of it; exchanges of parameters
+    Alternative, Origin              another set of parameters; where it comes from
+    ParameterIdentifiability, by_parameter   the level of each parameter of any model
+    Local, local, joint              ranks of the Jacobian; the certainty of several statements
+    confirms                         check an answer again
+    in_names_of, encode, decode      in other names; as text and back
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -54,13 +65,4 @@ if TYPE_CHECKING:
         Renaming as Renaming,
     )
 
-offer(
-    __name__,
-    {
-        "analysis": "IDENTIFIABILITY identifiabilities identifiability in_names_of",
-        "answer": "Identifiability",
-        "check": "confirms",
-        "levels": "Local ParameterIdentifiability by_parameter decode encode joint local",
-        "parts": "Alternative Combination Formula Level Origin Renaming",
-    },
-)
+offer(__name__)

@@ -20,12 +20,4 @@ if TYPE_CHECKING:
     )
     from disting.questions.positive.shares import positive_finding as positive_finding
 
-offer(
-    __name__,
-    {
-        "confirmation": "confirms proves",
-        "ranges": "Ranges confirms_within ranges renamings within_ranges",
-        "real": "always_real confirms_real real_witness",
-        "shares": "positive_finding",
-    },
-)
+offer(__name__)

@@ -1,5 +1,14 @@
 """A fit in sentences, as a page, as figures, and as plain data for a file. This package renders
 what `disting.fit` found, and asks it for what a figure needs.
+
+The names:
+
+    write_fit_report, write_network_report   page, figures and data of a fit, in a folder
+    fit_page, fit_figures, selection_to_dict   the page, the figures, the data alone
+    export                        the structures that the data leave, for other programs
+    bode, residuals, profile_panels, waterfall   figures of a candidate
+    importance_bars, collinearity_dots           figures of its parameters
+    models_by_threshold, parameters_by_threshold   figures of the criteria
 """
 
 from disting.lazy import TYPE_CHECKING, offer
@@ -28,17 +37,4 @@ if TYPE_CHECKING:
         write_fit_report as write_fit_report,
     )
 
-offer(
-    __name__,
-    {
-        "bode": "bode",
-        "convergence": "profile_panels waterfall",
-        "criteria": "models_by_threshold parameters_by_threshold",
-        "network_page": "write_network_report",
-        "residuals": "residuals",
-        "selection_json": "selection_to_dict",
-        "selection_page": "fit_page",
-        "sensitivity": "collinearity_dots importance_bars",
-        "write": "export fit_figures write_fit_report",
-    },
-)
+offer(__name__)
