@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, short
-from disting.measurement import periodic, welch
+from disting.measurement import periodic
 from disting.measurement.arrays import Real, frozen, real, same
-from disting.measurement.feedback_in_noise import loop_in_noise
 from disting.measurement.method import Method
 from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
 from disting.measurement.trend import (
@@ -174,6 +173,9 @@ class TimeSeries:
         removes_trends: bool,
     ) -> FrequencyResponse:
         """Response by Welch's method; of a position by its differences where trends are removed."""
+        from disting.measurement import welch  # most files are responses or periodic
+        from disting.measurement.feedback_in_noise import loop_in_noise
+
         is_alone = self.reference is None
         loop = loop_in_noise(self.u, self.y, self.sensor.order) if is_alone else None
         options = (self.sampling_rate, segment, band, self.reference, least_coherence)

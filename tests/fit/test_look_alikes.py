@@ -4,15 +4,15 @@ stiffness matrices, equal those of the fitted chain.
 
 import subprocess
 import sys
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
 
 from disting.cli.fit_text import fit_text
 from disting.errors import InputError
-from disting.fit.judge.alternatives import representatives
-from disting.fit.judge.look_alikes import LookAlikeKind, look_alikes
+from disting.fit.judge.alternatives import alternatives, representatives
+from disting.fit.judge.look_alikes import LookAlikeKind, base_is_the_same, look_alikes
 from disting.fit.search.candidates import on_elastic_bases
 from disting.fit.select import select
 from disting.general.any_model import as_model
@@ -129,6 +129,32 @@ def test_engine_confirms_the_theorem_of_the_free_base(masses, damped):
     free = Network(elements, ports, ports, chain.sensor.order)
     verdict = compare(as_model(chain), as_model(free), query=Query(View.POSITIVE, inclusion=False))
     assert verdict.relation is Relation.INDISTINGUISHABLE
+
+
+def all_dampers(masses, damped, number):
+    """Chains with so many ground dampers, and such drives on an elastic base."""
+    sets = list(combinations(range(1, masses + 1), number))
+    chains = [Chain(masses, damped=damped, ground_dampers=chosen) for chosen in sets]
+    return chains, [
+        Chain(masses, 1, 1, 2, 1, 2, damped=damped, ground_dampers=chosen) for chosen in sets
+    ]
+
+
+@pytest.mark.parametrize("damped", [False, True])
+@pytest.mark.parametrize("masses", [2, 3, pytest.param(4, marks=pytest.mark.slow)])
+def test_engine_confirms_what_is_said_of_the_elastic_base(masses, damped):
+    """Of every chain: one base has its responses, or all have others, proven."""
+    for number in range(masses + 1):
+        chains, bases = all_dampers(masses, damped, number)
+        for chain in chains:
+            found = [x.relation for x in alternatives(chain, bases, Engine(), {})]
+            assert found == [Relation.INDISTINGUISHABLE] * base_is_the_same(chain), chain
+
+
+def test_rows_with_other_dampers_are_chains_and_no_branches():
+    """Reciprocity: the damper may be at the sensor as well; such a chain is a candidate itself."""
+    assert kinds(Chain(2, 0, 0, 1, 0, 2, ground_dampers=(1,))) == []
+    assert kinds(Chain(3, 0, 0, 1, 0, 3, ground_dampers=(1,))) == []
 
 
 @pytest.mark.parametrize("damped", [False, True])
