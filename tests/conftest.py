@@ -5,10 +5,12 @@ HYPOTHESIS_PROFILE=fresh draws new ones."""
 import gc
 import os
 import sys
+from collections import defaultdict
 
 import pytest
 from hypothesis import settings
 
+DEARER = "slow", "bench", "attack"
 os.environ["DISTING_CACHE"] = "off"
 os.environ["DISTING_PROGRESS"] = "off"
 # workers, the processes that tests start, and the next run share compiled modules; else each
@@ -33,6 +35,34 @@ def pytest_collection():
         gc.freeze()
         gc.set_threshold(100_000, 20, 100)  # a test makes much, and little of it in circles
         gc.enable()
+
+
+def pytest_configure(config):
+    """-m with `full` in it means no test of the dearer kinds unless it names them, so that -m full
+    alone is what the default tests leave out.
+    """
+    chosen = config.option.markexpr
+    if "full" in chosen:
+        left_out = [f" and not {kind}" for kind in DEARER if kind not in chosen]
+        config.option.markexpr = f"({chosen}){''.join(left_out)}"
+
+
+@pytest.hookimpl(tryfirst=True)  # before -m chooses
+def pytest_collection_modifyitems(items):
+    """`thin(n)`: n cases of a test, spread over all of them, are default tests, the others `full`.
+    Cases with a mark of their own do not count.
+    """
+    cases = defaultdict(list)
+    for item in items:
+        marks = {mark.name for mark in item.iter_markers()}
+        if "thin" in marks and not marks & {"full", *DEARER}:
+            cases[item.path, item.cls, item.originalname].append(item)
+    for of_one in cases.values():
+        (count,) = of_one[0].get_closest_marker("thin").args
+        kept = {k * len(of_one) // count for k in range(count)}
+        for k, item in enumerate(of_one):
+            if k not in kept:
+                item.add_marker("full")
 
 
 def pytest_ignore_collect(collection_path, config):

@@ -168,6 +168,7 @@ EXPERIMENTS = st.builds(
 )
 
 
+@pytest.mark.full
 @given(CHAINS | EXPERIMENTS)
 def test_what_is_printed_can_be_typed_in(one):
     assert eval(repr(one), {"Chain": Chain, "Experiment": Experiment}) == one
@@ -194,6 +195,7 @@ def test_the_tab_key_offers_public_names_only():
     assert not [name for name in disting.__all__ if name.startswith("_")]
 
 
+@pytest.mark.full
 def test_rooms_are_imported_when_they_are_named():
     code = (
         "import sys, disting; assert 'disting.fit' not in sys.modules\n"

@@ -183,6 +183,7 @@ NOT_FOR_A_FIT = (
 )  # fmt: skip
 
 
+@pytest.mark.full
 def test_a_fit_loads_what_it_needs(tmp_path):
     """Of two simulated measurements, printed as text: neither a plan nor a simulation, no engine
     for networks, no page, no reader of another format.
@@ -213,6 +214,7 @@ def test_a_fit_loads_what_it_needs(tmp_path):
     assert [name for name in loaded if f"{name}.".startswith(needless)] == []
 
 
+@pytest.mark.full
 def test_sympy_is_loaded_for_its_expressions_alone(tmp_path):
     """Not where formulas are written; all in one process, whose last line asks for an expression."""
     maps = "equivalents 3:4 --to 3:1 --undamped --"
@@ -341,6 +343,7 @@ def test_names_of_a_package_are_those_that_type_checkers_see(package):
     assert sorted([*module.__all__, *rooms]) == sorted(expected.keys() - {"__version__"})
 
 
+@pytest.mark.full
 def test_a_package_offers_functions_that_are_called_as_their_modules():
     """Whichever is imported first; and its modules, but no other names."""
     code = (

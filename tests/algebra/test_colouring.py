@@ -72,12 +72,14 @@ def test_a_planted_renaming_is_among_all_that_are_found(left, planted):
     assert planted in found(left, right)
 
 
+@pytest.mark.full
 @often
 @given(functions, functions)
 def test_nothing_is_found_where_there_is_nothing(left, right):
     assert sorted(found(left, right)) == all_renamings(left, right)
 
 
+@pytest.mark.full
 @often
 @given(functions, functions, any_order)
 def test_fingerprints_are_equal_for_renamings(left, right, planted):
@@ -89,6 +91,7 @@ def test_fingerprints_are_equal_for_renamings(left, right, planted):
         assert all_renamings(left, right) == []
 
 
+@pytest.mark.full
 @often
 @given(functions, any_order)
 def test_colours_move_with_the_variables(left, planted):
@@ -132,6 +135,7 @@ def test_lists_that_differ_have_no_candidates(left, right):
     assert list(renamings(columns(left), columns(right), 4)) == []
 
 
+@pytest.mark.full
 @often
 @given(functions, any_order)
 def test_one_wrong_function_spoils_a_renaming(left, planted):

@@ -33,6 +33,7 @@ terms = st.tuples(st.integers(0, 2), st.integers(0, 2), numbers)
 polynomials = st.lists(st.lists(terms, min_size=1, max_size=3), min_size=1, max_size=3)
 
 
+@pytest.mark.full
 @settings(max_examples=40)
 @given(polynomials)
 def test_factors_are_those_of_sympy(sides):

@@ -28,6 +28,7 @@ def dense(t):
     )
 
 
+@pytest.mark.full
 @settings(max_examples=60, deadline=None)
 @given(tridiagonals())
 def test_determinant_and_adjugate(t):

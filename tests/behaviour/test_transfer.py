@@ -82,17 +82,20 @@ def assert_equal_samples(chain, representation, count):
     ).to_Matrix().tolist()
 
 
+@pytest.mark.thin(10)
 @pytest.mark.parametrize("chain", THREE, ids=str)
 def test_three_mass_transfer_functions_are_the_oracle_s(chain):
     assert_equal_transfer_functions(chain)
 
 
+@pytest.mark.thin(6)
 @pytest.mark.parametrize("chain", THREE, ids=str)
 def test_three_mass_samples_are_the_oracle_s(chain):
     assert_equal_samples(chain, Representation.TF, 0)
     assert_equal_samples(chain, Representation.MARKOV, 6)
 
 
+@pytest.mark.full
 @slower
 @given(chains())
 def test_any_transfer_function_is_the_oracle_s(chain):
@@ -175,6 +178,7 @@ def product_of(left, right):
     ]
 
 
+@pytest.mark.full
 @settings(max_examples=20, deadline=None)
 @given(chains())
 def test_markov_parameters_are_powers_of_the_system_matrix(chain):
@@ -217,6 +221,7 @@ def test_markov_parameters_and_their_derivatives_are_the_series_at_infinity(chai
     assert [[v, *row] for v, row in zip(expansion.values, expansion.rows, strict=True)] == expected
 
 
+@pytest.mark.full
 @quick
 @given(chains(max_masses=5))
 def test_derivatives_are_those_of_the_expanded_formulas(chain):

@@ -37,6 +37,7 @@ def motion(chain, values, s, zero):
     return [row[1:] for row in matrix[1:]], force, sensor
 
 
+@pytest.mark.full
 @settings(max_examples=25, deadline=None)
 @given(chains(max_masses=3, dead_time=True), st.integers(0, 10**6))
 def test_at_random_numbers(chain, seed):
@@ -59,6 +60,7 @@ def test_at_random_numbers(chain, seed):
     assert complex(found.subs(numbers).subs(S, s)) == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     "chain",
     [

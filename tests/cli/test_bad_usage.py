@@ -90,6 +90,7 @@ def refused(capsys, *arguments):
     return told[0]
 
 
+@pytest.mark.thin(15)
 @pytest.mark.parametrize(
     ("arguments", "says"), WORDS, ids=[" ".join(words)[:60] for words, _ in WORDS]
 )

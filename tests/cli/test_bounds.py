@@ -47,6 +47,7 @@ def test_brackets_by_the_thousand_are_no_json(tmp_path, reader):
     assert "deep.json holds no JSON; name a file of 'disting fit --json'" in done.stderr
 
 
+@pytest.mark.full
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes with names")
 @pytest.mark.parametrize("reader", ["verify", "fit"])
 def test_a_pipe_without_a_writer_is_spoken_of_and_can_be_stopped(tmp_path, reader):

@@ -8,6 +8,7 @@ from disting.cli.commands import COMMANDS, Group
 from tests.cli.process import called, disting, rows
 
 
+@pytest.mark.full
 def test_models_lists_the_family():
     done = disting("models", 3, "--damped")
     assert done.returncode == 0
@@ -17,6 +18,7 @@ def test_models_lists_the_family():
     assert "parameters, gap 1: m1 m2 m3 k01 k23 d01 d23" in done.stdout
 
 
+@pytest.mark.full
 def test_models_asks_for_parameter_sets_only_where_it_is_told_to():
     listed = called("models", 6, "--no-cache", "--undamped").stdout
     assert "· not asked (--identifiability asks)" in listed and "A98" not in listed
@@ -69,6 +71,7 @@ def test_compare_reads_ground_dampers_lag_and_dead_time():
     )
 
 
+@pytest.mark.full
 def test_report_writes_the_families_with_dampers_too(tmp_path):
     told = called("report", "3", "--damped", "--out", str(tmp_path)).stdout
     assert (tmp_path / "dampers-3-damped.html").is_file() and not (
@@ -79,6 +82,7 @@ def test_report_writes_the_families_with_dampers_too(tmp_path):
     assert not (tmp_path / "sizes-damped.html").exists()
 
 
+@pytest.mark.full
 def test_report_compares_several_sizes(tmp_path):
     assert called("report", "1", "2", "--undamped", "--out", tmp_path).returncode == 0
     text = (tmp_path / "sizes-undamped.html").read_text(encoding="utf-8")
@@ -254,6 +258,7 @@ def test_a_verdict_is_over_positive_parameters_where_nothing_is_said_and_over_co
     assert refused.returncode == 2 and "--domain positive" in refused.stderr
 
 
+@pytest.mark.full
 def test_verdicts_names_the_domain_and_what_depends_on_the_values():
     told = called("verdicts", 4, "--undamped").stdout.splitlines()
     head = "29 models, 406 pairs, over positive parameters"
@@ -267,6 +272,7 @@ def test_verdicts_names_the_domain_and_what_depends_on_the_values():
     assert paper[1].endswith("2 by condition 6, 6 by the exact decision")
 
 
+@pytest.mark.full
 def test_a_pair_in_the_other_order_draws_each_model_under_its_own_name():
     """A stored verdict names the lower number first: drawings, ranges and proofs follow it."""
     told = called("compare", "4:4", "4:1", "--undamped").stdout.splitlines()

@@ -67,6 +67,7 @@ def test_long_work_is_told_before_it_begins_and_can_be_stopped(
     assert (status, out) == (130, "") and rest.startswith("disting: interrupted")
 
 
+@pytest.mark.full
 @pytest.mark.skipif(os.name != "posix", reason="a signal has another number there")
 def test_long_work_of_a_process_can_be_stopped() -> None:
     process = subprocess.Popen(
@@ -129,6 +130,7 @@ def test_a_pair_of_many_unknowns_says_so_and_can_be_stopped() -> None:
     assert first == f"disting: {LONGER}{LESS}\n" and (process.returncode, said) == (130, "")
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "command", ["verdicts 3", "models 5", "models 3 --also lock=2", "report 1 --undamped --out {}"]
 )
@@ -156,6 +158,7 @@ def test_more_masses_take_longer(work: Work) -> None:
     assert seconds == sorted(seconds) and seconds[-1] > seconds[0] > 0
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "command", ["report trees-4-damped --out pages", "verdicts trees-4-damped"]
 )
@@ -171,6 +174,7 @@ def test_a_family_that_is_not_shipped_says_how_long_it_takes(
     )
 
 
+@pytest.mark.full
 def test_a_shipped_family_is_told_without_a_word(tmp_path: Path) -> None:
     done = called("verdicts", "circuits-4", cache=tmp_path / "cache.sqlite3")
     assert done.returncode == 0 and "may take" not in done.stderr

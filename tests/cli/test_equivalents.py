@@ -71,6 +71,7 @@ def test_json():
     )
 
 
+@pytest.mark.full
 def test_formulas_in_three_languages():
     assert "m1'  = m2\n" in equivalents("3:4", "--to", "3:1", "--formulas").stdout
     assert r"k_{12}' &= k_{12} + k_{23}" in equivalents("3:4", "--to", "3:1", "--latex").stdout

@@ -37,6 +37,7 @@ def test_what_is_no_band(text, capsys):
     ) in told
 
 
+@pytest.mark.full
 def test_a_fit_in_which_nothing_explains_ends_with_status_1(tmp_path):
     f = np.geomspace(1, 100, 60)
     rng = np.random.default_rng(1)

@@ -127,6 +127,7 @@ def test_a_process_with_two_workers_says_the_same(files, fitted, tmp_path):
     ]
 
 
+@pytest.mark.full
 def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
     cache = tmp_path / "cache.sqlite3"
     arguments = ("fit", rigid[0], "--test", rigid[1], "--masses", "1", "--json", "-")
@@ -134,6 +135,7 @@ def test_an_interrupted_fit_finds_its_results_in_the_cache(rigid, tmp_path):
     assert cache.stat().st_size > 10_000 and first.stdout == again.stdout == fresh.stdout
 
 
+@pytest.mark.full
 def test_a_folder_gets_everything(rigid, tmp_path):
     """The page leads to the catalogue that is named, and names the file, whose name is no text
     and could not be encoded.
@@ -155,6 +157,7 @@ def test_a_folder_gets_everything(rigid, tmp_path):
     assert os.fsdecode(ODD).replace("\udcff", "\\udcff") in page
 
 
+@pytest.mark.full
 def test_options_reach_the_fit(rigid, tmp_path):
     done = called(
         "fit",
@@ -193,6 +196,7 @@ def test_options_reach_the_fit(rigid, tmp_path):
     assert len(json.loads(last.stdout)["not_fitted"]) == 4
 
 
+@pytest.mark.full
 def test_the_demonstration_drive_is_recognised():
     done = called("fit", "--demo", "--masses", "2")
     assert "damper b1, dead time" in done.stdout.split("selected:")[-1].splitlines()[0]
@@ -253,6 +257,7 @@ def test_bad_input_gets_one_sentence(arguments, message, capsys):
     assert status == 2 and out == "" and len(lines) == 1 and message in lines[0]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("more", "count"),
     [(("--lines", "20"), 20), pytest.param((), MOST_LINES, marks=pytest.mark.slow)],

@@ -127,6 +127,7 @@ def test_experiments_say_what_is_locked_and_what_is_added(bench):
         np.testing.assert_array_equal(one.measured.G, same.G)
 
 
+@pytest.mark.full
 def test_two_sensors_are_fitted_together(bench):
     """The drive is found, each response explained."""
     found, said = fitted(bench["both"], "--sensor", "1,2")
@@ -138,6 +139,7 @@ def test_two_sensors_are_fitted_together(bench):
     assert "\n  sensor 2: chi2 per line " in said
 
 
+@pytest.mark.full
 def test_what_is_zero_teaches_nothing_and_the_output_says_so(bench):
     """A locked mass carries the force."""
     found, said = fitted(bench["motor"], "--experiment", f"{bench['locked']}:lock=1")
@@ -239,6 +241,7 @@ def measured_machine(path, setup, seed):
     return path
 
 
+@pytest.mark.full
 def test_what_a_fit_left_is_measured_next_by_the_command_that_is_named(left):
     plain = json.loads(left.read_text(encoding="utf-8"))
     assert plain["selected"]["name"] == "3:1"
@@ -247,6 +250,7 @@ def test_what_a_fit_left_is_measured_next_by_the_command_that_is_named(left):
     assert f"--left {left} --experiment NEW:sensor=2" in onward.splitlines()[-1]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("setup", "said"),
     [

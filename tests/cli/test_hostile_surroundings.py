@@ -11,6 +11,7 @@ import pytest
 from tests.cli.process import COMMAND, called, heed_signals, marked
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("encoding", "command"),
     [
@@ -39,6 +40,7 @@ def test_output_that_the_terminal_cannot_encode_is_no_error(encoding, command):
     assert done.stdout.decode(encoding).count("?") == called(*command).stdout.count("?")
 
 
+@pytest.mark.full
 @pytest.mark.skipif(os.name != "posix", reason="processes are looked up by POSIX means")
 @pytest.mark.parametrize(
     "by", [signal.SIGTERM, pytest.param(signal.SIGHUP, marks=pytest.mark.slow), signal.SIGKILL]
@@ -67,6 +69,7 @@ def test_workers_end_with_their_parent(tmp_path, by):
     assert not marked(tmp_path)
 
 
+@pytest.mark.full
 @pytest.mark.skipif(os.name != "posix", reason="the limit is of POSIX")
 @pytest.mark.parametrize(
     ("name", "command"),

@@ -26,11 +26,13 @@ def test_refusals_are_short_and_printable(command):
     assert done.stderr.rstrip("\n").isprintable()
 
 
+@pytest.mark.full
 def test_a_process_says_the_same():
     done = disting("compare", LONG, "3:4")
     assert (done.returncode, done.stderr) == (2, called("compare", LONG, "3:4").stderr)
 
 
+@pytest.mark.full
 def test_an_error_does_not_list_every_column_of_a_wide_file(tmp_path):
     (tmp_path / "wide.csv").write_text(
         ",".join(f"c{i}" for i in range(20_000)) + "\n" + 9 * (",".join(["1"] * 20_000) + "\n")

@@ -24,6 +24,7 @@ def by_hand(*cases):
 INTERRUPTED = "disting: interrupted; what was finished is kept in the cache"
 
 
+@pytest.mark.full
 def test_a_warm_cache_gives_the_same_verdicts_with_all_that_is_told_of_them(tmp_path):
     everything, cache = ("verdicts", 3, "--damped", "--json", "-"), tmp_path / "cache.sqlite3"
     cold, warm, alone = (
@@ -46,6 +47,7 @@ def test_cache_is_filled_reported_and_cleared(tmp_path):
     assert "9 entries removed" in called("cache", "clear", cache=cache).stdout
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "content",
     [
@@ -66,6 +68,7 @@ def test_a_damaged_cache_is_set_aside_with_a_warning(tmp_path, content):
     assert list(tmp_path.glob("cache.sqlite3.damaged-*"))
 
 
+@pytest.mark.full
 def test_many_processes_share_one_cache(tmp_path):
     cache = tmp_path / "cache.sqlite3"
     environment = os.environ | {"DISTING_CACHE": str(cache)}
@@ -82,6 +85,7 @@ def test_many_processes_share_one_cache(tmp_path):
     assert len({text for text, _ in outputs}) == 1
 
 
+@pytest.mark.full
 def test_a_run_killed_at_any_moment_resumes(tmp_path):
     """Kill the run again and again; what it had stored stays, grows, and the last run gives the
     true result.
@@ -196,6 +200,7 @@ def test_an_interrupt_while_modules_are_imported_ends_the_process_in_silence(mod
     assert pressed(BEGUN, module, "next", "3:1", "3:4") == (-signal.SIGINT, "")
 
 
+@pytest.mark.full
 def test_an_interrupt_while_work_imports_is_told_as_any_other(tmp_path, monkeypatch):
     """A cache is spoken of where there is one."""
     told = {"off": "disting: interrupted", str(tmp_path / "c.sqlite3"): INTERRUPTED}
@@ -210,6 +215,7 @@ def test_an_interrupt_while_the_process_ends_is_silent():
     assert pressed(ending, "nothing", "--version") == (-signal.SIGINT, "")
 
 
+@pytest.mark.full
 def test_an_interrupt_in_a_callback_is_not_lost():
     """Python prints such an exception and goes on."""
     finder = PRESSED.replace("            press()", "            Callback()")
@@ -247,6 +253,7 @@ def test_an_interrupt_at_any_moment_leaves_no_traceback(milliseconds):
     )
 
 
+@pytest.mark.full
 def test_interrupt_ends_the_workers_without_a_word(tmp_path):
     many = 12  # until all of them are at work
     assert interrupted(
@@ -261,6 +268,7 @@ def shell(arguments, redirected):
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "arguments",
     ["verdicts 3 --csv -", *by_hand("models 3", "compare 3:1 3:2", "dampers 2 --csv -", "--help")],
@@ -270,6 +278,7 @@ def test_a_closed_pipe_is_no_error(arguments):
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.full
 def test_a_reader_gets_the_lines_it_wants():
     done = shell("verdicts 3 --csv -", "| head -1")
     assert (done.returncode, done.stderr) == (0, "")
@@ -279,6 +288,7 @@ def test_a_reader_gets_the_lines_it_wants():
 DEFAULT = {("doctor", "<&- >&- 2>&-"), ("verdicts 2 --csv -", ">&-")}  # the others by hand
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("arguments", "closed"),
     [
@@ -294,11 +304,13 @@ def test_without_standard_output_nothing_is_printed(arguments, closed):
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
+@pytest.mark.full
 def test_without_standard_error_the_result_is_printed():
     command = "verdicts 2 --csv -"
     assert shell(command, "2>&-").stdout == called(*command.split()).stdout != ""
 
 
+@pytest.mark.full
 def test_no_file_gets_the_number_of_a_closed_stream(tmp_path):
     """A cache opened as number 2 would take what libraries say there."""
     cache = tmp_path / "c.sqlite3"

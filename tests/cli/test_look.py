@@ -34,6 +34,7 @@ def test_it_shows_columns_facts_and_a_diagram(bode):
     assert any(line.startswith("amplitude") for line in lines) and "⠉" in done.stdout
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("encoding", ["ascii", "utf-8"])
 def test_a_pipe_gets_80_columns_of_what_it_can_hold(bode, encoding):
     environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
@@ -63,6 +64,7 @@ def test_json_is_what_python_says(bode):
     assert plain == json.loads(json.dumps(look(bode).to_dict()))
 
 
+@pytest.mark.full
 def test_a_page_lies_in_the_folder_and_is_the_same_again(bode, tmp_path):
     out = tmp_path / "out"
     done = called("look", bode, "--out", out)

@@ -126,6 +126,7 @@ def test_the_order_of_a_pair_swaps_what_is_said_of_the_sides(pair, damped, view)
         assert back.evidence == OddFibres(there.evidence.right, there.evidence.left)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_catalogues_decisions_and_single_pairs_say_the_same(small, damped):
     engine, family = Engine(), Family(3, damped)
@@ -161,6 +162,7 @@ def test_nothing_is_asked_of_the_papers_views(small):
     )
 
 
+@pytest.mark.full
 def test_altered_shares_are_found_out(small):
     records = [dict(record) for record in small[True].records]
     place = next(k for k, r in enumerate(records) if (r.get("left"), r.get("right")) == (6, 7))

@@ -23,6 +23,7 @@ INSIDE = (Chain(6, 4, 1, 5, 3, 6, damped=True), Chain(6, 4, 2, 5, 4, 6, damped=T
 FREE = (Chain(5, 0, 0, 1, 0, 3, damped=True), Chain(5, 0, 0, 2, 0, 4, damped=True))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("pair", "part"),
     [(WALLED, "grounded"), (INSIDE, "grounded"), (FREE, "")],
@@ -71,6 +72,7 @@ def six(gap, first, second):
     return Chain(6, *(grounded if gap else (0, 0, first, 0, second)), damped=True)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("name", ["msolve", "Singular"])
 def test_an_installed_program_changes_no_verdict(name, monkeypatch, tmp_path):
     script = tmp_path / name

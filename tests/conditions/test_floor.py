@@ -106,6 +106,7 @@ def bound(searched):
     return (n + 1) * log2(max(3 * searched.n_masses + 2, n + 1))
 
 
+@pytest.mark.full
 def test_the_bound_counts_the_parameters_of_the_searched_chain():
     """Equal ranks, unequal numbers of parameters: the given chain's number would claim more
     than is known.

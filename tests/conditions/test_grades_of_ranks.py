@@ -77,6 +77,7 @@ def test_only_equality_needs_ranks_and_only_those_that_are_not_proven(outcome):
     assert sum_of(joined.safety + 1) < total <= sum_of(joined.safety)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_family_counts_each_rank_that_tells_who_may_lie_in_whom(damped):
     """Also where no condition that decides looks at the model's profile."""

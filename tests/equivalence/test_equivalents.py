@@ -125,6 +125,7 @@ def test_symmetric_chain_says_why_nothing_is_known_but_the_theorems():
     assert not other.members and "nothing can be said" in other.sentence and not other.complete
 
 
+@pytest.mark.full
 def test_equal_ratios_are_named_and_proportional_members_given():
     values = {
         "m1": 1,

@@ -59,6 +59,7 @@ def assert_carried_over(found):
             assert abs(sympy.N(left - right, 30)) < 1e-20
 
 
+@pytest.mark.full
 def test_circuits_one_of_each_group_is_kept():
     found = gate(CIRCUITS)
     assert {frozenset(g) for g in found.groups} == {frozenset(g) for g in GROUPS}
@@ -82,6 +83,7 @@ def test_chains_machines_and_compartments():
     assert_carried_over(gate(texts))
 
 
+@pytest.mark.full
 def test_what_is_the_same_for_some_values_is_kept_and_told():
     texts = ["1~2, 1~#; F1; S1", "1~2, 2~#; F1; S1", "1~2, 1~#, 2~#; F1; S1"]
     found = gate(texts)
@@ -90,6 +92,7 @@ def test_what_is_the_same_for_some_values_is_kept_and_told():
         assert ((a, b) in found.not_separate) is not apart
 
 
+@pytest.mark.full
 def test_networks_of_many_values_follow_by_parts():
     texts = ["R0-p(R1,C1)-p(R2,C2)-p(R3,C3)", "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"]
     found = gate([*texts, "1=2*5/2=3; F1; S3", "1=2=3; F1; S3"])

@@ -35,6 +35,7 @@ def _ports(chain):
     return (chain.act_plus, chain.act_minus), (chain.meas_plus, chain.meas_minus)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n", "left", "right", "damped"),
     [

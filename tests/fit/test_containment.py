@@ -117,6 +117,7 @@ def test_the_relation_is_transitive():
 PAIRS = [(large, small) for large, small in product(FREE, FREE) if contains(large, small)]
 
 
+@pytest.mark.full
 @settings(max_examples=40, deadline=None)
 @given(st.sampled_from(PAIRS), st.integers(0, 10**6))
 def test_near_the_limit_the_larger_chain_has_the_response_of_the_smaller_one(pair, seed):

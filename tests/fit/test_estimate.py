@@ -40,6 +40,7 @@ IDENTIFIABLE = [
 ]
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("chain", IDENTIFIABLE, ids=str)
 def test_known_behaviour_is_found_again(chain):
     measured = response(chain, truth(chain, 4))
@@ -47,6 +48,7 @@ def test_known_behaviour_is_found_again(chain):
     assert found.j < 1e-12 and 0 < found.hit_rate <= 1 and list(found.costs) == sorted(found.costs)
 
 
+@pytest.mark.full
 def test_known_parameters_are_found_again():
     chain = Chain(3, damped=True, ground_dampers=(2,), dead_time=True)
     values = truth(chain, 2)
@@ -71,6 +73,7 @@ def worst_excess(found):
     return max(large.j / small.j - 1 for large, small in pairs)
 
 
+@pytest.mark.full
 def test_a_candidate_that_contains_another_is_never_worse_on_simulated_data():
     chain = Chain(3, damped=True, ground_dampers=(1,))
     found = estimates(figure_1((1, 2)), Task(Cost(response(chain, truth(chain, 5), noise=0.02))))
@@ -95,6 +98,7 @@ def alone():
     return few, task, estimates(few, task)
 
 
+@pytest.mark.full
 def test_the_same_seed_gives_the_same_bytes_with_workers_or_without(alone):
     few, task, found = alone
     with ThreadPoolExecutor(3) as pool:
@@ -105,6 +109,7 @@ def test_the_same_seed_gives_the_same_bytes_with_workers_or_without(alone):
     assert estimate_from_json(LATE, estimate_to_json(found[LATE])) == found[LATE]
 
 
+@pytest.mark.full
 def test_interrupted_work_resumes_where_it_stopped(alone, tmp_path):
     """Also within the exchange between neighbours: after 4 fits of one mass and 8 of two, steps
     go on with all 12 ready.
@@ -156,6 +161,7 @@ def test_no_candidate_misses_the_best_known_cost_on_the_bench():
         assert fit.j <= j * 1.001, name(chain)
 
 
+@pytest.mark.full
 def test_no_candidate_of_two_masses_misses_the_best_known_cost_on_the_bench():
     known = best_known()
     found = estimates(figure_1((1, 2)), Task(Cost(bench("A"))))
@@ -228,6 +234,7 @@ def test_one_more_pair_of_pole_and_zero_keeps_the_others_and_finds_a_mode_that_h
     assert abs(conspicuous(shown, without)[0] / missed[0] - 1) < 2 * (OMEGA[1] / OMEGA[0] - 1)
 
 
+@pytest.mark.full
 def test_many_lines_take_memory_for_a_part_of_the_tried_frequencies_only():
     omega = np.linspace(1.0, 500.0, 100_000)
     measured = FrequencyResponse(omega, np.exp(0.1 / (1 - (omega / 60.0) ** 2 + 0.04j)))
@@ -308,6 +315,7 @@ def test_smaller_candidates_lead_to_larger_ones():
 NARROW = {"m1": 1.0, "m2": 5e-4, "k12": 5e-4 * (2 * np.pi * 1500) ** 2, "d12": 1e-3}
 
 
+@pytest.mark.full
 def test_a_resonance_between_the_lines_of_the_search_is_found():
     chain, omega = Chain(2, damped=True), 2 * np.pi * np.linspace(1.0, 2000.0, 8000)
     task = Task(Cost(response(chain, NARROW, omega, noise=0.01)))

@@ -52,6 +52,7 @@ def test_two_compartments_agree_for_some_rates_only(view, left, right):
     assert "has no equivalent in" in verdict.sentence and "∅" in evidence.formula
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right"), PAIRS)
 def test_the_published_rates_are_a_witness_and_others_are_not(left, right):
     rates = (("k01", "1/10"), ("k02", "1"), ("k12", "1"))

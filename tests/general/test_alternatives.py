@@ -213,6 +213,7 @@ def test_alternatives_are_no_truth_value():
 small = st.integers(-3, 3)
 
 
+@pytest.mark.full
 @given(st.lists(small, min_size=12, max_size=12), st.tuples(small, small))
 @settings(max_examples=40, deadline=None)
 def test_counts_against_sympy(numbers, place):
@@ -345,6 +346,7 @@ def test_other_ports_are_refused():
         alternatives(one, {"m1": 1, "m2": 1, "k12": 1}, two)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("numbers", [(3, 7, 2, 5, 11), (1, 2, 9, 4, 6)])
 def test_undamped_chains_against_inverse_synthesis(numbers):
     """Engine A finds the same fibres by peeling masses and springs in ball arithmetic (elements

@@ -30,6 +30,7 @@ def tf(num, den):
     return Model.from_transfer_function(num, den)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("pair", PAIRS)
 def test_all_values_have_twins(pair):
     """Decided for all values; a search that knows no theorem finds positive twins both ways."""
@@ -60,6 +61,7 @@ def search(other, goal, draw):
     ).fun
 
 
+@pytest.mark.full
 def test_a_verdict_is_verified_and_a_lie_is_not():
     data = verdict_file(*CLOSED, query=Query(view=View.POSITIVE))
     assert verify(data).status.value == "holds"

@@ -32,6 +32,7 @@ HUGE = {
 }
 
 
+@pytest.mark.thin(12)
 @pytest.mark.parametrize("text", HUGE.values(), ids=HUGE)
 @pytest.mark.parametrize(
     "make",
@@ -46,6 +47,7 @@ def test_what_would_grow_is_refused_in_a_short_sentence(make, text):
     assert len(str(refusal.value)) < 220 and str(refusal.value).isprintable()
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(
     ("text", "same"),
     [

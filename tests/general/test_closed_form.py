@@ -90,6 +90,7 @@ def response(text, values, at):
     return total[0] / total[1]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("one", "other", "count", "by_roots"), PAIRS)
 def test_both_give_the_same(one, other, count, by_roots):
     """At numbers, in SymPy, to 30 digits."""
@@ -114,6 +115,7 @@ SOLVED = (
 )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("one", "other", "by_roots", "seen", "chosen"), SOLVED)
 def test_equations_of_few_values(one, other, by_roots, seen, chosen):
     """Compartments: positive for all values, or at how many points that is seen; what is a number
@@ -133,6 +135,7 @@ def test_equations_of_few_values(one, other, by_roots, seen, chosen):
             assert all(x > 0 for x in there.values())
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("one", "other"),
     [("R0-p(R1,C1)-p(R2,C2)", "R0-p(C1,R1-p(R2,C2))"), ("1~2~3, 1~4; F1; S1", "1~2~3~4; F1; S1")],
@@ -178,6 +181,7 @@ def test_a_wrong_formula_is_refused():
         confirm(wrong, one, two)
 
 
+@pytest.mark.full
 def test_one_wrong_sign_of_a_root_is_refused():
     one, two = models("R0-p(R1,C1)-p(R2,C2)", "p(R1,R2-C1,R3-C2)")
     (form,) = by_parts(one, two)
@@ -187,6 +191,7 @@ def test_one_wrong_sign_of_a_root_is_refused():
         confirm(wrong, one, two)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("kinds", ["RL", "LC"])
 @pytest.mark.parametrize(("sections", "is_open"), [(2, False), (4, True)])
 def test_ladders_of_any_length(sections, is_open, kinds):

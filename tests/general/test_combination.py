@@ -27,6 +27,7 @@ def drawn(model, draw):
     return {name: Fraction(draw.randint(1, 30), draw.randint(1, 30)) for name in model.parameters}
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("pair", [pytest.param(PAIRS[0], marks=pytest.mark.slow), *PAIRS[1:]])
 def test_no_search_finds_what_is_excluded(pair):
     given, other = (of_network(network_of(text)) for text in pair)
@@ -41,6 +42,7 @@ def test_no_search_finds_what_is_excluded(pair):
     assert met, "no point was excluded"
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("text", [STAR, LOOP, "R1-p(R2,C1-p(R3,L1))", "1>2, 2>1, 2>0; in 1; out 2"])
 def test_nothing_excludes_its_own_values(text):
     model, draw = of_network(network_of(text)), random.Random(3)
@@ -58,6 +60,7 @@ def test_a_case_by_hand():
     assert not excludes(cancels, dict.fromkeys("abc", Fraction(1)), cancels)
 
 
+@pytest.mark.full
 def test_force_and_sensor_apart_and_more_values_than_are_determined():
     data = verdict_file(STAR, LOOP)
     assert data["relation"] == "sometimes"

@@ -49,6 +49,7 @@ def seen(case, a, b):
     return sum(all(g(r) > 0 for g in at[1:]) for r in real)
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize(("equations", "positive", "number"), KNOWN)
 def test_known_numbers(equations, positive, number):
     case = Case(equations, positive)

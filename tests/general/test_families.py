@@ -43,6 +43,7 @@ def decided(store, view, executor=None):
     return engine.decisions(subjects, Query(view), executor=executor)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("view", [View.EXACT, View.REAL, View.POSITIVE])
 def test_a_list_is_decided_as_its_pairs_are(view):
     with Store.open(":memory:") as store:
@@ -52,6 +53,7 @@ def test_a_list_is_decided_as_its_pairs_are(view):
             assert found.relation(i, j) is compare(left, right, query=Query(view)).relation
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("view", [View.EXACT, View.POSITIVE])
 def test_a_second_run_is_a_look_up(view):
     with Store.open(":memory:") as store:
@@ -63,6 +65,7 @@ def test_a_second_run_is_a_look_up(view):
     assert [again.verdict(*p) for p in pairs] == [first.verdict(*p) for p in pairs]
 
 
+@pytest.mark.full
 def test_classes_are_those_that_no_parameters_tell_apart():
     with Store.open(":memory:") as store:
         assert decided(store, View.EXACT).classes() == ((0, 1, 2, 3),)
@@ -80,6 +83,7 @@ def test_verdicts_that_contradict_a_class_are_refused():
         found.classes()
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("damped", "view"), [(False, View.EXACT), (True, View.EXACT), (True, View.POSITIVE)]
 )

@@ -79,6 +79,7 @@ names = st.text(
 )
 
 
+@pytest.mark.full
 @settings(max_examples=30, deadline=None)
 @given(
     num=st.lists(entries, min_size=1, max_size=2),

@@ -92,6 +92,7 @@ def test_a_sign_tells_two_models_apart():
     assert not is_contradiction(((1, "a1", "b0"),), one, positive)
 
 
+@pytest.mark.full
 @settings(max_examples=40)
 @drawn(st.lists(st.tuples(*[st.integers(-3, 4)] * 3), min_size=3, max_size=7))
 def test_edges_are_those_of_the_cone(rows):
@@ -149,6 +150,7 @@ def least_error(given, values, other, search):
     return min(np.linalg.norm(one.fun) for one in tried)
 
 
+@pytest.mark.full
 def test_no_search_finds_what_is_excluded():
     left, right = map(model_of, ("1~2, 1~3; F1; S2", "1~2, 1~3, 2~3; F1; S2"))
     points = list(islice(points_against(right, left), 3))

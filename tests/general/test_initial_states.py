@@ -72,6 +72,7 @@ def test_integrators_of_which_two_initial_values_are_known():
     }
 
 
+@pytest.mark.full
 @settings(deadline=None, max_examples=12)
 @given(st.integers(1, 3), st.integers(0, 2), st.randoms(use_true_random=False))
 def test_the_last_column_is_the_response_to_the_initial_state(n, inputs, draw):

@@ -29,6 +29,7 @@ OTHER = [
 ]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("pair", SAME)
 def test_trees_that_are_the_same(pair):
     assert compare(*pair).relation is Relation.INDISTINGUISHABLE

@@ -5,6 +5,7 @@ other. (One of the two may be open: points with large numbers are not drawn.)
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings, strategies as st
 
 from disting import Relation, compare
@@ -41,6 +42,7 @@ numbers = st.integers(1, 5)
 decimals = st.decimals("0.001", "999.999", places=3)
 
 
+@pytest.mark.full
 @settings(max_examples=12)
 @given(st.sampled_from(PAIRS), numbers, numbers, decimals, st.integers(3, 12))
 def test_units_change_no_verdict(pair, a, b, scale, power):

@@ -127,6 +127,7 @@ def test_at_rest_nothing_is_seen_of_other_vessels(space):
 EVERY = {name: case[0] for name, case in PUBLISHED.items()} | AT_REST | OWN
 
 
+@pytest.mark.thin(6)
 @pytest.mark.parametrize("space", EVERY.values(), ids=EVERY)
 def test_ranks_beside_plain_sympy(space):
     plain, draw = system(*space), Random("ranks")

@@ -54,6 +54,7 @@ entry = st.sampled_from(
 )
 
 
+@pytest.mark.full
 @given(st.data(), st.integers(1, 3))
 @settings(max_examples=25, deadline=None)
 def test_state_space_against_sympy_at_rational_points(data, n):

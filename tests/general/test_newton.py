@@ -40,6 +40,7 @@ def tf(num, den):
     return Model.from_transfer_function(num, den)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "pair", [PAIRS[0], pytest.param(PAIRS[1], marks=pytest.mark.slow), *PAIRS[2:]]
 )
@@ -60,6 +61,7 @@ def test_an_equivalent_responds_alike_and_others_are_near(pair):
     assert met
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("pair", PAIRS[1:3])
 def test_it_depends_on_the_values(pair):
     assert compare(*pair).relation is Relation.SOMETIMES
@@ -75,6 +77,7 @@ def test_it_depends_on_the_values(pair):
     assert verify(data | {"evidence": lie}).status.value != "holds"
 
 
+@pytest.mark.full
 def test_what_is_excluded_has_none():
     """Points without a twin: none is found, and a search by numbers agrees both ways."""
     left, right = models(PAIRS[2])

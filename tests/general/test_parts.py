@@ -20,6 +20,8 @@ from disting.general.parts import parts_of, without
 from disting.model.question import Domain, Relation, Settings
 from disting.network.notation import network_of
 
+pytestmark = pytest.mark.full
+
 WHOLE = "1>2, 2>1, 2>3, 3>2, 1>0, 2>0; in 1; out 1"
 PAIR = (
     "1>0, 1>2, 1>3, 2>0, 2>3, 3>1; in 3; out 2",

@@ -68,6 +68,7 @@ def agree(text, points):
             assert sp.cancel(ratio.subs(symbols, simultaneous=True) - ratio) == 0
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("text", FEW)
 def test_numbers_against_sympy(text):
     agree(text, 2)
@@ -123,6 +124,7 @@ def test_a_number_that_depends_on_the_values():
         assert oracle.solutions(function, names, point).positive == number
 
 
+@pytest.mark.full
 def test_a_row_with_one_or_two_positive_sets():
     """3:2 has a second positive set for some values: both give one response by Newton's laws."""
     found = identifiability("3:2", damped=True, engine=ENGINE)
@@ -143,6 +145,7 @@ def test_a_row_with_one_or_two_positive_sets():
         assert float(own) == pytest.approx(float(other), rel=1e-9)
 
 
+@pytest.mark.full
 def test_three_equal_branches_have_six_orders():
     text = "p(R1,C1)-p(R2,C2)-p(R3,C3)"
     found = identifiability(text, engine=ENGINE)
@@ -186,6 +189,7 @@ def test_chains_under_experiments_have_a_domain():
     assert (alone.level, alone.least, alone.most) == (Level.EXCHANGES, 2, 2)
 
 
+@pytest.mark.full
 def test_what_is_not_known_is_not_claimed():
     """A bridge whose equations are not solved: exchanges are proven, other sets are not excluded."""
     found = identifiability("C1 1 2; R1 1 3; R2 2 3; R3 2 0; C2 3 0", engine=ENGINE)

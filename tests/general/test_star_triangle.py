@@ -18,6 +18,7 @@ def ends(network):
     return {e.value: {*e.nodes} for e in network.elements}
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("kind", "other"), [("R", "C"), ("C", "R"), ("L", "R"), ("W", "C")])
 @settings(deadline=None, max_examples=20)
 @given(values=st.tuples(POSITIVE, POSITIVE, POSITIVE))

@@ -66,6 +66,7 @@ def state_space(chain):
     return a, sp.zeros(n, 1).col_join(inverse * force), sensor * lower, sensor * inverse * force
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_chains_as_state_spaces_give_the_verdicts_of_chains(damped):
     family = Family(3, damped=damped)

@@ -99,12 +99,14 @@ PAIRS = [
 ]
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("left", "right", "relation"), PAIRS)
 def test_relations_by_hand(left, right, relation):
     for one, other in ((left, right), (right, left)):
         assert positive(one, other).relation is relation
 
 
+@pytest.mark.thin(4)
 @pytest.mark.parametrize(("left", "right", "relation"), PAIRS)
 def test_points_against_groebner_bases(left, right, relation):
     """What is said of all points around a point is true at the point itself."""
@@ -298,6 +300,7 @@ def test_the_root_nearest_to_an_end_is_in_bounds_where_the_equation_says_so(boun
     assert bool(path(ring, case)) is found
 
 
+@pytest.mark.full
 def test_a_factor_without_the_root_is_no_part_of_its_equation():
     """One factor of the numerator is found first; what is left is a3**2 x**2 - a1 a3**2."""
     left, right = (
@@ -379,6 +382,7 @@ CYCLE, BACK, LEAK = (
 )
 
 
+@pytest.mark.full
 def test_what_a_cycle_of_compartments_gives_is_known_by_hand():
     """Out of the third, G = n/(s (s^2 + e s + f + n)). A cycle needs real roots of t^2 - e t + f,
     the larger one at least 2 sqrt(n); so does one with a way back. With an outflow from the first
@@ -399,6 +403,7 @@ def test_what_a_cycle_of_compartments_gives_is_known_by_hand():
         assert e**2 < 4 * both
 
 
+@pytest.mark.full
 def test_a_chain_of_three_without_outflow_is_a_star():
     """1/G = s (1 + sum of r/(s + l)): both give any of it, a chain by a continued fraction."""
     star, chain = (
@@ -447,6 +452,7 @@ def test_a_small_effort_ends_a_search_and_says_nothing():
     assert (enough.covering, enough.parted.sections) == (every.covering, every.parted.sections)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right"),
     [

@@ -8,6 +8,8 @@ from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
 
+import pytest
+
 import disting
 
 HOUSE = Path(disting.__file__).parent
@@ -51,6 +53,7 @@ def is_stale(name: str, known: set[str], inside: dict[str, set[str]]) -> bool:
     return last not in known
 
 
+@pytest.mark.full
 def test_names_in_docstrings_exist():
     modules = {p: read(p.read_text(encoding="utf-8")) for p in sorted(HOUSE.rglob("*.py"))}
     everywhere = ELSEWHERE.union(*(m.defined for m in modules.values()))

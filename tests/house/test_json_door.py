@@ -38,6 +38,7 @@ def is_json(node: ast.expr) -> bool:
     return isinstance(node, ast.Name) and node.id == "json"
 
 
+@pytest.mark.full
 def test_no_other_module_writes_json():
     found = {p.relative_to(ROOT).as_posix() for p in ROOT.rglob("*.py") if writes_json(p)}
     assert found == WITHIN | {"files.py"}

@@ -10,6 +10,8 @@ import pytest
 from tests.cli.process import called
 from tests.house.package_copy import copied, said
 
+pytestmark = pytest.mark.full
+
 MARKED = ("1", "11")  # of 3 damped masses: indistinguishable, which only the exact decision finds
 RULES = """ALWAYS = Rule("10", Role.NECESSARY, "a matter of course", "both are models")
 NEVER = Rule("11", Role.NECESSARY, "beside the point", "both are something else")

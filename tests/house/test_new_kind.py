@@ -83,6 +83,7 @@ def test_it_is_there_where_it_is_asked_for(said):
     assert "holds" in said["verified, magnet"][1]
 
 
+@pytest.mark.full
 def test_verify_looks_at_it(folder, said):
     whole = json.loads((folder / "magnet.json").read_text(encoding="utf-8"))
     pair = whole["verdicts"][0]["experiments"][1]
@@ -93,6 +94,7 @@ def test_verify_looks_at_it(folder, said):
     package_copy.said(folder, "-c", script, status=1)
 
 
+@pytest.mark.full
 def test_fit_and_pages(folder):
     said = package_copy.said(
         folder,

@@ -3,8 +3,11 @@
 import re
 
 import networkx as nx
+import pytest
 
 from tests.house.rooms import PACKAGE, PICTURE, picture, rooms
+
+pytestmark = pytest.mark.full
 
 
 def test_the_map_of_the_guide_is_drawn_from_the_imports():

@@ -22,6 +22,7 @@ from tests.laws.pairs import (
 )
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize("view", [View.COMBINED, View.EXACT])
 @pytest.mark.parametrize(("n_masses", "damped"), SMALL)
 def test_no_condition_contradicts_another(n_masses, damped, view):
@@ -36,6 +37,7 @@ def test_no_condition_contradicts_another_for_all_models_of_four_and_five_masses
     audited(family(5, damped), PAPER)
 
 
+@pytest.mark.full
 @often
 @with_examples
 @given(pair=any_pair)
@@ -65,6 +67,7 @@ def assert_transitive(relations, n):
             assert relations(a, c) is not apart
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize("view", View)
 @pytest.mark.parametrize(("n_masses", "damped"), [(3, False), (3, True), (4, False), (4, True)])
 def test_indistinguishability_is_transitive(n_masses, damped, view):
@@ -74,6 +77,7 @@ def test_indistinguishability_is_transitive(n_masses, damped, view):
     )
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize("model", range(1, 12))
 def test_indistinguishability_is_transitive_among_ground_dampers(model):
     chain = Family(3, damped=True)[model]

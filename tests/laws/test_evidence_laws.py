@@ -31,6 +31,7 @@ from tests.laws.pairs import (
 )
 
 
+@pytest.mark.full
 @often
 @with_examples
 @given(pair=any_pair)
@@ -41,6 +42,7 @@ def test_evidence_checks_again(pair):
         assert WITNESS.confirms(found.evidence.turned, found.representation, *reversed(pair))
 
 
+@pytest.mark.full
 @often
 @with_examples
 @given(pair=any_pair)
@@ -169,6 +171,7 @@ def test_witnesses_use_points_of_their_own():
     assert all(one.memo[key] != other.memo[key] for key in one.memo)
 
 
+@pytest.mark.full
 @often
 @with_examples
 @given(pair=any_pair)

@@ -19,6 +19,7 @@ from tests.laws.pairs import (
 )
 
 
+@pytest.mark.full
 @quick
 @with_examples
 @given(pair=any_pair)
@@ -33,6 +34,7 @@ def test_more_markov_parameters_never_turn_a_relation_round(pair):
     assert Relation.UNDECIDED not in relations[first:]
 
 
+@pytest.mark.full
 @quick
 @with_examples
 @given(pair=any_pair)
@@ -53,6 +55,7 @@ def assert_equal_decisions(n_masses, damped, seeds):
         assert np.array_equal(base.representation, other.representation)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_verdicts_do_not_depend_on_the_seed(damped):
     assert_equal_decisions(3, damped, ["one", "two"])

@@ -1,5 +1,6 @@
 """Mirrored pairs and symmetric models have mirrored and equal verdicts."""
 
+import pytest
 from hypothesis import given
 
 from disting import Relation
@@ -16,6 +17,8 @@ from tests.laws.pairs import (
     with_examples,
 )
 from tests.laws.strategies import chains
+
+pytestmark = pytest.mark.full
 
 
 @often

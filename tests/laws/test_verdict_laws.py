@@ -15,6 +15,7 @@ from disting.evidence.kinds import Evidence, evidence_from
 from tests.laws.pairs import any_pair, often, quick, verdict, with_examples
 
 
+@pytest.mark.full
 @often
 @with_examples
 @given(pair=any_pair)

@@ -50,6 +50,7 @@ def test_a_chunk_of_hdf5_may_be_larger_than_its_array(tmp_path):
     refused_within(10, tmp_path / "a.mat", TOO_MUCH)
 
 
+@pytest.mark.full
 def test_variables_are_counted_together(tmp_path):
     hdf5(tmp_path / "a.mat", shape=(LARGEST // 8 - 10,), fillvalue=1.0)
     arrays = variables(source(tmp_path / "a.mat"))
@@ -124,6 +125,7 @@ def test_a_compressed_matrix_is_refused_by_the_size_that_it_says(tmp_path):
     refused_within(10, tmp_path / "a.mat", TOO_MUCH)
 
 
+@pytest.mark.full
 def test_a_compressed_matrix_is_not_unpacked_beyond_the_size_that_it_says(tmp_path):
     version_5(
         tmp_path / "a.mat",
@@ -188,6 +190,7 @@ def test_complex_frequencies_are_refused(tmp_path):
         read(tmp_path / "a.mat")
 
 
+@pytest.mark.full
 def test_a_table_takes_a_few_times_its_file():
     text = "f [Hz],Re,Im\n" + "".join(f"{n},{1 / n},{n / 7}\n" for n in range(1, 10_000))
     tracemalloc.start()

@@ -97,6 +97,7 @@ def test_a_sweep_of_a_position_is_no_loop(seed):
     assert loop_in_noise(u, np.round(np.cumsum(speed) / rate / count) * count, 0) is None
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("noise", [0.05, 0.1])
 def test_a_loop_shows_beside_a_strong_excitation(noise):
     """Little noise, of a speed and of a position."""
@@ -151,6 +152,7 @@ def test_lines_without_coherence_are_left_out_and_counted():
     )
 
 
+@pytest.mark.full
 def test_too_few_lines_say_why():
     u, y, r = closed_loop()
     noise = np.random.default_rng(5).normal(size=N)

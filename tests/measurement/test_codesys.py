@@ -63,6 +63,7 @@ def test_what_all_variables_have_is_read_and_words_are_left_out(tmp_path):
     assert "left out: PLC_PRG.sState ('run'), no numbers" in found.left_out
 
 
+@pytest.mark.full
 def test_input_and_output_are_known_by_their_names(tmp_path):
     times = 10 * np.arange(4096)
     u = np.random.default_rng(1).normal(size=4096)

@@ -43,6 +43,7 @@ def test_noise_that_a_controller_feeds_back_shows_the_loop():
     assert np.mean(error**2) < 2
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "noises",
     [
@@ -115,6 +116,7 @@ def written(path, series):
     return path
 
 
+@pytest.mark.full
 def test_look_states_a_loop_or_what_it_assumes(tmp_path):
     options = {"input": "torque [Nm]", "output": "speed [rad/s]"}
     file = written(tmp_path / "closed.csv", record(FEEDBACK))

@@ -14,6 +14,7 @@ U = np.cos(2 * np.pi * np.outer(TIME, np.arange(2, 22)) + np.arange(20) ** 2).su
 Y = 0.5 * np.roll(U, 3)
 
 
+@pytest.mark.full
 def test_names_tell_input_and_output_of_a_text_file(tmp_path):
     path = tmp_path / "a.csv"
     rows = "\n".join(
@@ -101,6 +102,7 @@ def scope_export(mark, decimal, own_times):
     return "\r\n".join(point) + "\r\n"
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("mark", "decimal", "own"), [("\t", ",", False), (";", ".", True), (",", ".", False)]
 )
@@ -191,6 +193,7 @@ def lvm(columns, decimal, steps=("1.0E-3", "1.0E-3")):
     )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("columns", "decimal"), [("No", ","), ("Multi", ".")])
 def test_a_record_of_labview(tmp_path, columns, decimal):
     path = tmp_path / "a.lvm"

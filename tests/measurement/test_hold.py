@@ -66,6 +66,7 @@ def test_derivatives_are_those_of_the_response():
         )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("delay", "lag", "true"),
     [
@@ -114,6 +115,7 @@ def test_every_file_takes_a_hold(tmp_path):
         select(read(file, hold=0.02), figure_1([1]))
 
 
+@pytest.mark.full
 def test_the_command_line_takes_a_hold_and_refuses_it_for_networks(tmp_path, capsys):
     exact = sampled(VALUES, OMEGA, 0, 1) * (1j * OMEGA) ** 2
     noise = np.random.default_rng(3).normal(size=(2, len(OMEGA)))

@@ -89,6 +89,7 @@ def test_columns_without_a_header_are_assumed(tmp_path):
     assert seen.assumed[1].what == "columns frequency, real part, imaginary part, in this order"
 
 
+@pytest.mark.full
 @given(
     frequency=st.sampled_from(["Hz", "kHz", "rad/s"]),
     level=st.sampled_from(["1", "%", "dB"]),
@@ -232,6 +233,7 @@ def test_inputs_that_do_not_repeat_are_sweeps_or_random():
     assert excitation(steps, RATE).kind is Excitation.SWEEP
 
 
+@pytest.mark.full
 @given(st.floats(1e-6, 1e6), st.sampled_from(["multisine", "sweep"]), st.floats(-5, 5))
 def test_the_kind_does_not_depend_on_unit_and_offset(factor, kind, offset):
     u = signals(kind, periods=2)
@@ -376,6 +378,7 @@ REAL = [
 ]  # fmt: skip
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("name", "options"), REAL)
 def test_measured_files_are_shown(name, options):
     path = measured_data(name)

@@ -26,6 +26,7 @@ def record(tmp_path):
     return table(tmp_path / "a.csv", header, t, u, np.cumsum(u), r, np.cumsum(r))
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(
     "reference", ["excitation [Nm]", "excitation", "Excitation", " EXCITATION "]
 )
@@ -42,6 +43,7 @@ def test_what_is_ambiguous_or_of_another_unit_is_refused(record, wrong):
         read_time_series(record, "torque", wrong)
 
 
+@pytest.mark.full
 def test_the_command_takes_them_too(record):
     words = ("input=torque", "output=speed [rad/s]", "reference=excitation", "segment=512")
     reads = [word for each in words for word in ("--read", each)]

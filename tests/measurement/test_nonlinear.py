@@ -40,6 +40,7 @@ def test_lines_without_excitation_predict_how_realisations_scatter():
     assert np.mean(measured) == pytest.approx(1.0, abs=0.25) and np.mean(alone) > 50
 
 
+@pytest.mark.full
 def test_realisations_show_their_distortion_by_their_scatter():
     each = [response(seed, cube=0.02, noise=0.002, lines=ALL) for seed in range(120)]
     best = np.mean([r.G for r in each], axis=0)

@@ -224,6 +224,7 @@ def test_universal_files_whose_columns_are_shifted_or_missing(tmp_path, good, ba
         read(path)
 
 
+@pytest.mark.full
 def test_frequency_response_data_of_python_control():
     control = pytest.importorskip("control")
     data = np.stack([[G, 2 * G]])
@@ -264,6 +265,7 @@ def whole(tmp_path_factory):
     return [(path.name, path.read_bytes()) for path in sorted(folder.iterdir())]
 
 
+@pytest.mark.full
 @given(st.integers(0, 3), st.floats(0, 1), st.integers(0, 40), st.binary(max_size=8))
 @settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None
@@ -307,6 +309,7 @@ def refused(path, content):
 NUMERIC = ["f8", "f4", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "c16", "c8"]
 
 
+@pytest.mark.full
 @given(
     st.sampled_from(NUMERIC),
     st.lists(st.integers(1, 5), min_size=2, max_size=4),

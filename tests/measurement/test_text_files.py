@@ -275,6 +275,7 @@ def test_data_frames(tmp_path):
 FINITE = st.floats(-1e300, 1e300, allow_subnormal=True).filter(bool)
 
 
+@pytest.mark.full
 @given(
     st.lists(st.floats(1e-6, 1e6), min_size=8, max_size=20, unique=True),
     st.data(),
@@ -317,6 +318,7 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path):
 GARBLED = st.text(st.sampled_from('0123456789.,;+-eE#%\t\n" fReImHzdB[]nainf/°'), max_size=300)
 
 
+@pytest.mark.full
 @given(st.one_of(st.binary(max_size=300), GARBLED.map(lambda t: t.encode())))
 @settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=300, deadline=None
@@ -328,6 +330,7 @@ def test_garbled_text_is_refused_and_nothing_else(tmp_path, content):
     refused(lambda: read_time_series(path, 1, 2, sampling_rate=100.0))
 
 
+@pytest.mark.full
 @given(st.integers(0, 700), st.integers(0, 700), st.binary(max_size=4))
 @settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=200, deadline=None
@@ -364,6 +367,7 @@ def test_a_comment_of_three_words_is_no_header(tmp_path):
     assert np.array_equal(read(path).G, G) and "no header" in read(path).notes[0]
 
 
+@pytest.mark.full
 def test_a_cell_of_many_digits_is_refused_at_once():
     """Matching took quadratic time: over two minutes for 40,000 digits. A hundred times as many
     are read here.
@@ -402,6 +406,7 @@ def test_damage_of_the_first_line_and_foreign_decimal_signs_lose_no_number(tmp_p
         read(written(tmp_path / "a.csv", text))
 
 
+@pytest.mark.full
 def test_headers_by_the_thousand_are_not_all_listed():
     with pytest.raises(InputError, match="no column is a frequency") as refused_:
         frequency_response(

@@ -149,6 +149,7 @@ def test_excited_lines_are_those_above_the_widest_gap():
     assert excited_lines(np.ones(101)).tolist() == list(range(1, 100))
 
 
+@pytest.mark.full
 def test_welch_of_a_filter_with_noise_on_the_output():
     source = np.random.default_rng(5)
     u = source.normal(size=400_000)
@@ -171,6 +172,7 @@ def resonance(samples):
     return record, lambda f: scipy.signal.freqz([0, 1], a, f, fs=RATE)[1]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("segment", "short"),
     [
@@ -192,6 +194,7 @@ def test_segments_that_are_too_short_for_a_resonance_say_so_and_count_what_they_
     )
 
 
+@pytest.mark.full
 def test_what_segments_smooth_is_taken_out_as_far_as_neighbouring_lines_tell():
     """At a resonance four lines wide a plain quotient of spectra is too small by 5 %."""
     record, true = resonance(2_000_000)
@@ -208,6 +211,7 @@ def test_what_segments_smooth_is_taken_out_as_far_as_neighbouring_lines_tell():
     assert after < 0.5 * before
 
 
+@pytest.mark.full
 def test_errors_of_neighbouring_lines_of_welch_are_not_correlated():
     u, noise = np.random.default_rng(8).normal(size=(2, 400_000))
     found = TimeSeries(u, u + noise, RATE).response(segment=1000)

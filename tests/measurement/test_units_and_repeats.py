@@ -221,6 +221,7 @@ def repeated(n, seed, lines=100):
     return 1.0 + 0.1 * noise * source.uniform(0.2, 3.0, size=lines)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("n", [2, 3, 5, 10])
 def test_repeats_of_one_noise_have_no_outliers(n):
     """Neither lines nor whole repeats, in 300 sets."""
@@ -268,6 +269,7 @@ def test_signals_of_a_record_have_units_in_their_headers(tmp_path):
     assert (found.input, found.output) == (Signal("iq", "A"), Signal("angle", "deg"))
 
 
+@pytest.mark.full
 def test_units_on_the_command_line(tmp_path, capsys):
     path = written(
         tmp_path / "a.csv",

@@ -43,6 +43,7 @@ def test_the_weights_are_the_integral_over_the_impulse_response(damping):
     np.testing.assert_allclose(found, direct, rtol=0, atol=2e-3 * np.abs(direct).max())
 
 
+@pytest.mark.full
 def test_short_segments_show_the_response_under_their_window():
     """A resonance of 0.5 % damping in segments of half the time in which it rings."""
     record, true = resonance(200_000)

@@ -100,6 +100,7 @@ def monomorphisms(part, whole):
     return [{b: a for a, b in m.items()} for m in matcher.subgraph_monomorphisms_iter() if same]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_embeddings_are_the_monomorphisms_of_graphs(damped):
     some = [Chain(1), *Family(2, damped), *Family(3, damped), *list(Family(4, True))[::5]]

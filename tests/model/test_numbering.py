@@ -74,6 +74,7 @@ def test_sentences_of_large_chains_have_their_names(pair):
     assert verify(data).status is Status.HOLDS
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("words", "said"),
     [

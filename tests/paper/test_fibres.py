@@ -33,6 +33,7 @@ def disagreements(chains):
     return [x for x in decided if (x[2] is Relation.DISTINGUISHABLE) != x[3]], len(decided)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("n_masses", "damped", "number"),
     [
@@ -47,6 +48,7 @@ def test_families(n_masses, damped, number):
     assert disagreements(Family(n_masses, damped)) == ([], number)
 
 
+@pytest.mark.full
 def test_some_pairs_of_three_damped_masses():
     """The two of a group, and one that is told from both."""
     family = Family(3, damped=True)
@@ -60,6 +62,7 @@ def with_dampers(chain, *sets):
 GAP = Chain(2, 1, 1, 2, 1, 2, damped=False)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("chains", "number"),
     [

@@ -24,6 +24,7 @@ def counts(found: dict[tuple[int, int], int]) -> dict[int, int]:
     return dict(sorted(Counter(found.values()).items()))
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n_masses", "damped", "representation", "count", "expected"),
     [
@@ -68,6 +69,7 @@ def test_pairs_by_deciding_condition(
     assert counts(decided(n_masses, damped, representation, count)) == expected
 
 
+@pytest.mark.full
 def test_both_representations_agree_on_the_three_mass_classes() -> None:
     """Undamped, Markov parameters leave exactly the indistinguishable pairs; damped, both
     together leave six pairs.
@@ -91,6 +93,7 @@ def test_markov_parameters_decide_eight_of_the_seventeen_four_mass_pairs() -> No
     assert by_coefficients[11, 13] == 7
 
 
+@pytest.mark.full
 def test_three_mass_coefficients_and_ranks() -> None:
     undamped, damped = (
         [sympy_twin.summary(chain) for chain in Family(3, damped)] for damped in (False, True)
@@ -102,6 +105,7 @@ def test_three_mass_coefficients_and_ranks() -> None:
     assert damped[2].rank == damped[6].rank == 6
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_lag_is_distinguishable_from_none(damped: bool) -> None:
     for plain in Family(3, damped):
@@ -121,11 +125,13 @@ EXAMPLES = [
 ]
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("chain", EXAMPLES, ids=str)
 def test_the_quick_transfer_function_is_the_textbook_one(chain: Chain) -> None:
     assert sympy_twin.transfer_function(chain) == sympy_twin.transfer_function_textbook(chain)
 
 
+@pytest.mark.thin(12)
 @pytest.mark.parametrize("chain", EXAMPLES, ids=str)
 def test_markov_parameters_are_the_series_of_the_transfer_function(chain: Chain) -> None:
     """(30): the coefficients of s^m, s^(m-1).. of denominator times series are those of the
@@ -145,6 +151,7 @@ def test_different_random_points_give_the_same_ranks_and_bases() -> None:
         assert (first.rank, first.bases) == (second.rank, second.bases)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_the_tuned_baseline_counts_as_the_twin(damped: bool) -> None:
     tuned = sympy_best.run(3, 7, damped)

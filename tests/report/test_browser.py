@@ -103,6 +103,7 @@ TOLD = """async (pairs) => {
 }"""
 
 
+@pytest.mark.full
 def test_two_curves_fall_as_the_sentence_says(visit) -> None:  # type: ignore[no-untyped-def]
     """Where the curves fall unequally towards high frequencies, both are drawn with example values;
     what they do is computed from the curves, the sentence from degrees.
@@ -128,6 +129,7 @@ def test_two_curves_fall_as_the_sentence_says(visit) -> None:  # type: ignore[no
     assert tab.locator("#curves path.curve").count() == 2
 
 
+@pytest.mark.full
 def test_below_and_above_the_diagonal_are_two_views(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.mouse.click(**_place(tab, 2, 5))
@@ -171,6 +173,7 @@ def test_the_order_by_group_puts_blocks_on_the_diagonal(visit) -> None:  # type:
     assert _colour(tab, largest + 1, 1) == BLUE
 
 
+@pytest.mark.full
 def test_the_keyboard_moves_opens_zooms_and_closes(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.focus(CURSOR)
@@ -213,6 +216,7 @@ def test_the_focus_is_seen(visit) -> None:  # type: ignore[no-untyped-def]
     assert cursor["y"] < field["y"] < cursor["y"] + cursor["height"]
 
 
+@pytest.mark.full
 def test_the_wheel_zooms_where_the_pointer_is_and_dragging_moves(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(LARGE)
     tab.evaluate("document.getElementById('matrix').scrollIntoView({behavior: 'instant'})")
@@ -233,6 +237,7 @@ def test_the_wheel_zooms_where_the_pointer_is_and_dragging_moves(visit) -> None:
     assert tab.inner_text("#detail h3") == "A12 and A25"
 
 
+@pytest.mark.full
 def test_a_deep_link_selects(visit) -> None:  # type: ignore[no-untyped-def]
     for fragment in ("#9-10", "#10-9", "#A9-A10", "#3:9-3:10", "#3%3A10-A9"):
         tab = visit(SMALL + fragment)
@@ -241,6 +246,7 @@ def test_a_deep_link_selects(visit) -> None:  # type: ignore[no-untyped-def]
         assert tab.inner_text("#detail .badge") == "indistinguishable"
 
 
+@pytest.mark.full
 def test_other_fragments_select_nothing_and_say_why_where_they_name_models(visit) -> None:  # type: ignore[no-untyped-def]
     for fragment, said in (
         ("#0-3", "There is no model 3:0: the models of 3 masses are 3:1 to 3:11."),
@@ -259,6 +265,7 @@ def test_other_fragments_select_nothing_and_say_why_where_they_name_models(visit
         assert said in told if said else not told, fragment
 
 
+@pytest.mark.full
 def test_what_was_selected_is_closed_by_an_address_that_names_nothing(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#1-4")
     visit(SMALL + "#1-99")
@@ -267,6 +274,7 @@ def test_what_was_selected_is_closed_by_an_address_that_names_nothing(visit) -> 
     assert tab.is_visible("#detail") and not tab.inner_text("#trouble")
 
 
+@pytest.mark.full
 def test_a_deep_link_to_a_model_leads_on_to_its_page(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A5")
     assert tab.inner_text("#detail h3") == "A5"
@@ -277,6 +285,7 @@ def test_a_deep_link_to_a_model_leads_on_to_its_page(visit) -> None:  # type: ig
     assert tab.inner_text("#detail h3") == "A2 and A5"
 
 
+@pytest.mark.full
 def test_the_search_finds_models_and_pairs(visit) -> None:  # type: ignore[no-untyped-def]
     tab, pair = visit(SMALL), "A2 and A5"
     for typed, found in (
@@ -293,6 +302,7 @@ def test_the_search_finds_models_and_pairs(visit) -> None:  # type: ignore[no-un
         assert tab.inner_text("#detail h3") == found
 
 
+@pytest.mark.full
 def test_the_search_says_what_it_does_not_find(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     for typed in ("", "x", "3:12", "2 99", "3:1 4:1", "0"):
@@ -301,6 +311,7 @@ def test_the_search_says_what_it_does_not_find(visit) -> None:  # type: ignore[n
         assert tab.inner_text("#trouble") and not tab.is_visible("#detail"), typed
 
 
+@pytest.mark.full
 def test_the_search_says_where_what_no_page_shows_is_answered(visit) -> None:  # type: ignore[no-untyped-def]
     for address, field, said in ((SMALL, "#find", "#trouble"), (START, "#models", "#said")):
         tab = visit(address)
@@ -314,6 +325,7 @@ def test_the_search_says_where_what_no_page_shows_is_answered(visit) -> None:  #
             assert tab.inner_text(said).endswith(f"a command answers: {command}"), typed
 
 
+@pytest.mark.full
 def test_the_search_leads_to_other_catalogues(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.fill("#find", "4:17 4:23")
@@ -322,6 +334,7 @@ def test_the_search_leads_to_other_catalogues(visit) -> None:  # type: ignore[no
     assert tab.inner_text("#detail h3") == "A17 and A23"
 
 
+@pytest.mark.full
 def test_the_start_page_leads_to_a_model_and_to_a_pair(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(START)
     tab.fill("#models", "3:5")
@@ -335,6 +348,7 @@ def test_the_start_page_leads_to_a_model_and_to_a_pair(visit) -> None:  # type: 
     assert tab.inner_text("#detail h3") == "A1 and A11"
 
 
+@pytest.mark.full
 def test_the_start_page_says_what_it_does_not_find(visit) -> None:  # type: ignore[no-untyped-def]
     tab, said = visit(START), set()
     for typed in ("", "5", "9:1", "3:12", "3:1 2:1"):
@@ -344,6 +358,7 @@ def test_the_start_page_says_what_it_does_not_find(visit) -> None:  # type: igno
     assert len(said) == 5 and "" not in said and tab.url.endswith(START)
 
 
+@pytest.mark.full
 def test_one_click_leads_from_the_start_to_the_reason(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(START)
     follow_link(tab, ".example figcaption a >> nth=0")
@@ -369,6 +384,7 @@ def test_mathematics_is_typeset_without_a_script(visit) -> None:  # type: ignore
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("masses", [4, pytest.param(5, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("width", [320, 390])
 def test_the_names_of_the_last_fields_are_whole(visit, site: Path, width: int, masses: int) -> None:  # type: ignore[no-untyped-def]
@@ -394,6 +410,7 @@ def test_the_names_of_the_last_fields_are_whole(visit, site: Path, width: int, m
     assert all(right >= half and below >= half for _, right, below in written)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("width", [390, 1280])
 def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#9-10", width)
@@ -403,6 +420,7 @@ def test_a_deep_link_stays_in_sight(visit, width: int) -> None:  # type: ignore[
     assert field["y"] > 0 and field["y"] + field["height"] < below
 
 
+@pytest.mark.full
 def test_printing_shows_the_matrix_and_no_controls(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#1-4")
     tab.emulate_media(media="print")
@@ -414,6 +432,7 @@ def test_printing_shows_the_matrix_and_no_controls(visit) -> None:  # type: igno
     )
 
 
+@pytest.mark.full
 def test_without_script_everything_static_is_there(browser, site: Path) -> None:  # type: ignore[no-untyped-def]
     context = browser.new_context(java_script_enabled=False)
     tab = context.new_page()
@@ -423,6 +442,7 @@ def test_without_script_everything_static_is_there(browser, site: Path) -> None:
     context.close()
 
 
+@pytest.mark.full
 def test_no_field_of_millions_is_lost(visit, site: Path) -> None:  # type: ignore[no-untyped-def]
     """2336 models on a few hundred pixels: the one indistinguishable pair is seen, found and
     opened.
@@ -461,6 +481,7 @@ def test_no_field_of_millions_is_lost(visit, site: Path) -> None:  # type: ignor
     assert tab.inner_text("#detail .badge") == "indistinguishable"
 
 
+@pytest.mark.full
 def test_the_keyboard_walks_a_large_family(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(LARGE + "#12-14")
     assert tab.inner_text("#detail h3") == "A12 and A14"

@@ -127,12 +127,14 @@ def _colours(tab, fields: list[tuple[int, int]]) -> list[str]:  # type: ignore[n
     return [{BLUE: "blue", ORANGE: "orange"}.get(colour, "dim") for colour in found]
 
 
+@pytest.mark.full
 def test_look_ups_are_pythons(visit, small: DamperFamily, undamped: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     pairs = list(permutations(range(88), 2))[::5]
     for name, found in ((SMALL, small), ("dampers-3-undamped.html", undamped)):
         assert visit(name).evaluate(LOOK_UP, pairs) == _look_up(found, pairs)
 
 
+@pytest.mark.full
 def test_look_ups_in_thousands_of_models_are_pythons(visit, large: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     random = np.random.default_rng(1)
     pairs = [(int(i), int(j)) for i, j in random.integers(0, 2336, (1500, 2)) if i != j]
@@ -164,6 +166,7 @@ def test_a_page_of_thousands_of_models_is_fluid(visit) -> None:  # type: ignore[
         assert min(tab.evaluate(timed, selector) for _ in range(3)) < 400
 
 
+@pytest.mark.full
 def test_a_click_shows_names_drawings_rule_and_command(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     low, high = small.place((2, (1, 2))), small.place((5, (2, 3)))
@@ -192,6 +195,7 @@ def test_a_click_shows_names_drawings_rule_and_command(visit, small: DamperFamil
     tab.wait_for_url("**/models/3-damped/5.html")
 
 
+@pytest.mark.full
 def test_deep_links_lead_to_pairs_models_structures_and_groups(visit) -> None:  # type: ignore[no-untyped-def]
     for fragment, title in (
         ("#2+b1/5+b2", "A2+b1 and A5+b2"),
@@ -208,6 +212,7 @@ def test_deep_links_lead_to_pairs_models_structures_and_groups(visit) -> None:  
         assert tab.inner_text("#detail h3") == title, fragment
 
 
+@pytest.mark.full
 def test_other_fragments_select_nothing_and_say_why_where_they_name_something(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A12")
     assert "There is no model 3:12" in tab.inner_text("#trouble")
@@ -231,6 +236,7 @@ def test_other_fragments_select_nothing_and_say_why_where_they_name_something(vi
         assert said in told if said else not told, fragment
 
 
+@pytest.mark.full
 def test_the_search_finds_what_compare_calls_them(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     for typed, found in (
@@ -248,6 +254,7 @@ def test_the_search_finds_what_compare_calls_them(visit) -> None:  # type: ignor
     tab.wait_for_function("() => Number(document.getElementById('matrix').dataset.cell) > 20")
 
 
+@pytest.mark.full
 def test_the_search_says_what_it_does_not_find(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     for typed in ("", "x", "3:12", "2+b4", "3:1 4:1", "0", "2+b"):
@@ -256,6 +263,7 @@ def test_the_search_says_what_it_does_not_find(visit) -> None:  # type: ignore[n
         assert tab.inner_text("#trouble") and not tab.is_visible("#detail"), typed
 
 
+@pytest.mark.full
 def test_the_start_page_and_the_catalogue_lead_here(visit) -> None:  # type: ignore[no-untyped-def]
     for page, field in ((START, "#models"), ("chains-3-damped.html", "#find")):
         tab = visit(page)
@@ -281,6 +289,7 @@ def test_the_order_by_group_puts_blocks_on_the_diagonal(visit, small: DamperFami
     assert _colours(tab, [(largest + 1, 1), (1, largest + 1)]) == ["blue", "blue"]
 
 
+@pytest.mark.full
 def test_one_structure_is_the_table_of_its_sets(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.select_option("#only", "structure-4")
@@ -304,6 +313,7 @@ def test_one_structure_is_the_table_of_its_sets(visit, small: DamperFamily) -> N
     )
 
 
+@pytest.mark.full
 def test_one_group_holds_its_members(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     follow_link(tab, '#groups a[href="#group-4"]')
@@ -326,6 +336,7 @@ def test_a_relation_can_be_dimmed(visit) -> None:  # type: ignore[no-untyped-def
     assert _colours(tab, [(8, 1), (8, 7)]) == ["dim", "orange"]
 
 
+@pytest.mark.full
 def test_the_keyboard_moves_opens_and_closes(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.focus(CURSOR)
@@ -355,6 +366,7 @@ def test_a_structures_panel_lists_what_is_not_told_apart(visit, small: DamperFam
     assert tab.text_content("#detail code") == "disting dampers 3:3 --sets all --damped"
 
 
+@pytest.mark.full
 def test_undecided_pairs_are_named_as_such(visit, large: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     i, j = next(
         (i, j) for i, j, relation, _ in large.found.pairs() if relation.value == "undecided"
@@ -373,6 +385,7 @@ def test_undecided_pairs_are_named_as_such(visit, large: DamperFamily) -> None: 
     ) or "That is no verdict" in tab.text_content("#counts")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("width", [320, pytest.param(390, marks=pytest.mark.slow), 1280])
 def test_nothing_of_the_panel_is_cut_off(visit, width: int) -> None:  # type: ignore[no-untyped-def]
     # never two fragments of one page in turn: the second would not load it

@@ -46,6 +46,7 @@ def test_nothing_leaves_the_picture(chain: Chain) -> None:
         assert 0 <= left <= right <= scene.width and 0 <= top <= bottom <= scene.height, shape
 
 
+@pytest.mark.full
 @few
 @given(chains())
 def test_svg_parses_and_png_decodes(chain: Chain) -> None:

@@ -4,6 +4,8 @@ import re
 from dataclasses import replace
 from itertools import product
 
+import pytest
+
 from disting.catalogs import catalog
 from disting.catalogs.next_files import next_catalog
 from disting.experiments.experiment import Experiment
@@ -39,6 +41,7 @@ def with_item(chain, item):
     return replace(below, layers=(*kept, draw_item(chain, item)))
 
 
+@pytest.mark.full
 def test_nothing_leaves_the_picture_and_no_letters_overlap():
     for chain in CHAINS:
         for item in items(chain):
@@ -74,6 +77,7 @@ def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():
                 assert parts.setdefault(layer.name, layer) == layer
 
 
+@pytest.mark.full
 def test_what_an_experiment_adds_covers_no_name_and_no_sign():
     for chain in CHAINS:
         for item in items(chain):

@@ -40,6 +40,7 @@ def site(tmp_path_factory: pytest.TempPathFactory, family) -> Path:  # type: ign
     return folder
 
 
+@pytest.mark.full
 def test_a_pair_is_drawn_named_and_told(visit, family) -> None:  # type: ignore[no-untyped-def]
     low, high = PAIR
     tab = visit("list-circuits-4.html")
@@ -69,6 +70,7 @@ def test_the_search_and_the_start_page_find_them(visit) -> None:  # type: ignore
     tab.wait_for_url(f"**/models/list-circuits-4/{PAIR[1]}.html")
 
 
+@pytest.mark.full
 def test_no_page_is_endless(visit) -> None:  # type: ignore[no-untyped-def]
     for address in ("list-circuits-4.html", f"models/list-circuits-4/{PAIR[0]}.html"):
         for width in (1280, 390):
@@ -76,6 +78,7 @@ def test_no_page_is_endless(visit) -> None:  # type: ignore[no-untyped-def]
             assert tab.evaluate("document.documentElement.scrollHeight") < 12_000
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_drawing_is_saved_as_it_is_on_white_paper(visit, tmp_path: Path, scheme: str) -> None:  # type: ignore[no-untyped-def]
     tab = visit(f"models/list-circuits-4/{PAIR[0]}.html", scheme=scheme)
@@ -96,6 +99,7 @@ def test_a_drawing_is_saved_as_it_is_on_white_paper(visit, tmp_path: Path, schem
 P = "{http://www.w3.org/2000/svg}path"
 
 
+@pytest.mark.full
 def test_a_pair_is_saved_side_by_side(visit, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
     tab = visit(f"list-circuits-4.html#{PAIR[0]}-{PAIR[1]}")
     with tab.expect_download() as download:

@@ -64,6 +64,7 @@ def test_no_other_module_writes_a_table() -> None:
     }  # fmt: skip
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("words", "table"),
     [

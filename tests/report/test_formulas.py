@@ -96,6 +96,7 @@ def test_a_root_is_a_fraction_of_two() -> None:
     assert sympy.expand(value(above) + a + b - sympy.sqrt(a * b)) == 0 == value(below) - 2 * a
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize(
     "family", FAMILIES, ids=lambda f: f"{f.n_masses}-{'damped' if f.damped else 'undamped'}"
 )

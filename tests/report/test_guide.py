@@ -68,6 +68,7 @@ def test_the_readme_is_short() -> None:
     assert len(TEXTS["README.md"].splitlines()) < 200
 
 
+@pytest.mark.full
 def test_every_page_is_in_the_site_with_its_title_and_headings() -> None:
     pages = {f"guide/{path.stem}.html" for path in FOLDER.glob("*.md")}
     made = {name for name in written() if re.match("guide/(python-|commands)", name)}
@@ -194,6 +195,7 @@ def test_equal_headings_have_anchors_of_their_own_and_a_page_has_a_title() -> No
         guide_page("here", "No title.", [])
 
 
+@pytest.mark.full
 def test_every_command_shown_is_accepted() -> None:
     assert len(shown()) > 40
     for name, command, whole in shown():
@@ -228,6 +230,7 @@ def known_options(words: list[str], of: argparse.ArgumentParser) -> set[str]:
     return found
 
 
+@pytest.mark.full
 def test_what_is_quoted_of_identifiability_is_what_is_said() -> None:
     quoted = re.findall(r"^A\d+: .*", TEXTS["models.md"], re.MULTILINE)
     said = called("models", "3", "--damped", "--identifiability").stdout.splitlines()
@@ -254,6 +257,7 @@ def where(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
     return [item.inner_text() for item in tab.locator("#finds li .where").all()]
 
 
+@pytest.mark.full
 def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("models/3-damped/4.html")
     tab.keyboard.press("/")
@@ -289,6 +293,7 @@ def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> Non
     assert len(places) > 5 and not [p for p in places[:5] if p.startswith(("disting.", "All "))]
 
 
+@pytest.mark.full
 def test_the_keyboard_searches_and_goes(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html", 320, "dark")
     tab.keyboard.press("/")
@@ -308,6 +313,7 @@ def test_the_keyboard_searches_and_goes(visit) -> None:  # type: ignore[no-untyp
     assert tab.url.endswith("chains-3-damped.html#2-5")
 
 
+@pytest.mark.full
 def test_every_address_that_the_search_knows_is_there(site: Path) -> None:
     text = (site / "search.js").read_text(encoding="utf-8")
     data = json.loads(re.search(r"const DATA = (.*);\n", text)[1])  # type: ignore[index]

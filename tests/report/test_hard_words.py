@@ -67,6 +67,7 @@ def test_every_hard_word_is_in_the_glossary() -> None:
     assert set(HARD.values()) <= known and len(HARD) > 20
 
 
+@pytest.mark.full
 def test_pages_of_the_guide_link_the_first_use() -> None:
     pages = [one for part in guide() for one in part.pages]
     own = [one for one in pages if not one.name.startswith(("python-", "commands", PAGE))]

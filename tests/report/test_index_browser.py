@@ -73,6 +73,7 @@ def _described(tab, chains: list[Chain]) -> Iterator[tuple[Chain, dict]]:  # typ
     )
 
 
+@pytest.mark.full
 def test_every_model_is_reached_by_its_description(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html")
     for n, damped in SOME:
@@ -95,6 +96,7 @@ def test_every_model_is_reached_by_its_description(visit) -> None:  # type: igno
             assert str(len(pairs)) in found["said"] or not pairs
 
 
+@pytest.mark.full
 def test_a_description_outside_of_the_family_leads_to_its_model_by_the_symmetries_named(
     visit,
 ) -> None:  # type: ignore[no-untyped-def]
@@ -113,6 +115,7 @@ def test_a_description_outside_of_the_family_leads_to_its_model_by_the_symmetrie
     assert len(seen) == 4
 
 
+@pytest.mark.full
 def test_nothing_but_admissible_descriptions_is_offered(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html")
     for n in SHIPPED_SIZES:
@@ -155,6 +158,7 @@ def test_a_part_shows_the_same_wherever_it_is_used() -> None:
                 assert held[part_name(chain, layer)] == layer
 
 
+@pytest.mark.full
 def test_the_keyboard_describes_and_the_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html")
     tab.focus('[name="masses"]')
@@ -166,6 +170,7 @@ def test_the_keyboard_describes_and_the_links_lead_there(visit) -> None:  # type
     assert "masses 2 to 3 counted from the other end" in tab.inner_text('[data-slot="remark"]')
 
 
+@pytest.mark.full
 def test_the_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html")
     tab.select_option('[name="masses"]', "2")
@@ -256,6 +261,7 @@ def _commands(tab) -> list[str]:  # type: ignore[no-untyped-def]
     return list(tab.locator('[data-slot="commands"] code').all_inner_texts())
 
 
+@pytest.mark.full
 def test_friction_and_lag_are_in_the_name_at_the_masses_of_the_list(visit) -> None:  # type: ignore[no-untyped-def]
     """A free row counted from its other end: friction at mass 2 is at mass 3 of the listed chain."""
     tab = visit("index.html")
@@ -287,6 +293,7 @@ def test_friction_alone_leads_to_the_catalogue_that_has_it(visit, site: Path) ->
     assert link == "dampers-3-damped.html#1+b1+b3" and _commands(tab) == []
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("chosen", "text", "family"),
     [
@@ -324,6 +331,7 @@ def test_a_machine_that_is_no_chain_is_written_drawn_and_asked(
     assert found[-1] == f'disting draw "{text}" --svg machine.svg'
 
 
+@pytest.mark.full
 def test_no_all_clear_is_given_of_a_machine_that_is_not_shipped(visit) -> None:  # type: ignore[no-untyped-def]
     tab = _opened(visit("index.html"))
     _more(tab, masses="4")
@@ -337,6 +345,7 @@ def test_no_all_clear_is_given_of_a_machine_that_is_not_shipped(visit) -> None: 
         assert ("Nothing is said here about what else looks like this machine" in said) != clear
 
 
+@pytest.mark.full
 def test_the_address_holds_all_of_it(visit) -> None:  # type: ignore[no-untyped-def]
     tab = _opened(visit("index.html"))
     text = _more(tab, masses="4", joined_4="2", second="0,4", friction_3=True, delay=True)
@@ -350,6 +359,7 @@ def test_the_address_holds_all_of_it(visit) -> None:  # type: ignore[no-untyped-
     assert again.is_checked('[name="delay"]') and again.is_checked('[name="friction-3"]')
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.slow)])
 def test_the_larger_form_fits_a_phone_and_has_no_barrier(visit, scheme: str) -> None:  # type: ignore[no-untyped-def]
     tab = _opened(visit("index.html", 320, scheme))

@@ -24,6 +24,7 @@ from tests.report.outline import Outline
 from tests.report.test_hard_words import unexplained
 
 
+@pytest.mark.full
 def test_108_of_148_circuits_determine_their_values() -> None:
     """Morelli and Smith, Passive Network Synthesis, SIAM 2019."""
     models = [of_network(n) for n in FAMILIES["circuits-5"].networks]
@@ -57,6 +58,7 @@ def test_classes_fall_apart_where_one_network_reaches_lower_degrees(four: Listin
     assert len(split) == 4 and all(c.exact for c in found)
 
 
+@pytest.mark.full
 def test_the_page_tells_it(visit, four: Listing) -> None:  # type: ignore[no-untyped-def]
     tab = visit("ladenheim.html")
     assert "59 are canonical" in tab.inner_text("main")
@@ -72,6 +74,7 @@ def test_the_page_tells_it(visit, four: Listing) -> None:  # type: ignore[no-unt
     assert not [a for _, a in page.elements if a.get("href") == "index.html"]
 
 
+@pytest.mark.full
 def test_pages_of_a_family_use_no_word_of_the_trade_unexplained(four: Listing) -> None:
     """The sentences of evidence aside, which are in a box of algebra."""
     assert unexplained(ladenheim_page(four)) == set()
@@ -79,6 +82,7 @@ def test_pages_of_a_family_use_no_word_of_the_trade_unexplained(four: Listing) -
     assert unexplained(model_list_page(four)) == set()
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("family", "size", "apart", "joined"),
     [("circuits-4", 59, 43, 2), pytest.param("circuits-5", 108, 68, 8, marks=pytest.mark.slow)],

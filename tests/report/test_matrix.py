@@ -53,6 +53,7 @@ def test_files_are_readable_and_reproducible(shipped: Catalog) -> None:
     assert matrix_svg(shipped) == text
 
 
+@pytest.mark.full
 def test_a_wide_figure_has_a_slide_for_each_view() -> None:
     assert [has_slides(catalog(n, damped=False)) for n in (1, 2, 3, 4, 5)] == [False] * 3 + [
         True

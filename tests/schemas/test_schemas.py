@@ -151,6 +151,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(("command", "of"), [*WRITTEN, *BY_HAND])
 def test_what_a_command_writes_is_what_its_schema_says(
     folder: Path, command: str, of: Format, monkeypatch: pytest.MonkeyPatch
@@ -166,6 +167,7 @@ def test_a_catalogue_is_what_its_schema_says() -> None:
         valid(json.loads(catalog(3, damped=damped).to_json()), Format.CATALOGUE)
 
 
+@pytest.mark.full
 def test_a_gate_is_what_its_schema_says() -> None:
     models = ["R0-p(R1,C1)", "p(R0,R1-C1)", "p(R0,C1)-p(R1,C2)", "p(R0,R1-C1,C2)", "L1-p(R1,C1)"]
     valid(json.loads(json.dumps(gate(models).to_dict())), Format.GATE)
@@ -242,6 +244,7 @@ def test_evidence_is_of_a_kind_that_the_library_reads() -> None:
     assert defined == sorted({kind.kind for union in unions for kind in get_args(union)})
 
 
+@pytest.mark.full
 def test_families_and_networks_are_written_as_the_schema_of_models_says(tmp_path: Path) -> None:
     for name in FAMILIES:
         networks = family_of(name).networks[-2:]

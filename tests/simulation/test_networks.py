@@ -85,6 +85,7 @@ def test_a_record_without_noise_has_the_response_of_the_network(text):
     np.testing.assert_allclose(found.G, expanded(network, values, found.omega), rtol=1e-7)
 
 
+@pytest.mark.full
 @settings(max_examples=60)
 @given(descriptions(most_ports=1), st.integers(0, 2**32))
 def test_responses_of_networks(description, seed):
@@ -120,6 +121,7 @@ def test_what_a_circuit_shows_is_a_voltage_per_ampere():
     assert record.input == ("current", "A") and record.output == ("voltage", "V")
 
 
+@pytest.mark.full
 def test_a_chain_as_a_network_gives_the_same_record():
     chain = Chain(3, meas_plus=3, damped=True, ground_dampers=(2,))
     network = of_chain(chain)

@@ -182,6 +182,7 @@ def test_schroeder_phases_keep_the_peak_low_and_every_leaves_lines_out():
     assert odd.frequency.round(6).tolist() == list(range(11, 250, 2))
 
 
+@pytest.mark.full
 @given(st.integers(0, 10**6))
 def test_the_same_seed_gives_the_same_record(seed):
     bench = replace(BENCH, seed=seed, input_noise=0.1, output_noise=1e-4, periods=2)
@@ -242,6 +243,7 @@ def test_viscous_friction_is_a_ground_damper():
     np.testing.assert_allclose(left.y, right.y, atol=1e-9 * np.abs(left.y).max())
 
 
+@pytest.mark.full
 def test_time_steps_agree_with_the_exact_lines_where_friction_vanishes():
     bench = Bench(samples=500, periods=3, friction={1: Friction(coulomb=1e-10)})
     record = simulate(DEMO_MODEL, DEMO_PARAMETERS, Excitation(low=20.0), bench)
@@ -249,6 +251,7 @@ def test_time_steps_agree_with_the_exact_lines_where_friction_vanishes():
     assert np.abs(record.y - exact.y).max() < 1e-5 * np.abs(exact.y).max()
 
 
+@pytest.mark.full
 def test_coulomb_friction_acts_like_the_describing_function_of_a_sign():
     """One sine, one mass: friction c sign(v) seen at the same frequency is a damper 4 c / (pi
     V) for speeds of amplitude V.

@@ -49,6 +49,7 @@ def closure(name):
     return found
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "name", ["disting.verdict.engine", "disting.fit.search.exchange", "disting.algebra.matroid"]
 )
@@ -76,6 +77,7 @@ def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions(
     )
 
 
+@pytest.mark.full
 def test_a_change_of_the_ports_in_the_chain_model_changes_the_key_of_estimates(tmp_path):
     """Estimates were kept under a digest of the folder `fit` alone, and served after a change
     elsewhere.

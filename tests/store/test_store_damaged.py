@@ -202,6 +202,7 @@ def test_a_file_removed_under_an_open_store(filled: Path) -> None:
         assert other.get_many(TEN) == {key(1): "1"}
 
 
+@pytest.mark.thin(15)
 @pytest.mark.parametrize("seed", range(45))
 def test_no_flipped_bit_ever_gives_a_wrong_value(seed: int, filled: Path) -> None:
     """A third of the bits are in the header and the first page, where they do the most harm."""
@@ -273,6 +274,7 @@ def test_a_row_altered_by_other_means_is_absent_and_removed(change: str, filled:
     assert aside(filled) == []
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damage", [random_bytes, older_schema, emptied])
 def test_processes_that_find_the_same_damage_set_it_aside_once(
     damage: Callable[[Path], None], filled: Path

@@ -29,6 +29,7 @@ from tests.store.store_tools import (
 from tests.store.store_worker import items, key, value
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("number", "rounds"), [(3, 30), pytest.param(8, 200, marks=pytest.mark.slow)]
 )
@@ -47,6 +48,7 @@ def test_many_processes_share_the_same_keys(
     assert aside(path) == []
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("number", "rounds"), [(3, 15), pytest.param(6, 200, marks=pytest.mark.slow)]
 )
@@ -159,6 +161,7 @@ def test_commits_of_a_forked_child_outlive_the_close_of_its_parent(path: Path) -
         }
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("memory", [False, True])
 def test_forks_amid_the_work_of_threads(path: Path, memory: bool) -> None:
     store = Store.open(":memory:" if memory else path)

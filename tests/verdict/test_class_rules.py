@@ -19,6 +19,7 @@ from disting.verdict.engine import question_key
 ENGINE = Engine()
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_structural_rules_are_told_from_both_sides_and_hold(damped):
     found, told = damper_family(3, damped=damped, engine=ENGINE).found, set()

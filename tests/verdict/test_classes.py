@@ -52,6 +52,7 @@ def test_every_pair_of_three_masses_is_decided(three):
     assert sum(three.found.counts().values()) == 3828
 
 
+@pytest.mark.full
 def test_as_the_decision_pair_by_pair_says(three):
     subjects = [ENGINE.subject(str(i), chain) for i, chain in enumerate(three.found.chains)]
     decided = ENGINE.decisions(subjects, Query(View.EXACT, inclusion=False))
@@ -88,6 +89,7 @@ def test_as_the_table_of_one_model_says(three, number):
         assert three.look_up((number, left), (number, right))[0] is relation
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_without_ground_dampers_as_the_shipped_catalogue_says(damped):
     shipped = catalog(4, damped=damped)

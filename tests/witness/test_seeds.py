@@ -73,6 +73,7 @@ def _verdict(family: Family, left: int, right: int) -> Verdict:
     )
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("sensor", [Sensor.POSITION, Sensor.VELOCITY])
 def test_three_masses_with_other_sensors(damped: bool, sensor: Sensor) -> None:
@@ -86,6 +87,7 @@ def test_four_masses_with_other_sensors(damped: bool, sensor: Sensor) -> None:
     assert computed(Family(4, damped, sensor)) == shipped(4, damped)
 
 
+@pytest.mark.thin(4)
 @pytest.mark.parametrize("n", [3, 4, 5])
 @pytest.mark.parametrize("damped", [False, True])
 def test_groups_of_indistinguishable_models_are_closed(n: int, damped: bool) -> None:

@@ -49,6 +49,7 @@ def holds(solution: Solution, point: Point) -> bool:
         return all(solution.values[name].contains(acb(x)) for name, x in exact(point).items())
 
 
+@pytest.mark.thin(12)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize(("n", "g"), [(n, g) for n in range(2, 6) for g in range(n)] + [(8, 5)])
 def test_dual_chains_have_one_receptance(n: int, g: int, damped: bool) -> None:
@@ -62,6 +63,7 @@ def test_dual_chains_have_one_receptance(n: int, g: int, damped: bool) -> None:
     assert dual(right, image) == point
 
 
+@pytest.mark.full
 @settings(max_examples=15, deadline=None)
 @given(st.data())
 def test_duality_holds_for_every_instance(data: st.DataObject) -> None:
@@ -191,6 +193,7 @@ def test_many_small_whole_numbers_are_never_empty(chain: Chain) -> None:
         assert is_right(chain, point, planted(chain, point)), point
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("n", [3, 4])
 def test_collocated_undamped_chains_are_never_missed_at_equal_elements(n: int) -> None:
     """Foster: all of them realise each other's receptances, with positive elements, unless

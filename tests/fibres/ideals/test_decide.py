@@ -185,6 +185,7 @@ def test_results_depend_on_the_seed_only():
     )
 
 
+@pytest.mark.full
 def test_forged_evidence_is_refused():
     a, b = model(3, 1), model(3, 11)
     found = decide(a, b, equal_rank=True)

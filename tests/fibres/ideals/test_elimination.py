@@ -34,6 +34,7 @@ def polynomials(size):
     return st.dictionaries(exponents, st.integers(1, P - 1), min_size=1, max_size=4)
 
 
+@pytest.mark.full
 @given(st.lists(polynomials(3), min_size=1, max_size=4))
 @settings(max_examples=60, deadline=None)
 def test_leading_monomials_are_those_of_sympy(generators):

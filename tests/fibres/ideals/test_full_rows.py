@@ -48,6 +48,7 @@ def rank_and_coefficients(dampers: tuple[int, ...], at: int) -> tuple[int, int]:
     return sympy.Matrix(coefficients).jacobian(names).subs(point).rank(), len(coefficients)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("dampers", [(), (1,), (2,), (1, 2)])
 def test_a_grounded_part_is_full_exactly_where_its_rank_is_the_number_of_its_coefficients(dampers):
     full = all(len(set(rank_and_coefficients(dampers, at))) == 1 for at in (1, 2))
@@ -96,6 +97,7 @@ def test_it_speaks_of_chains_with_one_gap():
     )  # nothing to prove
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_ideals_say_the_same_of_three_masses(damped):
     chains = [replace(c, ground_dampers=s) for c in Family(3, damped) for s in DamperSets.ALL.of(3)]

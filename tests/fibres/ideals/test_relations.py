@@ -37,6 +37,7 @@ one_variable = (
 )
 
 
+@pytest.mark.full
 @settings(max_examples=40, deadline=None)
 @given(one_variable, one_variable)
 def test_relations_of_two_polynomials_in_one_variable(p, q):

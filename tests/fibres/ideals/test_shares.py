@@ -84,6 +84,7 @@ def unknown(kind, i, found, ports):
     return (damper + (found.get(("b", i + 1), 0) if left is None else 0)) / near
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize(
     "name", ["2:2+b1", "3:2+b1+b3", "3:3+b2", "3:6+b1+b3", "3:8+b1+b2", "4:6+b4", "4:18+b2+b4"]
@@ -138,6 +139,7 @@ def test_the_equations_hold_where_the_roots_are_shared_as_they_are():
     assert not any(list(e) == [(0,) * count] for e in equations)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("damped", "pairs"), [(False, 36), (True, 58)])
 def test_models_that_are_the_same_are_never_told_apart(damped, pairs):
     """All pairs of unequal canonical forms in a class of 3 masses with all sets of dampers."""
@@ -161,6 +163,7 @@ def test_models_that_the_shipped_classes_tell_apart_are(left, right):
     assert told[0].shares > 1
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right"), [("5:59+b2", "5:59+b3"), ("5:15+b2", "5:15+b3"), ("5:60+b5", "5:65+b5")]
 )
@@ -175,6 +178,7 @@ def test_five_masses_that_were_left_open_are_decided_by_the_part_that_differs(le
     assert not Witness().confirms(found.evidence, "fibre", a, a)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("left", "right", "part"),
     [("5:3+b1+b4", "5:3+b2+b4", ""), ("5:59+b1+b2+b3", "5:69+b1+b2+b4", "grounded")],
@@ -234,6 +238,7 @@ def alike(row, ranks):
     return row.grounded, row.distance, len(row.ground_dampers), ranks[row]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("masses", "damped"),
     [(2, True), (2, False), *(pytest.param(3, x, marks=pytest.mark.slow) for x in (True, False))],

@@ -65,6 +65,7 @@ def in_quotients(chain: Chain, p: dict[str, Fraction]) -> dict[str, Fraction]:
     return result | {"lag": delay}
 
 
+@pytest.mark.full
 @given(chains(), st.randoms(use_true_random=False))
 @settings(max_examples=60, deadline=None)
 def test_normalised_is_the_same_transfer_function(chain, random):

@@ -58,6 +58,7 @@ def _without_factors(monkeypatch):
     )
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize("number", range(0, 29, 3))
 def test_a_fibre_is_the_same_as_with_every_way_tried(number, monkeypatch):
     family = Family(4, True)
@@ -71,6 +72,7 @@ def test_a_fibre_is_the_same_as_with_every_way_tried(number, monkeypatch):
     assert quick.tests.refuted <= slow.tests.refuted
 
 
+@pytest.mark.full
 def test_the_solutions_of_a_models_own_fibre_are_those_of_every_way(monkeypatch):
     """The zeros of a chain's own receptance fall into kinds: each row of the chain has its own."""
     chain = Chain(4, 0, 0, 2, 0, 3, damped=True)

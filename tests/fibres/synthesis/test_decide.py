@@ -27,6 +27,7 @@ def undecided(c: Catalog) -> list[tuple[int, int]]:
     return [(i, j) for i, j, v in c.pairs(View.COMBINED) if v.relation is Relation.UNDECIDED]
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False), (4, True)])
 def test_agrees_with_the_conditions_on_pairs_of_equal_rank(n: int, damped: bool) -> None:
     c = catalog(n, damped=damped)

@@ -34,6 +34,7 @@ def covered(chain: Chain) -> bool:
     return all(map(is_covered, rows_of(chain.structure)))
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("n", [2, 3, 4])
 def test_a_planted_damped_solution_is_found_again(n: int) -> None:
     for chain in filter(covered, Family(n, damped=True)):
@@ -51,6 +52,7 @@ def test_a_planted_damped_solution_is_found_again(n: int) -> None:
         assert (planted.real, planted.positive) == (Answer.YES, Answer.YES)
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize("n", [2, 3, 4, 5])
 def test_foster_counts_all_real_and_positive(n: int) -> None:
     for chain in Family(n, damped=False):

@@ -82,6 +82,7 @@ def determinant(matrix: list[list[fmpq_poly]]) -> fmpq_poly:
     )
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(
     ("n", "damped", "lag"), [(2, True, False), (2, False, False), (2, True, True), (3, True, False)]
 )
@@ -155,6 +156,7 @@ def test_solutions_have_the_receptance_judged_by_plain_determinants(chain: Chain
         assert abs(int(ratio.p) / int(ratio.q) - 1) < 1e-9
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("chain", "count"),
     [
@@ -175,6 +177,7 @@ def test_numbers_of_solutions(chain: Chain, count: int) -> None:
     )
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(
     "chain",
     [
@@ -270,6 +273,7 @@ def test_a_sum_of_dampers_that_is_zero_is_never_called_empty(chain: Chain) -> No
     assert fibre(chain, target(chain.structure, point)).status is not Status.EMPTY
 
 
+@pytest.mark.full
 @settings(max_examples=25, deadline=None)
 @given(st.data())
 def test_a_model_is_never_proven_to_be_no_model_of_its_own_structure(data: st.DataObject) -> None:
@@ -358,6 +362,7 @@ def agreements(pairs: list[tuple[Chain, Chain]]) -> dict[Membership, int]:
     return counts
 
 
+@pytest.mark.full
 def test_both_engines_agree_on_a_sample_of_the_88_models() -> None:
     counts = agreements(comparable(rubbed(3, True))[::40])
     assert counts[Membership.MEMBER] and counts[Membership.EXCLUDED] > 8

@@ -44,6 +44,7 @@ def distance(chain):
     return max(row.distance for row in rows_of(canonical(chain).chain.structure))
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(
     "n",
     [2, 3, 4, 5, pytest.param(6, marks=pytest.mark.slow), pytest.param(8, marks=pytest.mark.slow)],
@@ -111,6 +112,7 @@ def test_some_positive_models_have_an_equivalent_and_others_have_none():
     assert set(answers) == {Answer.YES, Answer.NO}
 
 
+@pytest.mark.full
 def test_a_refuted_point_has_no_member_of_the_family_that_is_positive():
     """Independent: many springs between the ports, everything else by NumPy."""
     two, six = Family(4, damped=False)[2], Family(4, damped=False)[6]

@@ -44,6 +44,7 @@ def _values(basis, at):
     return [c.formula.value(at) for c in basis]
 
 
+@pytest.mark.full
 @settings(max_examples=10, deadline=None)
 @given(chains(max_masses=3), st.text("abc", min_size=1, max_size=3))
 def test_the_seed_changes_nothing_but_the_point(chain, seed):
@@ -58,6 +59,7 @@ def test_the_seed_changes_nothing_but_the_point(chain, seed):
     assert one.point != other.point
 
 
+@pytest.mark.full
 @settings(max_examples=10, deadline=None)
 @given(chains(max_masses=4, dead_time=True))
 def test_the_basis_has_as_many_combinations_as_parameters_can_be_determined(chain):
@@ -80,6 +82,7 @@ terms = st.tuples(
 )
 
 
+@pytest.mark.full
 @given(st.lists(terms, min_size=1, max_size=3))
 def test_gradients(given_terms):
     formula = Formula(tuple((c, tuple(sorted(powers.items()))) for c, powers in given_terms))

@@ -48,6 +48,7 @@ def test_three_masses():
     ]
 
 
+@pytest.mark.full
 def test_four_masses():
     assert Counter(levels(4, False)) == {
         NOT: 20,
@@ -223,6 +224,7 @@ def test_a_dead_time_adds_one_parameter_and_nothing_else():
     assert {c.text: c.unique for c in late.singles}["Td"] is Answer.YES
 
 
+@pytest.mark.full
 def test_findings_are_confirmed_by_what_they_say():
     for chain in (
         *Family(3, True),

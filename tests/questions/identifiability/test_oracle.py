@@ -29,12 +29,14 @@ def marked(cases):
     return [pytest.param(*case, marks=pytest.mark.slow) if case in LONG else case for case in cases]
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize(("n_masses", "damped", "number"), marked(SMALL))
 def test_number_of_solutions_modulo_a_prime(n_masses, damped, number):
     chain = Family(n_masses, damped)[number]
     assert solutions(chain) == identifiability(chain).most
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize(
     ("n_masses", "damped", "number"), [case for case in SMALL if case[:2] != (3, True)]
 )
@@ -51,6 +53,7 @@ def test_number_of_solutions_of_four_masses(number):
     assert solutions(chain, PRIME) == identifiability(chain).most
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n_masses", "damped"), [(2, False), (2, True), (3, False), (3, True), (4, False)]
 )
@@ -59,6 +62,7 @@ def test_ranks(n_masses, damped):
         assert identifiability(chain).rank == summary(chain).rank, chain
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("n_masses", [2, 3])
 def test_combinations_are_constant_along_the_symbolic_kernel(n_masses, damped):

@@ -51,6 +51,7 @@ def found(sizes, damped):
     return {(a, b): limits(a, b) for a, b in pairs if a.rank != b.rank}
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(
     ("sizes", "damped", "inside", "outside"),
     [
@@ -84,6 +85,7 @@ def test_damped_models_of_three_in_four_masses():
     assert all(f.safety >= 100 for f in findings.values() if f.certainty == "bounded")
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_findings_turn_round_with_the_pair(damped):
     turned = {Inclusion.LEFT_IN_RIGHT: Inclusion.RIGHT_IN_LEFT}
@@ -188,6 +190,7 @@ def test_false_counts_are_refused():
         assert not confirms(evidence, subject(3, 1), subject(4, 1))
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("number", [14, 20])
 def test_a_limit_and_then_a_fibre(number):
     """The grounded row is let go: two free rows, one of negative mass, are a free and a

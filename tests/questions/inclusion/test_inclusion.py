@@ -50,6 +50,7 @@ def unequal(n, damped):
     return [(a, b) for a, b in combinations(subjects(n, damped), 2) if a.rank != b.rank]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_findings_turn_round_with_the_pair_and_evidence_holds(damped):
     for a, b in unequal(3, damped):
@@ -130,6 +131,7 @@ def test_evidence_on_finite_elements_says_nothing_of_limits():
             Inclusions(image, closure)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n", "damped", "unknown"), [(3, False, 0), (3, True, 0), (4, False, 0), (4, True, 4)]
 )
@@ -198,6 +200,7 @@ def test_false_rows_are_refused():
     assert not confirms(RowsInside(True, (inside.steps[0]._replace(why=Why.FULL),)), three, two)
 
 
+@pytest.mark.full
 def test_a_row_of_no_larger_dimension_holds_nothing_but_itself():
     """The wall's row of three masses has the rank 9 with force and sensor at 1 and 3 as with 1 and
     2.
@@ -328,6 +331,7 @@ def test_no_inclusion_of_small_classes_is_unknown(n, damped):
 SIZES = [(1, False), (2, False), (2, True), (3, False), (3, True)]
 
 
+@pytest.mark.thin(6)
 @pytest.mark.parametrize(("n", "damped"), SIZES)
 @pytest.mark.parametrize("more", [{"lag": True}, {"dead_time": True}, {"ground_dampers": (1,)}])
 def test_a_chain_is_a_limit_of_itself_with_an_element_more(n, damped, more):

@@ -83,6 +83,7 @@ def test_the_inequality():
     assert not Room(6, 8, 1, False).suffices and not Room(8, 8, 0, True).suffices
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "chain",
     [
@@ -164,6 +165,7 @@ def test_every_sensor_counts_alike(sensor):
     assert room(*(c.structure for c in chains)) == Room(6, 10, 3, True)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("small", "large", "damped"),
     [

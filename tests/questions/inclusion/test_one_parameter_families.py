@@ -99,12 +99,14 @@ def refutes(one, other):
     )
 
 
+@pytest.mark.full
 def test_limits_of_one_and_two_masses(record_property):
     told = agree(list(machines(2)), share=0.2)
     record_property("oracle", f"limits of 1 and 2 masses, families: {told}, 0 denied")
     assert told["limits"] > 250
 
 
+@pytest.mark.full
 def test_a_dead_time_that_vanishes():
     told = agree([c for c in machines(2, (False, True)) if not c.damped], share=0.2)
     assert told["limits"] > 100
@@ -163,6 +165,7 @@ def agree_under(chains, share):
     return told
 
 
+@pytest.mark.full
 def test_limits_under_one_experiment(record_property):
     told = agree_under(list(machines(2)), share=0.08)
     record_property("oracle", f"limits under one experiment, families: {told}, 0 denied")

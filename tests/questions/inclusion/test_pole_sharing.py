@@ -65,6 +65,7 @@ def test_against_groebner_bases(small, zeros, grounded, is_limit):
     assert (excluding_points(*chains, "oracle") == ()) == is_limit
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_no_limit_is_refuted(damped):
     chains = [canonical(c).chain for n in (1, 2, 3) for c in Family(n, damped)]

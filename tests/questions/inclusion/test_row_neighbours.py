@@ -51,6 +51,7 @@ def test_other_functions_of_the_same_degrees_are_no_limits(n):
     assert not are_no_limits(row, [([0, *num[1:]], den, p) for num, den, p in drawn])
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("n", [4, 5, 6])
 def test_its_own_functions_fulfil_it_at_the_root_of_the_joint_alone(n):
     row = Row(n, False, 1, 2, True)
@@ -63,6 +64,7 @@ def test_its_own_functions_fulfil_it_at_the_root_of_the_joint_alone(n):
         assert apart.count(False) == 1
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("n", [4, 5])
 def test_what_is_known_to_be_a_limit_is_refuted_by_no_equation(n):
     stored = catalog(n, damped=True)

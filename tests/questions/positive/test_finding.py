@@ -86,6 +86,7 @@ def test_catalogues_have_no_open_pair(n, damped):
     assert shares == SHARES[n, damped]
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(
     ("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 8, 3), (5, 18, 14), (5, 64, 59), (5, 64, 69)]
 )
@@ -106,6 +107,7 @@ def test_sometimes_one_way_always_the_other(n, i, j):
     assert back.share is Share.ALWAYS and isinstance(back.evidence, Interlacing)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 18, 14), (5, 64, 69)])
 def test_points_are_what_the_synthesis_says(n, i, j):
     given, other = Family(n, damped=False)[i], Family(n, damped=False)[j]
@@ -141,6 +143,7 @@ def assert_claims_hold(pairs, points):
         agrees(given, other, found, points)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped", "every"), [(3, False, 1), (3, True, 2), (4, False, 9)])
 def test_claims_on_ordered_pairs(n, damped, every):
     assert_claims_hold(list(permutations(chains(n, damped), 2))[::every], 2)
@@ -179,6 +182,7 @@ def test_each_obstacle():
         )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("n", [4, 5])
 def test_residues_change_their_signs_as_often_as_the_obstacle_says(n):
     """In floating point: every sum of two rows that the obstacle excludes against every row

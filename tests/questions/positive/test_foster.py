@@ -31,6 +31,7 @@ def count(n, g, a, b):
     return comb(n - 1, g) * (comb(g - 1, a - 1) if g else 1) * comb(n - g - 1, b - g - 1)
 
 
+@pytest.mark.thin(6)
 @pytest.mark.parametrize(("n", "g", "a", "b"), CASES + LARGE)
 def test_all_solutions_are_positive(n, g, a, b):
     other = Chain(n, g, a, b, a, b, damped=False)
@@ -61,6 +62,7 @@ def order(chain):
     return degree(cancel(at_one).as_numer_denom()[0], s)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("n", [3, 5])
 def test_no_resonance_of_a_continued_fraction_is_ever_cancelled(n):
     """In others one is, at equal elements, of some of them."""

@@ -76,6 +76,7 @@ def test_literal_sets():
     assert words(3, 1, 3).lower == {(0, 0)}
 
 
+@pytest.mark.full
 def test_complete_to_six_masses_and_always_for_neighbours():
     for n in range(2, 10):
         for a, b in product(range(1, n), range(2, n + 1)):
@@ -99,6 +100,7 @@ def test_first_row_with_an_open_word():
     assert known.upper - known.lower == {(0, 0, 2, 2, 0, 0)}
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("at_wall", [False, True])
 @pytest.mark.parametrize(
     ("n", "a", "b"),
@@ -132,6 +134,7 @@ def test_exact_word_agrees_with_eigenvalues(n, seed, i, j, at_wall):
     assert expected is None or word(receptances(chain, point)[0]) == expected
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "a"), [(3, 1), (4, 1), (4, 2), (5, 2), (5, 3)])
 def test_neighbours_are_positive_exactly_with_these_words(n, a):
     """Sufficient: a small spring serves. Necessary: no spring of many does."""

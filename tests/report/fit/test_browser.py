@@ -43,6 +43,7 @@ def opened(tab, page: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
     assert requests == [page.as_uri()]
 
 
+@pytest.mark.full
 def test_columns_sort_both_ways_infinite_numbers_last(opened, selection: Selection) -> None:  # type: ignore[no-untyped-def]
     def column(n: int) -> list[float]:
         cells = opened.locator(f".candidates tbody tr td:nth-child({n})").all()
@@ -97,6 +98,7 @@ def test_commands_break_between_their_words(opened) -> None:  # type: ignore[no-
     assert code.evaluate("(e) => e.scrollWidth - e.clientWidth") <= 0
 
 
+@pytest.mark.full
 def test_structures_lead_to_the_catalogue(
     tab,  # type: ignore[no-untyped-def]
     selection: Selection,

@@ -76,6 +76,7 @@ def test_nothing_is_cut_off_where_units_are_not_known(train: FrequencyResponse) 
     )
 
 
+@pytest.mark.full
 def test_settings_of_the_user_neither_enter_nor_change(
     selection: Selection, starts: FigureFiles
 ) -> None:
@@ -190,6 +191,7 @@ def test_measured_phases_follow_the_model_without_jumps(
     assert np.abs(shown - line.phase[np.searchsorted(line.omega, train.omega)]).max() < 10
 
 
+@pytest.mark.full
 def test_figures_of_the_parameters(selection: Selection) -> None:
     found = selection.selected
     assert found is not None

@@ -24,6 +24,7 @@ def left():
     return train, select(train, [ROW], test=test, controller=LAW)
 
 
+@pytest.mark.full
 def test_every_structure_and_equivalent_is_named_in_the_files(left):
     train, found = left
     drawn = left_figure(found, train)
@@ -33,6 +34,7 @@ def test_every_structure_and_equivalent_is_named_in_the_files(left):
     assert "3:1" in drawn.title
 
 
+@pytest.mark.full
 def test_one_structure_without_equivalents_needs_no_figure(left):
     train, found = left
     alone = replace(found.members[0], twins=())
@@ -47,6 +49,7 @@ def test_one_structure_with_a_controller_has_a_figure(left):
     assert left_figure(replace(found, members=(alone,)), train) is not None
 
 
+@pytest.mark.full
 def test_the_load_of_a_row_is_its_last_mass():
     omega = np.array([3.0, 50.0])
     s2 = -(omega**2)
@@ -58,6 +61,7 @@ def test_the_load_of_a_row_is_its_last_mass():
     np.testing.assert_allclose(loop_gain(ROW, p, LAW, slow), 60 / (2.0 * 1e-2j), rtol=1e-6)
 
 
+@pytest.mark.full
 def test_an_ellipse_holds_95_percent_of_what_is_drawn():
     source, root = np.random.default_rng(5), complex(-3.0, 100.0)
     near = [root * np.exp(complex(0.02 * x, 0.01 * x + 0.005 * y))

@@ -17,6 +17,8 @@ from disting.report.fit.network_page import network_page, write_network_report
 from tests.cli.process import called
 from tests.report.outline import Outline
 
+pytestmark = pytest.mark.full
+
 OMEGA = 2 * np.pi * np.logspace(-1, 4, 30)
 TEXTS = ("R0-p(R1,P1)", "R0-p(R1,C1)-p(R2,C2)", "p(R2,R0-P1)", "R0-p(R1,C1)")
 FIGURES = ["nyquist", "bode", "residuals"]

@@ -136,6 +136,7 @@ def test_without_scatter_no_bars_are_claimed(plain: Selection) -> None:
     assert "Error bars" not in above and "from neighbouring lines" in below
 
 
+@pytest.mark.full
 def test_a_model_that_misses_is_told_by_factors_and_its_ranges_are_marked(
     wrong: Selection, train: FrequencyResponse, test: FrequencyResponse
 ) -> None:

@@ -20,6 +20,8 @@ from disting.report.fit.selection_page import fit_page
 from disting.report.fit.words import fit_in_words, fits_of
 from tests.report.fit.conftest import DRIVE, VALUES
 
+pytestmark = pytest.mark.full
+
 OMEGA = 2 * np.pi * np.geomspace(10.0, 150.0, 40)
 SETUPS = (Setup(), Setup("2"), Setup(locked=("2",)), Setup("2", inertias=(("1", 0.01),)))
 

@@ -1,6 +1,7 @@
 """Bands are drawn by as few corners as show what they are."""
 
 import numpy as np
+import pytest
 from hypothesis import given, strategies as st
 
 from disting.report.fit.series import FINE, corners
@@ -8,6 +9,7 @@ from disting.report.fit.series import FINE, corners
 X = np.linspace(0.0, 3.0, 700)
 
 
+@pytest.mark.full
 @given(st.floats(0.003, 0.3), st.floats(0.2, 2.8), st.floats(-5, 5))
 def test_straight_lines_between_the_corners_are_the_curves(width, place, slope):
     peak = np.log1p(1 / ((X - place) ** 2 + width**2)) + slope * X
