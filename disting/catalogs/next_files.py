@@ -3,10 +3,10 @@
 
 `next-<masses>-<undamped|damped>.jsonl`: a header, then a line a group of structures that one
 measurement cannot tell apart over complex parameters: its `group` (numbers of the structures), and
-for each kind of experiment what `verdict.placement_record.Placement` holds of its spots, structure
-by structure and mass by mass: `gains` (a letter each: n new, r repeats, s silent), `columns`,
-`classes`, `links`, `open` and `safety`. The evidence is not kept: `disting compare --also` gives
-it.
+for each kind of experiment what `verdict.placement_record.SpotClasses` holds of its spots,
+structure by structure and mass by mass: `gains` (a letter each: n new, r repeats, s silent),
+`columns`, `classes`, `links`, `open` and `safety`. The evidence is not kept: `disting compare
+--also` gives it.
 
 `next-dampers-<masses>-<undamped|damped>.jsonl`, shipped for 3 masses: the same for structures with
 dampers to the ground, in groups in which at least one has some; a number is the place, from 0,
@@ -34,7 +34,7 @@ from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.next_experiments import Menu, menu_for
-from disting.verdict.placement_record import TESTS, Placement
+from disting.verdict.placement_record import TESTS, Placement, SpotClasses
 from disting.verdict.query import View
 
 SCHEMA = 1
@@ -157,7 +157,7 @@ def build_next(
     for done, members in enumerate(groups, 1):
         named = [empty.named(m) for m in members]
         advice = menu_for(named, engine, executor=executor, progress=progress)
-        tables = {k.name: _plain(t) for k, t in advice.tables.items() if isinstance(t, Placement)}
+        tables = {kind.name: _plain(table) for kind, table in advice.tables.items()}
         records.append({"group": list(members), **tables})
         progress("groups", done, len(groups))
     return lines(records)
@@ -231,13 +231,15 @@ def verify_next(
 
 
 def _plain(table: Placement) -> Record:
+    decided = table.decided
+    assert isinstance(decided, SpotClasses)  # that of chains
     return {
         "gains": "".join(g.value[0] for g in table.gains),
-        "columns": [list(row) for row in table.columns],
-        "classes": list(table.classes),
-        "links": list(table.links),
-        "open": sorted(map(list, table.open)),
-        "safety": table.safety,
+        "columns": [list(row) for row in decided.columns],
+        "classes": list(decided.classes),
+        "links": list(decided.links),
+        "open": sorted(map(list, decided.open)),
+        "safety": decided.safety,
     }
 
 
@@ -264,17 +266,16 @@ def _placed(
     ValueError for what is none.
     """
     rows = [dict(zip(tests, map(int, row), strict=True)) for row in plain["columns"]]
-    placement = Placement(
-        kind,
-        n_masses,
-        tuple(LETTERS[letter] for letter in plain["gains"]),
+    gains = tuple(LETTERS[letter] for letter in plain["gains"])
+    decided = SpotClasses(
         tuple(tuple(row.get(test, NOT_KNOWN) for test in TESTS) for row in rows),
         tuple(map(int, plain["classes"])),
         tuple(map(str, plain["links"])),
         frozenset((int(a), int(b)) for a, b in plain["open"]),
         int(plain["safety"]),
     )
-    lists = (placement.gains, placement.columns, placement.classes, placement.links)
+    lists = (gains, decided.columns, decided.classes, decided.links)
     if {len(each) for each in lists} != {n_masses * structures}:
         raise ValueError("masses are missing")
-    return placement
+    places = (tuple(range(1, n_masses + 1)),) * structures
+    return Placement(kind, places, gains, decided)

@@ -22,6 +22,7 @@ from disting.cli.output import emit, written_file
 from disting.cli.workers import engine_for
 from disting.conditions.side import AnySide
 from disting.errors import InputError, enumeration, printable
+from disting.experiments.experiment import places_of
 from disting.experiments.menu import Costs, Item
 from disting.files import json_text
 from disting.model.chain import LEGEND, Chain, text_drawing
@@ -30,8 +31,7 @@ from disting.model.names import name_of, read, read_together
 from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine
-from disting.verdict.network_placement import further_networks
-from disting.verdict.next_experiments import Menu, menu_for, places_of
+from disting.verdict.next_experiments import Menu, menu_for
 from disting.verdict.next_words import (
     CSV_COLUMNS,
     AnyMenu,
@@ -124,7 +124,7 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
             print(apart)
             return 0
         group = list(zip(names, networks, strict=True))
-        advice = further_networks(group, engine, costs=costs, executor=pool, progress=progress)
+        advice = menu_for(group, engine, costs=costs, executor=pool, progress=progress)
     return _written(
         options,
         _of_all([advice]),

@@ -26,7 +26,6 @@ from disting.report.fit.left_words import (
 )
 from disting.report.fit.plan_words import larger_in_words
 from disting.verdict.engine import Engine, Progress
-from disting.verdict.network_placement import further_networks
 from disting.verdict.next_experiments import Menu, menu_for
 from disting.verdict.next_words import CSV_COLUMNS, to_dict
 
@@ -82,7 +81,7 @@ def network_advice(
     every = left_by(Path(source))
     left = [survivor for survivor in every if not survivor.contains]
     groups = [
-        further_networks(
+        menu_for(
             [(network.name, network) for network in (survivor.network, *survivor.same)],
             engine,
             costs=costs,

@@ -12,8 +12,8 @@ from disting.errors import ContradictionError, InputError, enumeration, of_type
 from disting.evidence.general import Explicit
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.general import AnyModel, Model
-from disting.general.any_model import as_model, on_one_variable
+from disting.general import AnyModel
+from disting.general.any_model import as_chain, as_model, on_one_variable
 from disting.general.closed_form import ClosedForm, confirm
 from disting.general.formulas import fit, of_way
 from disting.general.synthesis import NoFormulas
@@ -28,7 +28,6 @@ from disting.network.notation import network_of, notations_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.identifiable import Identified, identify
-from disting.verdict.network_placement import further_networks
 from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import AnyMenu, to_dict
 from disting.verdict.query import Query
@@ -258,15 +257,11 @@ def _assignments(forms: Iterable[ClosedForm]) -> tuple[Assignment, ...]:
 
 def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs | None) -> AnyMenu | None:
     """What to measure next, where all are networks of one kind or chains of one size."""
-    chains = [m.chain for m in models if isinstance(m, Model) and m.chain]
-    networks = [m.network for m in models if m.network]
-    names = [m.name for m in models]
+    chains = [as_chain(m) for m in models]
+    pairs = list(zip(models, chains, strict=True))
+    structures = chains if all(chains) else [m.network or chain for m, chain in pairs]
+    named = [(m.name, s) for m, s in zip(models, structures, strict=True) if s]
     try:
-        if len(chains) == len(models):
-            return menu_for(list(zip(names, chains, strict=True)), engine, costs=costs)
-        if len(networks) == len(models):
-            named: list[tuple[str, Network]] = list(zip(names, networks, strict=True))
-            return further_networks(named, engine, costs=costs)
+        return menu_for(named, engine, costs=costs) if len(named) == len(models) else None
     except InputError:  # no menu in common
         return None
-    return None

@@ -13,13 +13,15 @@ from functools import cached_property
 from itertools import pairwise
 
 from disting.behaviour.transfer import touched_rows
-from disting.errors import ConstraintViolation, InputError, short
+from disting.errors import ConstraintViolation, InputError, enumeration, short
 from disting.experiments.changes import Change, changes_of, in_order
 from disting.model.chain import AS_IT_IS, Chain, Sensor
 from disting.model.kinds import CHANGES, Kind
 from disting.model.presentation import summary
-from disting.model.structure import Element, Known, Ports, Structure
+from disting.model.structure import Element, Known, Ports, Sort, Structure
+from disting.network.network import Network
 
+AnyStructure = Chain | Network
 Place = tuple[int, int]
 """Plus and minus mass of a port; 0 is the ground."""
 
@@ -136,13 +138,13 @@ class Experiment:
         quantity = [self.quantity.value] if self.quantity else []
         return ", ".join([*ports, *quantity, *(c.text for c in self.changes)]) or AS_IT_IS
 
-    def refuse(self, chain: Chain) -> None:
-        """Raise InputError if the chain has no such place, or nothing is left that moves."""
-        n = chain.n_masses
-        wrong = [i for i in self.masses if i > n]
+    def refuse(self, structure: AnyStructure) -> None:
+        """Raise InputError if the structure has no such place, or nothing is left that moves."""
+        masses, what = places_of(structure), "chain" if isinstance(structure, Chain) else "machine"
+        wrong = [i for i in self.masses if i not in masses]
         if wrong:
-            raise InputError(f"there is no mass {wrong[0]} in a chain with masses 1 to {n}")
-        if len(self.still) == n:
+            raise InputError(f"there is no mass {wrong[0]} in a {what} with {range_of(masses)}")
+        if set(masses) <= set(self.still):
             raise InputError("all masses are locked: leave one that moves")
 
 
@@ -268,6 +270,10 @@ class MeasuredChain:
         except ConstraintViolation:
             return None
 
+    def is_plain(self, at: int) -> bool:
+        """Whether one of its experiments (counted from 0) is that of the chain as it is."""
+        return self.alone(at) == self.chain
+
     @property
     def silent(self) -> tuple[int, ...]:
         """Experiments, from 0, in which the sensor never moves: their transfer function is zero."""
@@ -277,6 +283,26 @@ class MeasuredChain:
     def text(self) -> tuple[str, ...]:
         """The experiments in words."""
         return tuple(e.text for e in self.experiments)
+
+
+def places_of(structure: AnyStructure) -> tuple[int, ...]:
+    """Masses of a chain; nodes of a network but the one that its elements are measured against."""
+    if isinstance(structure, Chain):
+        return tuple(range(1, structure.n_masses + 1))
+    ends = {i for e in structure.elements for i in e.nodes}
+    ground = {0} if structure.sort is Sort.CIRCUIT else set()
+    return tuple(sorted((set(structure.nodes) | (ends & ground)) - {structure.reference}))
+
+
+def range_of(masses: tuple[int, ...]) -> str:
+    """Masses in words.
+
+    >>> range_of((1, 2, 3)), range_of((1, 4))
+    ('masses 1 to 3', 'masses 1 and 4')
+    """
+    if masses == tuple(range(1, len(masses) + 1)):
+        return f"masses 1 to {len(masses)}"
+    return f"masses {enumeration(map(str, masses))}"
 
 
 def _place(what: str, place: object) -> Place | None:

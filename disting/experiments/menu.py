@@ -117,11 +117,11 @@ class Costs:
         """Those of them that have a cost."""
         return tuple(kind for kind in kinds if set(kind.prices) <= self.of.keys())
 
-    def kinds(self, n_masses: int) -> tuple[Kind, ...]:
-        """What can be done on chains of this size, in the order of the table: a single mass cannot
-        be held still.
+    def kinds(self, n_places: int, menu: Iterable[Kind] = KINDS) -> tuple[Kind, ...]:
+        """What can be done on structures with so many masses or nodes, in the order of the table: a
+        single one cannot be held still.
         """
-        return tuple(k for k in self.priced(KINDS) if n_masses > 1 or not k.holds)
+        return tuple(k for k in self.priced(menu) if n_places > 1 or not k.holds)
 
 
 def measure_with(chain: Chain, *items: Item) -> MeasuredChain:

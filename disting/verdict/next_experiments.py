@@ -13,18 +13,25 @@ from itertools import combinations
 from typing import Generic, TypeVar
 
 from disting.errors import InputError
+from disting.experiments.experiment import places_of
 from disting.experiments.menu import Costs, Item
 from disting.model.chain import Chain
-from disting.model.kinds import Kind
+from disting.model.kinds import CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS, Kind
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.structure import Sort
+from disting.network.chains import of_chain
 from disting.network.network import Network
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.placement import place
-from disting.verdict.placement_record import Table
+from disting.verdict.placement_record import Placement
 from disting.verdict.placement_verdicts import Answer
 
-S = TypeVar("S", bound=Chain | Network)
+S = TypeVar("S", bound=Chain | Network, covariant=True)
+MENUS = {
+    Sort.MACHINE: KINDS,
+    Sort.CIRCUIT: CIRCUIT_KINDS,
+    Sort.COMPARTMENTS: COMPARTMENT_KINDS,
+}
 PLACES = {Sort.MACHINE: "mass", Sort.CIRCUIT: "node", Sort.COMPARTMENTS: "compartment"}
 
 
@@ -47,7 +54,7 @@ class Menu(NotebookTable, Generic[S]):
 
     names: tuple[str, ...]
     structures: tuple[S, ...]
-    tables: Mapping[Kind, Table]
+    tables: Mapping[Kind, Placement]
     costs: Costs = field(default_factory=Costs)
 
     def __repr__(self) -> str:
@@ -154,32 +161,38 @@ class Menu(NotebookTable, Generic[S]):
         return any((a == b) is same for a in places[0] for b in places[1])
 
 
-def places_of(structure: Chain | Network) -> tuple[int, ...]:
-    """Masses of a chain; nodes of a network but the one that its elements are measured against."""
-    if isinstance(structure, Chain):
-        return tuple(range(1, structure.n_masses + 1))
-    ends = {i for e in structure.elements for i in e.nodes}
-    ground = {0} if structure.sort is Sort.CIRCUIT else set()
-    return tuple(sorted((set(structure.nodes) | (ends & ground)) - {structure.reference}))
-
-
 def menu_for(
-    named: Sequence[tuple[str, Chain]],
+    named: Sequence[tuple[str, S]],
     engine: Engine,
     *,
     costs: Costs | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
-) -> Menu[Chain]:
-    """The menu on structures of one size and sensor that are indistinguishable, over complex
-    parameters, as they are measured now; raises InputError for other sizes or sensors.
+) -> Menu[S]:
+    """The menu on structures that are indistinguishable, over complex parameters, as they are
+    measured now: chains of one size and sensor, or networks of one sort; raises InputError for
+    those that have no menu in common, and for groups that are too large.
     """
-    if len({(chain.n_masses, chain.sensor) for _, chain in named}) != 1:
-        raise InputError("the structures have different numbers of masses or sensor quantities")
-    names, chains = zip(*named, strict=True)
+    names, structures = zip(*named, strict=True)
+    _refuse(structures)
     costs = costs or Costs()
+    most = max(len(places_of(s)) for s in structures)
     tables = {
-        kind: place(chains, kind, engine, executor=executor, progress=progress)
-        for kind in costs.kinds(chains[0].n_masses)
+        kind: place(structures, kind, engine, executor=executor, progress=progress)
+        for kind in costs.kinds(most, MENUS[structures[0].sort])
     }
-    return Menu(names, chains, tables, costs)
+    return Menu(names, structures, tables, costs)
+
+
+def _refuse(structures: Sequence[Chain | Network]) -> None:
+    """Raise InputError for structures without a menu in common."""
+    if all(isinstance(s, Chain) for s in structures):
+        if len({(len(places_of(s)), s.sensor) for s in structures if isinstance(s, Chain)}) > 1:
+            raise InputError("the structures have different numbers of masses or sensor quantities")
+        return
+    networks = [of_chain(s) if isinstance(s, Chain) else s for s in structures]
+    if len({(n.sort, n.shape, n.order) for n in networks}) > 1:
+        raise InputError(
+            "what to measure next is told of networks of one sort with the same numbers of inputs"
+            " and outputs and one sensor quantity: ask for those apart"
+        )

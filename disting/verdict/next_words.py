@@ -32,7 +32,7 @@ WHY = {
     REPEATS: "it shows in both what is known already",
 }
 UNSEEN = "nothing is seen"  # where nothing moves
-AnyMenu = Menu[Chain] | Menu[Network]
+AnyMenu = Menu[Chain | Network]
 NOTHING = {
     Gain.REPEATS: "tells nothing new",
     Gain.SILENT: "the sensor does not move",

@@ -1,8 +1,12 @@
 """One kind of further experiment on a group of structures that one measurement cannot tell apart:
-every mass of every structure against every mass of every other one.
+every place of every structure against every place of every other one.
 
-A spot is a mass of a structure at which the experiment is made. As in `class_search`, no pair is
-looked at where a bucket decides:
+A spot is a place of a structure at which the experiment is made. Chains and networks differ in how
+their spots are decided only.
+
+Spots of networks are matrices of transfer functions, which are all compared in pairs.
+
+Of chains, as in `class_search`, no pair is looked at where a bucket decides:
 
 0. A spot is looked at as the standard form of its machine (`equal_machines`): a force moved is a
    sensor moved in the machine with force and sensor exchanged, so both kinds share their work,
@@ -32,30 +36,77 @@ from disting.conditions.finding import Outcome
 from disting.conditions.rule import FREE_CHOICE, RENAMING
 from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
+from disting.errors import InputError
 from disting.experiments.equal_machines import standard
 from disting.experiments.exact import QUICKLY
-from disting.experiments.experiment import MeasuredChain
+from disting.experiments.experiment import MeasuredChain, places_of
 from disting.experiments.machine_side import ComparedMachine
+from disting.experiments.measured_network import further_model
 from disting.experiments.menu import Gain, Item, gain, measure_with
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
+from disting.network.chains import of_chain
+from disting.network.network import Network
 from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.placement_record import REPEATS, TESTS, Placement
+from disting.verdict.placement_record import REPEATS, TESTS, Placement, Spot, SpotClasses, SpotPairs
+from disting.verdict.query import Query, View
+
+MOST_SPOTS = 400  # of networks
+QUERY = Query(View.EXACT, inclusion=False)
 
 
 def place(
-    chains: Sequence[Chain],
+    structures: Sequence[Chain | Network],
     kind: Kind,
     engine: Engine,
     *,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Placement:
-    """What this kind of experiment leaves together of chains of one size that are
-    indistinguishable, over complex parameters, as they are measured now.
+    """What this kind of experiment leaves together of structures that are indistinguishable, over
+    complex parameters, as they are measured now: chains of one size, or networks of one sort; of
+    both at once chains are taken as networks. Raises InputError for too many networks, and for
+    transfer functions that grow too large.
     """
+    chains = [s for s in structures if isinstance(s, Chain)]
+    if len(chains) == len(structures):
+        return _place_chains(chains, kind, engine, executor, progress)
+    networks = [of_chain(s) if isinstance(s, Chain) else s for s in structures]
+    return _place_networks(networks, kind, engine, executor, progress)
+
+
+def _place_networks(
+    networks: Sequence[Network],
+    kind: Kind,
+    engine: Engine,
+    executor: Executor | None,
+    progress: Progress,
+) -> Placement:
+    places = tuple(map(places_of, networks))
+    spots = [(k, i) for k, nodes in enumerate(places) for i in nodes]
+    if len(spots) > MOST_SPOTS:
+        raise InputError(
+            f"these networks have {len(spots)} nodes together; {MOST_SPOTS} at most are looked at:"
+            " name some of them only"
+        )
+    models, gains = zip(
+        *(further_model(networks[k], kind, i, f"{networks[k].name} at {i}") for k, i in spots),
+        strict=True,
+    )
+    sides = engine.general_subjects(models)
+    decided = engine.decisions(sides, QUERY, executor=executor, progress=progress)
+    return Placement(kind, places, gains, SpotPairs(decided, tuple(range(len(spots)))))
+
+
+def _place_chains(
+    chains: Sequence[Chain],
+    kind: Kind,
+    engine: Engine,
+    executor: Executor | None,
+    progress: Progress,
+) -> Placement:
     work = _Work.of(chains, kind, engine)
     new = [s for s, g in enumerate(work.gains) if g is Gain.NEW]
     engine.prefetch({work.sides[s].profiled for s in new}, Representation.TF, 0, executor, progress)
@@ -64,16 +115,16 @@ def place(
     work.safeties += [p.safety for p in profiles.values()]
     work.join_known(profiles)
     work.decide(profiles, executor, progress)
-    return work.finished()
+    places = tuple(map(places_of, chains))
+    return Placement(kind, places, tuple(work.gains), work.finished())
 
 
 @dataclass
 class _Work:
     """All spots in buckets and classes, and what else is known of them so far."""
 
-    kind: Kind
     engine: Engine
-    n_masses: int
+    spots: list[Spot]
     sides: list[ComparedMachine]
     gains: list[Gain]
     buckets: Buckets
@@ -85,23 +136,21 @@ class _Work:
     @staticmethod
     def of(chains: Sequence[Chain], kind: Kind, engine: Engine) -> "_Work":
         """Only what is gained is known."""
-        n = chains[0].n_masses
+        spots = [(k, i) for k, chain in enumerate(chains) for i in places_of(chain)]
         sides, gains, firsts = [], [], []
         by_form: dict[MeasuredChain, ComparedMachine] = {}
-        for number, chain in enumerate(chains):
-            for i in range(1, n + 1):
-                item = Item(kind, i)
-                name = f"structure {number}, mass {i}"
-                form = standard(measure_with(chain, item))
-                sides.append(by_form.setdefault(form, engine.measured_subject(name, form)))
-                gained = gain(chain, item)
-                gains.append(gained or Gain.NEW)
-                firsts.append(NOT_KNOWN if gained is None else list(Gain).index(gained))
+        for k, i in spots:
+            form = standard(measure_with(chains[k], Item(kind, i)))
+            name = f"structure {k}, mass {i}"
+            sides.append(by_form.setdefault(form, engine.measured_subject(name, form)))
+            gained = gain(chains[k], Item(kind, i))
+            gains.append(gained or Gain.NEW)
+            firsts.append(NOT_KNOWN if gained is None else list(Gain).index(gained))
         size = len(sides)
         buckets = Buckets.of(sides, len(TESTS))
         for row, first in zip(buckets.columns, firsts, strict=True):
             row[0] = first
-        work = _Work(kind, engine, n, sides, gains, buckets, [""] * size)
+        work = _Work(engine, spots, sides, gains, buckets, [""] * size)
         for same in (Gain.REPEATS, Gain.SILENT):
             alike = [s for s in range(size) if gains[s] is same]
             for s in alike[1:]:
@@ -114,7 +163,7 @@ class _Work:
         """Roots by buckets, where those hold more than one structure."""
         asked = []
         for bucket in self.buckets.shared(chosen):
-            if len({s // self.n_masses for s in bucket}) > 1:
+            if len({self.spots[s][0] for s in bucket}) > 1:
                 roots = list(dict.fromkeys(map(self.buckets.classes.root, bucket)))
                 asked += [roots] if len(roots) > 1 else []
         return asked
@@ -155,7 +204,7 @@ class _Work:
             rest = [
                 [s for s in bucket[1:] if self.buckets.classes.root(s) == s] for bucket in rounds
             ]
-            rounds = [b for b in rest if len({s // self.n_masses for s in self._members(b)}) > 1]
+            rounds = [b for b in rest if len({self.spots[s][0] for s in self._members(b)}) > 1]
 
     def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
         """Both machines, in an order that does not depend on that of the structures."""
@@ -172,7 +221,7 @@ class _Work:
         if rule:
             self.links[first] = self.links[s] = f"{rule}/{first}"
 
-    def finished(self) -> Placement:
+    def finished(self) -> SpotClasses:
         """What was found; classes are numbered as they come."""
         root = self.buckets.classes.root
         roots = [root(s) for s in range(len(self.sides))]
@@ -182,10 +231,7 @@ class _Work:
             for pairs in (self.open, self.apart)
         )
         lost = ceil(log2(len(self.safeties))) if self.safeties else 0
-        return Placement(
-            self.kind,
-            self.n_masses,
-            tuple(self.gains),
+        return SpotClasses(
             tuple(map(tuple, self.buckets.columns)),
             tuple(number[r] for r in roots),
             tuple(self.links),

@@ -14,41 +14,29 @@ from disting.experiments.menu import Gain
 from disting.model.kinds import Kind
 from disting.model.presentation import plural, summary
 from disting.verdict.buckets import NOT_KNOWN
+from disting.verdict.decisions import Decisions
 from disting.verdict.placement_verdicts import Answer
 from disting.verdict.result import Relation
 
 Spot = tuple[int, int]
-"""(structure, counted from 0; mass)."""
+"""(structure, counted from 0; mass or node)."""
 REPEATS = "repeats"  # beside the rules: the experiment shows what the first one showed
 TESTS = (REPEATS, *(c.rule.name for c in NECESSARY))
 CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothing left to chance
 
 
-class Table(Protocol):
-    """What one kind of experiment leaves together, spot against spot."""
+class Decided(Protocol):
+    """What is decided of spots, by their numbers."""
 
-    def only(self, structures: Sequence[int]) -> "Table":
-        """Some of the structures, counted from 0, in this order."""
+    def only(self, spots: Sequence[int]) -> "Decided":
+        """Some of the spots, in this order."""
 
-    def gain(self, spot: Spot) -> Gain:
-        """What is gained there."""
-
-    def look_up(self, left: Spot, right: Spot) -> tuple[Relation, str]:
+    def look_up(self, a: int, b: int) -> tuple[Relation, str]:
         """Relation and deciding rule of two spots, "" if undecided."""
 
-    def grade(self, left: Spot, right: Spot) -> Grade | tuple[str, int]:
+    def grade(self, a: int, b: int) -> Grade | tuple[str, int]:
         """How sure that is: the certainty, and e where what is said is wrong with a probability of
         2**-e at most; "" and 0 of what is undecided.
-        """
-
-    def alike(self, spot: Spot, other: int) -> tuple[int, ...]:
-        """Places in another structure at which it is not told from this one at this spot; what is
-        undecided included.
-        """
-
-    def answer(self, spot: Spot, other: int) -> Answer:
-        """Whether the experiment at a spot tells its structure from another one, wherever the
-        place is in that.
         """
 
 
@@ -64,85 +52,134 @@ def answer_of(relations: Set[Relation]) -> Answer:
 
 
 @dataclass(frozen=True)
-class Placement:
-    """What one kind of experiment leaves together.
+class SpotClasses:
+    """Spots by what is known of each, and in classes by what is known of pairs.
 
-    `gains[s]`: what is gained at spot s, in the order of `spots`; `columns[s][t]`: its bucket in
-    test TESTS[t], -1 where it is not known; `classes[s]`; `links[s]`: spots of equal links, such as
-    "6/3", are the same by that rule, others of a class by the exact decision; `open`: pairs of
-    classes that nothing decides; all that is said is wrong with a probability of at most
-    2**-safety, 0: nothing is left to chance.
+    `columns[s][t]`: bucket of spot s in test TESTS[t], -1 where it is not known; `classes[s]`;
+    `links[s]`: spots of equal links, such as "6/3", are the same by that rule, others of a class by
+    the exact decision; `open`: pairs of classes that nothing decides; all that is said is wrong
+    with a probability of at most 2**-safety, 0: nothing is left to chance.
     """
 
-    kind: Kind
-    n_masses: int
-    gains: tuple[Gain, ...]
     columns: tuple[tuple[int, ...], ...]
     classes: tuple[int, ...]
     links: tuple[str, ...]
     open: frozenset[tuple[int, int]]
     safety: int
 
-    def __repr__(self) -> str:
-        return summary(self, f"{self.kind.name}, {plural(len(self.gains), 'place')}")
-
-    @cached_property
-    def _alike(self) -> dict[tuple[Spot, int], tuple[int, ...]]:
-        """What was asked for: pairs of experiments ask for each of them again and again."""
-        return {}
-
-    @property
-    def structures(self) -> int:
-        """How many structures there are."""
-        return len(self.gains) // self.n_masses
-
-    def only(self, structures: Sequence[int]) -> "Placement":
-        """Some of the structures, counted from 0, in this order."""
-        at = [self._at((k, i)) for k in structures for i in range(1, self.n_masses + 1)]
+    def only(self, spots: Sequence[int]) -> "SpotClasses":
+        """Some of the spots, in this order."""
         return replace(
             self,
-            gains=tuple(self.gains[s] for s in at),
-            columns=tuple(self.columns[s] for s in at),
-            classes=tuple(self.classes[s] for s in at),
-            links=tuple(self.links[s] for s in at),
+            columns=tuple(self.columns[s] for s in spots),
+            classes=tuple(self.classes[s] for s in spots),
+            links=tuple(self.links[s] for s in spots),
         )
 
-    def gain(self, spot: Spot) -> Gain:
-        """What is gained there."""
-        return self.gains[self._at(spot)]
-
-    def look_up(self, left: Spot, right: Spot) -> tuple[Relation, str]:
+    def look_up(self, a: int, b: int) -> tuple[Relation, str]:
         """Relation and deciding rule of two spots, "" if undecided."""
-        a, b = self._at(left), self._at(right)
         for name, *buckets in zip(TESTS, self.columns[a], self.columns[b], strict=True):
             if NOT_KNOWN not in buckets and buckets[0] != buckets[1]:
                 return Relation.DISTINGUISHABLE, name
         low, high = sorted((self.classes[a], self.classes[b]))
         if low == high:
             same = self.links[a] == self.links[b] != ""
-            return Relation.INDISTINGUISHABLE, self._rule(a) if same else EXACT.name
+            rule = self.links[a].partition("/")[0] if same else EXACT.name
+            return Relation.INDISTINGUISHABLE, rule
         if (low, high) in self.open:
             return Relation.UNDECIDED, ""
         return Relation.DISTINGUISHABLE, EXACT.name
 
-    def grade(self, left: Spot, right: Spot) -> Grade | tuple[str, int]:
-        """Certainty and safety of the table, "" of what is undecided."""
-        rule = self.look_up(left, right)[1]
+    def grade(self, a: int, b: int) -> Grade | tuple[str, int]:
+        """Certainty and safety of all together, "" of what is undecided."""
+        rule = self.look_up(a, b)[1]
         if not rule:
             return "", self.safety
         sure = rule in CERTAIN or not self.safety
         return Certainty.PROVEN if sure else Certainty.BOUNDED, self.safety
 
+
+@dataclass(frozen=True)
+class SpotPairs:
+    """Spots of which every pair is decided: spot s is subject `at[s]` of `decided`."""
+
+    decided: Decisions
+    at: tuple[int, ...]
+
+    def only(self, spots: Sequence[int]) -> "SpotPairs":
+        """Some of the spots, in this order."""
+        return replace(self, at=tuple(self.at[s] for s in spots))
+
+    def look_up(self, a: int, b: int) -> tuple[Relation, str]:
+        """Relation and deciding rule of two spots, "" if undecided."""
+        i, j = self.at[a], self.at[b]
+        return self.decided.relation(i, j), self.decided.rule(i, j)
+
+    def grade(self, a: int, b: int) -> tuple[str, int]:
+        """Certainty and safety of the verdict."""
+        i, j = sorted((self.at[a], self.at[b]))
+        return self._grades[i, j]
+
+    @cached_property
+    def _grades(self) -> dict[tuple[int, int], tuple[str, int]]:
+        return {(i, j): (grade, bits) for i, j, _, _, grade, bits in self.decided.grades()}
+
+
+@dataclass(frozen=True)
+class Placement:
+    """What one kind of experiment leaves together, spot against spot.
+
+    `places[k]`: masses or nodes of structure k; `gains[s]`: what is gained at spot s, structure by
+    structure and place by place; `decided` of them.
+    """
+
+    kind: Kind
+    places: tuple[tuple[int, ...], ...]
+    gains: tuple[Gain, ...]
+    decided: Decided
+
+    def __repr__(self) -> str:
+        return summary(self, f"{self.kind.name}, {plural(len(self.gains), 'place')}")
+
+    @cached_property
+    def _at(self) -> dict[Spot, int]:
+        spots = ((k, i) for k, places in enumerate(self.places) for i in places)
+        return {spot: s for s, spot in enumerate(spots)}
+
+    @cached_property
+    def _alike(self) -> dict[tuple[Spot, int], tuple[int, ...]]:
+        """What was asked for: pairs of experiments ask for each of them again and again."""
+        return {}
+
+    def only(self, structures: Sequence[int]) -> "Placement":
+        """Some of the structures, counted from 0, in this order."""
+        at = [self._at[k, i] for k in structures for i in self.places[k]]
+        places = tuple(self.places[k] for k in structures)
+        gains = tuple(self.gains[s] for s in at)
+        return replace(self, places=places, gains=gains, decided=self.decided.only(at))
+
+    def gain(self, spot: Spot) -> Gain:
+        """What is gained there."""
+        return self.gains[self._at[spot]]
+
+    def look_up(self, left: Spot, right: Spot) -> tuple[Relation, str]:
+        """Relation and deciding rule of two spots, "" if undecided."""
+        return self.decided.look_up(self._at[left], self._at[right])
+
+    def grade(self, left: Spot, right: Spot) -> Grade | tuple[str, int]:
+        """Certainty of that, and e where it is wrong with a probability of 2**-e at most; "" of
+        what is undecided.
+        """
+        return self.decided.grade(self._at[left], self._at[right])
+
     def alike(self, spot: Spot, other: int) -> tuple[int, ...]:
-        """Masses of another structure at which it is not told from this one at this spot; what is
+        """Places in another structure at which it is not told from this one at this spot; what is
         undecided included.
         """
         if (spot, other) not in self._alike:
-            masses = range(1, self.n_masses + 1)
-            relations = (self.look_up(spot, (other, j))[0] for j in masses)
             apart = Relation.DISTINGUISHABLE
             self._alike[spot, other] = tuple(
-                j for j, r in enumerate(relations, 1) if r is not apart
+                j for j in self.places[other] if self.look_up(spot, (other, j))[0] is not apart
             )
         return self._alike[spot, other]
 
@@ -150,11 +187,4 @@ class Placement:
         """Whether the experiment at a spot tells its structure from another one, wherever the
         place is in that.
         """
-        relations = {self.look_up(spot, (other, j))[0] for j in range(1, self.n_masses + 1)}
-        return answer_of(relations)
-
-    def _rule(self, at: int) -> str:
-        return self.links[at].partition("/")[0]
-
-    def _at(self, spot: Spot) -> int:
-        return spot[0] * self.n_masses + spot[1] - 1
+        return answer_of({self.look_up(spot, (other, j))[0] for j in self.places[other]})

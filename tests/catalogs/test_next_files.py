@@ -57,7 +57,7 @@ def test_every_group_with_dampers_to_the_ground_is_there(damped):
     for group in found.groups:
         whole = found.further(group)
         assert whole.structures == tuple(stored.found.chains[i] for i in group)
-        assert not any(table.open for table in whole.tables.values())
+        assert not any(table.decided.open for table in whole.tables.values())
 
 
 @pytest.mark.slow

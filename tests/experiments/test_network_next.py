@@ -13,13 +13,14 @@ from disting import Family, View
 from disting.catalogs import catalog
 from disting.cli.run import main
 from disting.errors import InputError
+from disting.experiments.experiment import places_of
+from disting.experiments.measured_network import further_model
 from disting.experiments.menu import Costs, Gain
 from disting.model.kinds import ALL_KINDS, CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS
 from disting.network import network_of
 from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
-from disting.verdict.network_placement import further_networks, measure
-from disting.verdict.next_experiments import menu_for, places_of
+from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import rows
 from disting.verdict.result import Relation
 
@@ -46,7 +47,7 @@ def test_chains_are_told_what_they_are_told_as_chains(n, damped, numbers, engine
     names = [f"{n}:{m}" for m in numbers]
     networks = [of_chain(chain, name) for name, chain in zip(names, group, strict=True)]
     chains = menu_for(list(zip(names, group, strict=True)), engine, costs=EVERY)
-    found = further_networks(list(zip(names, networks, strict=True)), engine, costs=EVERY)
+    found = menu_for(list(zip(names, networks, strict=True)), engine, costs=EVERY)
     assert set(found.tables) == set(chains.tables)
     compared = 0
     for kind, table in found.tables.items():
@@ -86,7 +87,7 @@ def test_what_is_measured_against_a_matrix_that_is_written_out(text, data):
     node = data.draw(st.sampled_from(places_of(network)))
     at = {p: sympy.Rational(data.draw(st.integers(1, 9)), 7) for p in network.parameters}
     root = sympy.Rational(data.draw(st.integers(2, 9)), 5)  # s^(1/2)
-    shown = [x for row in measure(network, kind, node, "n").model.rows for x in row]
+    shown = [x for row in further_model(network, kind, node, "n")[0].rows for x in row]
     values = [None if x is None else value(x, at, root) for x in shown]
     outputs, inputs = network.shape
     now = [x for row in by_hand(network, at, root) for x in row]
@@ -166,12 +167,12 @@ def column_of(place, entries):
 def test_the_same_whatever_the_order_and_some_of_them_only(engine):
     texts = [*RANDLES, "R0-p(R1-p(R2,C2),C1)"]
     group = [(t, network_of(t)) for t in texts]
-    whole = further_networks(group, engine)
-    turned = further_networks(group[::-1], engine)
+    whole = menu_for(group, engine)
+    turned = menu_for(group[::-1], engine)
     for k, other in ((0, 2), (2, 0)):
         assert [o.items for o in whole.least(k)] == [o.items for o in turned.least(other)]
     some = whole.only([2, 0])
-    alone = further_networks([group[2], group[0]], engine)
+    alone = menu_for([group[2], group[0]], engine)
     assert list(rows(some)) == list(rows(alone))
 
 
@@ -216,7 +217,7 @@ def test_what_is_no_group(texts, sentence, capsys):
 def test_networks_without_a_menu_in_common(engine):
     pair = [(t, network_of(t)) for t in ("1~2; F1; S1", "p(R1,C1)")]
     with pytest.raises(InputError, match="one sort"):
-        further_networks(pair, engine)
+        menu_for(pair, engine)
 
 
 def test_every_kind_has_its_words():

@@ -51,7 +51,7 @@ def test_the_truth_as_told_by_next(pair, engine):
             if found.tables[kind].look_up((0, i), (1, j))[0] is Relation.INDISTINGUISHABLE
         }
         assert left == set(same.split())
-        assert not found.tables[kind].open
+        assert not found.tables[kind].decided.open
 
 
 def test_any_second_sensor_settles_the_dual_pair(engine):
