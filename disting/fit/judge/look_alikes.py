@@ -24,11 +24,15 @@ of the chain, and the step repeats. Behind the last mass A is loose and has no e
 step needs a > b' for each fitted mass b', and the new base has the mass a - b'. QED. A lag and a
 dead time are common factors of both.
 
+Friction at mass 1, where force and sensor are, is a term of force per velocity by itself. So a
+chain with it has the look-alikes on a base of the chain without it, each with the same friction
+between base and mass 1, as that of a motor's bearings.
+
 In every case the fitted mass 1 is m1 mb / (m1 + mb), the limit at high frequencies, and a mode of
 an elastic base is a term 1 / (mb s^2 + db s + kb) of the response beside those of the drive.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -37,7 +41,7 @@ from itertools import combinations, permutations, product
 
 import numpy as np
 
-from disting.fit.judge.alternatives import alternatives
+from disting.fit.judge.alternatives import Alternative, alternatives
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.network.chains import of_chain
@@ -47,6 +51,7 @@ from disting.verdict.engine import Engine
 from disting.verdict.result import Relation
 
 MOST_MASSES = 4
+RUBBING = ", with friction b1 between base and motor"
 HEAVY = 4.0  # mass of the free base of the example, in masses of the whole fitted chain
 
 Edge = tuple[int, int]
@@ -65,12 +70,14 @@ class LookAlikeKind(StrEnum):
 @dataclass(frozen=True, slots=True)
 class LookAlike:
     """A structure outside the candidates with the same responses, as text, and one set of its
-    values with the fitted response; None where none is computed.
+    values with the fitted response; None where none is computed. `apart`: the largest share by
+    which the response differs at a line, 0 where it is proven to be the same.
     """
 
     kind: LookAlikeKind
     text: str
     values: Mapping[str, float] | None
+    apart: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,13 +85,15 @@ class LookAlikes:
     """Look-alikes of a chain. `not_looked_for`: the reason why none were looked for, else "".
     `base_differs`: a drive on an elastic base, with as many masses if the base is counted, has
     other responses (proven), so that data can decide between them. `lossless`: branches that are
-    the same if all dampers are removed and not known to be the same with them.
+    the same if all dampers are removed and not known to be the same with them. `near`: other
+    responses, but within the scatter of the lines (`near_bases`).
     """
 
     found: tuple[LookAlike, ...] = ()
     not_looked_for: str = ""
     base_differs: bool = False
     lossless: tuple[str, ...] = ()
+    near: tuple[LookAlike, ...] = ()
 
 
 def look_alikes(chain: Chain, values: Mapping[str, float]) -> LookAlikes:
@@ -107,7 +116,7 @@ def look_alikes(chain: Chain, values: Mapping[str, float]) -> LookAlikes:
 def _look_alikes(chain: Chain, values: tuple[tuple[str, float], ...]) -> LookAlikes:
     at = dict(values)
     elastic, differs = _elastic_base(chain, at)
-    found = (*elastic, *_free_base(chain, at), *_branches(chain, at))
+    found = (*elastic, *_with_friction(_free_base, chain, at), *_branches(chain, at))
     return LookAlikes(found, base_differs=differs, lossless=_lossless(chain, found))
 
 
@@ -243,44 +252,83 @@ def _synthesized(
 # bases
 
 
+def _with_friction(
+    bases: Callable[[Chain, Mapping[str, float]], Iterable[LookAlike]],
+    chain: Chain,
+    values: Mapping[str, float],
+) -> tuple[LookAlike, ...]:
+    """Bases of a chain; those of one with friction at force and sensor are bases of the chain
+    without it.
+    """
+    if chain.ground_dampers[:1] != (1,) or chain.meas_plus != 1:
+        return tuple(bases(chain, values))
+    rest = replace(chain, ground_dampers=chain.ground_dampers[1:])
+    return tuple(
+        replace(x, text=x.text + RUBBING, values=x.values and {**x.values, "b1": values["b1"]})
+        for x in bases(rest, values)
+    )
+
+
 def _elastic_base(chain: Chain, values: Mapping[str, float]) -> tuple[tuple[LookAlike, ...], bool]:
     """The drive with one mass less on an elastic base, if the engine proves it the same, and the
     proof that it differs.
     """
-    n = chain.n_masses
-    if n == 1:
+    if chain.n_masses == 1:
         return (), False
     if chain.meas_plus != 1:  # the motion of the base is seen: 1/(mb s^2) at high frequencies
         return (), True
+    differing = list[bool]()
+
+    def bases(of: Chain, at: Mapping[str, float]) -> Iterator[LookAlike]:
+        others = _bases(of)
+        differing.append(not others)
+        same = [a for a in others if a.relation is Relation.INDISTINGUISHABLE]
+        yield from (x for a in same for x in _named_base(of, a.chain, at))
+
+    found = _with_friction(bases, chain, values)
+    if not found and 1 in chain.ground_dampers:  # friction at the base's mass, to the ground
+        found = tuple(bases(chain, values))
+    return found, all(differing)
+
+
+def _bases(chain: Chain) -> list[Alternative]:
+    """Drives with one mass less on an elastic base and as many dampers to the ground, those apart
+    that are proven to differ.
+    """
+    n = chain.n_masses
     dampers = combinations(range(1, n + 1), len(chain.ground_dampers))
     bases = [Chain(n, 1, 1, 2, 1, 2, chain.sensor, chain.damped, chosen) for chosen in dampers]
-    others = alternatives(chain, bases, Engine(), {})
-    same = [a for a in others if a.relation is Relation.INDISTINGUISHABLE]
-    found = tuple(x for a in same for x in _named_base(chain, a.chain, values))
-    return found, not others
+    return list(alternatives(chain, bases, Engine(), {}))
 
 
 def _named_base(chain: Chain, base: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
     """The drive on a base, once for each resonance that may be that of the base."""
-    kind, text = LookAlikeKind.ELASTIC_BASE, _base_text(chain.n_masses - 1, base)
+    kind, text = LookAlikeKind.ELASTIC_BASE, base_text(chain.n_masses - 1)
+    grounded = [f"mass {i - 1}" if i > 1 else "the base" for i in base.ground_dampers]
+    if grounded:
+        text += f" with dampers to the ground at {' and '.join(grounded)}"
     if chain.ground_dampers:
         yield LookAlike(kind, text, None)
         return
-    for hertz, there in _values_on_elastic_base(chain, values):
+    for hertz, there in values_on_elastic_base(chain.n_masses, values):
         yield LookAlike(kind, f"{text} with its resonance at {hertz:.4g} Hz", there)
 
 
-def _base_text(masses: int, base: Chain) -> str:
-    grounded = [f"mass {i - 1}" if i > 1 else "the base" for i in base.ground_dampers]
-    text = f"{masses} mass{'es' if masses > 1 else ''} on an elastic base"
-    return text + f" with dampers to the ground at {' and '.join(grounded)}" * bool(grounded)
+def base_text(masses: int) -> str:
+    """A drive on an elastic base in words.
+
+    >>> base_text(2)
+    '2 masses on an elastic base'
+    """
+    return f"{masses} mass{'es' if masses > 1 else ''} on an elastic base"
 
 
-def _values_on_elastic_base(
-    chain: Chain, values: Mapping[str, float]
+def values_on_elastic_base(
+    n: int, values: Mapping[str, float]
 ) -> Iterator[tuple[float, Mapping[str, float]]]:
-    """For each mode the undamped frequency in Hz and the values if it is that of the base."""
-    n = chain.n_masses
+    """For each mode of a chain of n masses the undamped frequency in Hz and the values if it is
+    that of the base; with dampers where the values hold them and there are two masses.
+    """
     m = np.array([values[f"m{i}"] for i in range(1, n + 1)])
     k = np.array([values[f"k{i}{i + 1}"] for i in range(1, n)])
     stiffness = np.diag(np.append(k, 0) + np.append(0, k)) - np.diag(k, 1) - np.diag(k, -1)
@@ -288,7 +336,7 @@ def _values_on_elastic_base(
     squares[0], shares = 0.0, shapes[0] ** 2 / m[0]  # G = sum of share / (s^2 + square)
     for at in range(1, n):
         base = {"mb": float(1 / shares[at]), "kb": float(squares[at] / shares[at])}
-        if chain.damped:  # two masses: one mode, damped as the joint is
+        if n == 2 and "d12" in values:  # one mode, damped as the joint is
             base["db"] = base["kb"] * values["d12"] / values["k12"]
         drive = _free_chain(np.delete(squares, at), np.delete(shares, at))
         yield float(np.sqrt(squares[at]) / (2 * np.pi)), drive | base
