@@ -4,6 +4,7 @@ stiffness matrices, equal those of the fitted chain.
 
 import subprocess
 import sys
+from dataclasses import replace
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -13,6 +14,7 @@ from disting.cli.fit_text import fit_text
 from disting.errors import InputError
 from disting.fit.judge.alternatives import alternatives, representatives
 from disting.fit.judge.look_alikes import LookAlikeKind, base_is_the_same, look_alikes
+from disting.fit.judge.near_base import near_bases
 from disting.fit.search.candidates import on_elastic_bases
 from disting.fit.select import select
 from disting.general.any_model import as_model
@@ -45,7 +47,7 @@ def response(values, joints, force, sensor, base=None):
             i = base if name == "mb" else int(name[1:])
             matrix[:, i, i] += value * s**2
             continue
-        if name[1:] == "b":
+        if name in ("kb", "db"):
             i, j = base, 0
         else:
             i, j = joints[name[1:]] if name[1:] in joints else (int(name[1:]), 0)
@@ -74,8 +76,9 @@ def look_alike_response(look_alike):
         joints = {i + j: (int(i), int(j)) for i, j in pairs}
         return response(look_alike.values, joints, (1, 0), (int(sensor[1:]), 0))
     n = sum(name[0] == "m" and name != "mb" for name in look_alike.values)
-    joints = {f"{i}{j}": (i, j) for i, j in pairwise(range(1, n + 1))}
-    return response(look_alike.values, joints, (1, n + 1), (1, n + 1), base=n + 1)
+    joints = {f"{i}{j}": (i, j) for i, j in pairwise(range(1, n + 1))} | {"1b": (1, n + 1)}
+    values = {"d1b" if name == "b1" else name: x for name, x in look_alike.values.items()}
+    return response(values, joints, (1, n + 1), (1, n + 1), base=n + 1)
 
 
 @pytest.mark.parametrize("damped", [False, True])
@@ -251,3 +254,54 @@ def test_base_refuses_what_it_is_not_for():
     assert "--base needs one response" in done.stderr
     with pytest.raises(InputError, match="--base"):
         on_elastic_bases([Chain(3, 1, 1, 2, 1, 2)])
+
+
+@pytest.mark.parametrize("masses", [1, 2, 3])
+def test_friction_at_the_motor_is_between_motor_and_base(masses):
+    """A term of force per velocity where force and sensor are: the bases of the chain without it
+    have it too.
+    """
+    chain = Chain(masses, damped=masses > 1, ground_dampers=(1,))
+    without = look_alikes(replace(chain, ground_dampers=()), VALUES)
+    found = [x for x in look_alikes(chain, VALUES).found if x.kind is not LookAlikeKind.BRANCH]
+    assert [x.kind for x in found] == [x.kind for x in without.found]
+    assert all("friction b1 between base and motor" in x.text for x in found)
+
+
+@pytest.mark.parametrize("grounded", [(), (1,), (3,)])
+def test_base_within_the_scatter_is_found_and_no_other(grounded):
+    chain = Chain(3, ground_dampers=grounded, lag=True)
+    values = VALUES | {"d12": 0.01, "b3": 0.002, "T1": 1e-4}
+    none, found = (
+        near_bases(chain, values, OMEGA, np.full(len(OMEGA), rho)) for rho in (1e-5, 0.05)
+    )
+    assert not none
+    assert {x.kind for x in found} == {LookAlikeKind.ELASTIC_BASE}
+    plain = {name: values[name] for name in replace(chain, lag=False).parameters}
+    mine = response(plain, {"12": (1, 2), "23": (2, 3)}, (1, 0), (1, 0))
+    for x in found:
+        assert 0 < x.apart < 0.1
+        error = np.abs(look_alike_response(x) / mine - 1).max()
+        assert error == pytest.approx(x.apart, rel=0.02)
+
+
+def test_structure_line_tells_of_another_base_with_other_values(tmp_path):
+    s = S[::3]
+    drive = 1 / (1 / two_masses(1e-3, 2e-3, 300, 0.01)[::3] + 0.01 * s)
+    candidates = [Chain(2), Chain(2, ground_dampers=(1,))]
+    text, plain = fitted(tmp_path, drive, candidates, s)
+    structure = next(line for line in text.splitlines() if line.startswith("structure: "))
+    clause = "would give the same response, with other values (see look-alikes)"
+    assert f"an elastic base or a base that moves freely {clause}" in structure
+    assert any(clause in line for line in plain["answer"])
+    assert "look-alike: 1 mass on an elastic base" in text
+
+
+def test_structure_line_tells_of_a_base_within_the_scatter(tmp_path):
+    drive = two_masses(1e-3, 2e-3, 300, 0.01) + 1 / (5e-3 * S**2 + 0.12 * S + 3500)
+    text, plain = fitted(tmp_path, drive[::3], [Chain(3)], S[::3])
+    clause = "an elastic base within the scatter, with other values"
+    assert clause in next(line for line in text.splitlines() if line.startswith("structure: "))
+    near = plain["look_alikes"]["near"]
+    assert any(x["values"]["mb"] == pytest.approx(5e-3, rel=0.2) for x in near)
+    assert "within the scatter of this data (they differ by up to" in near[0]["sentence"]

@@ -27,11 +27,15 @@ of the chain, and the step repeats. Behind the last mass A is loose and has no e
 step needs a > b' for each fitted mass b', and the new base has the mass a - b'. QED. A lag and a
 dead time are common factors of both.
 
+Friction at mass 1, where force and sensor are, is a term of force per velocity by itself. So a
+chain with it has the look-alikes on a base of the chain without it, each with the same friction
+between base and mass 1, as that of a motor's bearings.
+
 In every case the fitted mass 1 is m1 mb / (m1 + mb), the limit at high frequencies, and a mode of
 an elastic base is a term 1 / (mb s^2 + db s + kb) of the response beside those of the drive.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -47,6 +51,7 @@ from disting.network.element import Element, Port
 from disting.network.network import Network
 
 MOST_MASSES = 4
+RUBBING = ", with friction b1 between base and motor"
 HEAVY = 4.0  # mass of the free base of the example, in masses of the whole fitted chain
 
 Edge = tuple[int, int]
@@ -65,12 +70,14 @@ class LookAlikeKind(StrEnum):
 @dataclass(frozen=True, slots=True)
 class LookAlike:
     """A structure outside the candidates with the same responses, as text, and one set of its
-    values with the fitted response; None where none is computed.
+    values with the fitted response; None where none is computed. `apart`: the largest share by
+    which the response differs at a line, 0 where it is proven to be the same.
     """
 
     kind: LookAlikeKind
     text: str
     values: Mapping[str, float] | None
+    apart: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,13 +85,15 @@ class LookAlikes:
     """Look-alikes of a chain. `not_looked_for`: the reason why none were looked for, else "".
     `base_differs`: a drive on an elastic base, with as many masses if the base is counted, has
     other responses (proven), so that data can decide between them. `lossless`: branches that are
-    the same if all dampers are removed and not known to be the same with them.
+    the same if all dampers are removed and not known to be the same with them. `near`: other
+    responses, but within the scatter of the lines (`near_bases`).
     """
 
     found: tuple[LookAlike, ...] = ()
     not_looked_for: str = ""
     base_differs: bool = False
     lossless: tuple[str, ...] = ()
+    near: tuple[LookAlike, ...] = ()
 
 
 def look_alikes(chain: Chain, values: Mapping[str, float]) -> LookAlikes:
@@ -106,8 +115,8 @@ def look_alikes(chain: Chain, values: Mapping[str, float]) -> LookAlikes:
 @cache
 def _look_alikes(chain: Chain, values: tuple[tuple[str, float], ...]) -> LookAlikes:
     at = dict(values)
-    found = (*_elastic_base(chain, at), *_free_base(chain, at), *_branches(chain, at))
-    differs = chain.n_masses > 1 and not base_is_the_same(chain)
+    elastic, differs = _elastic_base(chain, at)
+    found = (*elastic, *_with_friction(_free_base, chain, at), *_branches(chain, at))
     return LookAlikes(found, base_differs=differs, lossless=_lossless(chain, found))
 
 
@@ -254,23 +263,91 @@ def base_is_the_same(chain: Chain) -> bool:
     return not chain.ground_dampers and (not chain.damped or chain.n_masses == 2)
 
 
-def _elastic_base(chain: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
-    """The drive with one mass less on a base that is the same, once for each resonance that may be
-    that of the base.
+def _with_friction(
+    bases: Callable[[Chain, Mapping[str, float]], Iterable[LookAlike]],
+    chain: Chain,
+    values: Mapping[str, float],
+) -> tuple[LookAlike, ...]:
+    """Bases of a chain; those of one with friction at force and sensor are bases of the chain
+    without it.
     """
-    masses = chain.n_masses - 1
-    if masses == 0 or not base_is_the_same(chain):
+    if chain.ground_dampers[:1] != (1,) or chain.meas_plus != 1:
+        return tuple(bases(chain, values))
+    rest = replace(chain, ground_dampers=chain.ground_dampers[1:])
+    return tuple(
+        replace(x, text=x.text + RUBBING, values=x.values and {**x.values, "b1": values["b1"]})
+        for x in bases(rest, values)
+    )
+
+
+def _elastic_base(chain: Chain, values: Mapping[str, float]) -> tuple[tuple[LookAlike, ...], bool]:
+    """The drive with one mass less on an elastic base, if the engine proves it the same, and the
+    proof that it differs.
+    """
+    if chain.n_masses == 1:
+        return (), False
+    if chain.meas_plus != 1:  # the motion of the base is seen: 1/(mb s^2) at high frequencies
+        return (), True
+    differing = list[bool]()
+
+    def bases(of: Chain, at: Mapping[str, float]) -> Iterator[LookAlike]:
+        same, differs = _same_bases(of)
+        differing.append(differs)
+        yield from (x for base in same for x in _named_base(of, base, at))
+
+    found = _with_friction(bases, chain, values)
+    if not found and 1 in chain.ground_dampers:  # friction at the base's mass, to the ground
+        found = tuple(bases(chain, values))
+    return found, all(differing)
+
+
+def _same_bases(chain: Chain) -> tuple[list[Chain], bool]:
+    """Drives with one mass less on an elastic base, with as many dampers to the ground, that have
+    the same responses; and whether all of them are proven to have others. Without such dampers the
+    theorem decides, else the engine, which is imported for that.
+    """
+    n, count = chain.n_masses, len(chain.ground_dampers)
+    dampers = combinations(range(1, n + 1), count)
+    bases = [Chain(n, 1, 1, 2, 1, 2, chain.sensor, chain.damped, chosen) for chosen in dampers]
+    if not count:
+        same = base_is_the_same(chain)
+        return bases if same else [], not same
+    from disting.fit.judge.alternatives import alternatives
+    from disting.verdict.engine import Engine
+    from disting.verdict.result import Relation
+
+    left = list(alternatives(chain, bases, Engine(), {}))
+    return [a.chain for a in left if a.relation is Relation.INDISTINGUISHABLE], not left
+
+
+def _named_base(chain: Chain, base: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
+    """The drive on a base, once for each resonance that may be that of the base."""
+    kind, text = LookAlikeKind.ELASTIC_BASE, base_text(chain.n_masses - 1)
+    grounded = [f"mass {i - 1}" if i > 1 else "the base" for i in base.ground_dampers]
+    if grounded:
+        text += f" with dampers to the ground at {' and '.join(grounded)}"
+    if chain.ground_dampers:
+        yield LookAlike(kind, text, None)
         return
-    text = f"{masses} mass{'es' if masses > 1 else ''} on an elastic base with its resonance at"
-    for hertz, there in _values_on_elastic_base(chain, values):
-        yield LookAlike(LookAlikeKind.ELASTIC_BASE, f"{text} {hertz:.4g} Hz", there)
+    for hertz, there in values_on_elastic_base(chain.n_masses, values):
+        yield LookAlike(kind, f"{text} with its resonance at {hertz:.4g} Hz", there)
 
 
-def _values_on_elastic_base(
-    chain: Chain, values: Mapping[str, float]
+def base_text(masses: int) -> str:
+    """A drive on an elastic base in words.
+
+    >>> base_text(2)
+    '2 masses on an elastic base'
+    """
+    return f"{masses} mass{'es' if masses > 1 else ''} on an elastic base"
+
+
+def values_on_elastic_base(
+    n: int, values: Mapping[str, float]
 ) -> Iterator[tuple[float, Mapping[str, float]]]:
-    """For each mode the undamped frequency in Hz and the values if it is that of the base."""
-    n = chain.n_masses
+    """For each mode of a chain of n masses the undamped frequency in Hz and the values if it is
+    that of the base; with dampers where the values hold them and there are two masses.
+    """
     m = np.array([values[f"m{i}"] for i in range(1, n + 1)])
     k = np.array([values[f"k{i}{i + 1}"] for i in range(1, n)])
     stiffness = np.diag(np.append(k, 0) + np.append(0, k)) - np.diag(k, 1) - np.diag(k, -1)
@@ -278,7 +355,7 @@ def _values_on_elastic_base(
     squares[0], shares = 0.0, shapes[0] ** 2 / m[0]  # G = sum of share / (s^2 + square)
     for at in range(1, n):
         base = {"mb": float(1 / shares[at]), "kb": float(squares[at] / shares[at])}
-        if chain.damped:  # two masses: one mode, damped as the joint is
+        if n == 2 and "d12" in values:  # one mode, damped as the joint is
             base["db"] = base["kb"] * values["d12"] / values["k12"]
         drive = _free_chain(np.delete(squares, at), np.delete(shares, at))
         yield float(np.sqrt(squares[at]) / (2 * np.pi)), drive | base

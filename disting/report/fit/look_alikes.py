@@ -1,6 +1,7 @@
 """Sentences about structures outside the candidates that have the responses of the selected one."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from disting.fit.judge.look_alikes import (
@@ -9,11 +10,19 @@ from disting.fit.judge.look_alikes import (
     LookAlikes,
     look_alikes,
 )
+from disting.fit.judge.near_base import near_bases
 from disting.fit.results.selection import Selection
 from disting.fit.search.joint import JointCost
+from disting.report.fit.mechanics_words import with_or
+from disting.report.fit.words import percent
 
 RELATIVE = "force and encoder between base and motor"
 REDUCED = "m1 is then the reduced mass m1 mb/(m1 + mb)"
+A = {
+    LookAlikeKind.BRANCH: "a branch",
+    LookAlikeKind.ELASTIC_BASE: "an elastic base",
+    LookAlikeKind.FREE_BASE: "a base that moves freely",
+}
 VALUES = {
     LookAlikeKind.BRANCH: "values",
     LookAlikeKind.ELASTIC_BASE: "values",
@@ -29,7 +38,31 @@ def look_alikes_of(selection: Selection) -> LookAlikes:
         return LookAlikes(not_looked_for="several responses were fitted together")
     if selection.task.fixed or selection.task.bounds:
         return LookAlikes(not_looked_for="values are given or bounded")
-    return look_alikes(selection.selected.chain, selection.selected.estimate.parameters)
+    chain, values = selection.selected.chain, selection.selected.estimate.parameters
+    of = look_alikes(chain, values)
+    if not of.base_differs:
+        return of
+    omega, rho = selection.judging.parts[0].measured.omega, selection.explanation.scatter.rho
+    return replace(of, near=near_bases(chain, values, omega, rho))
+
+
+def look_alike_clause(selection: Selection) -> Iterator[str]:
+    """Where other machines than chains have the response of the selected structure, with other
+    values, in one clause.
+    """
+    of = look_alikes_of(selection)
+    same, near = (
+        with_or([A[kind] for kind in A if any(x.kind is kind for x in each)])
+        for each in (of.found, of.near)
+    )
+    if same:
+        within = f", {near} within the scatter" if near else ""
+        yield f"{same} would give the same response{within}, with other values (see look-alikes)"
+    elif near:
+        yield (
+            f"{near} would give the same response within the scatter, with other values (see"
+            " look-alikes)"
+        )
 
 
 def look_alike_sentences(selection: Selection) -> Iterator[str]:
@@ -46,20 +79,20 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
         elif selection.selected:
             yield f"look-alikes outside the candidates were not looked for: {of.not_looked_for}"
         return
-    yield from (_sentence(x) for x in of.found)
+    yield from (f"look-alike: {_sentence(x)}" for x in (*of.found, *of.near))
     if of.lossless:
         yield (
             f"without dampers the branch{'es' if len(of.lossless) > 1 else ''}"
             f" {' and '.join(of.lossless)} would have the same responses: only damping tells"
             " a branch from this chain"
         )
-    if not of.found:
+    if not (of.found or of.near):
         yield "no branch of as many masses and no base is proven to have the same responses"
-    if of.base_differs:
-        offer = ", but they may lie within the scatter: compare with --base"
-        offer = offer if _may_have_base(selection) else ""
+    if of.base_differs and not of.near:
+        offer = "; --base fits drives on one" if _may_have_base(selection) else ""
         yield (
-            "an elastic base (force and encoder between base and motor) has other responses" + offer
+            "an elastic base (force and encoder between base and motor) has other responses, and"
+            f" none was found within the scatter{offer}"
         )
 
 
@@ -74,15 +107,17 @@ def look_alikes_to_dict(selection: Selection) -> dict[str, Any]:
         "not_looked_for": of.not_looked_for,
         "base_differs": of.base_differs,
         "lossless": list(of.lossless),
-        "found": [
-            {
-                "kind": x.kind.value,
-                "name": x.text,
-                "sentence": _sentence(x),
-                "values": dict(x.values) if x.values is not None else None,
-            }
-            for x in of.found
-        ],
+        "found": [_to_dict(x) for x in of.found],
+        "near": [_to_dict(x) | {"apart": x.apart} for x in of.near],
+    }
+
+
+def _to_dict(x: LookAlike) -> dict[str, Any]:
+    return {
+        "kind": x.kind.value,
+        "name": x.text,
+        "sentence": _sentence(x),
+        "values": dict(x.values) if x.values is not None else None,
     }
 
 
@@ -91,7 +126,10 @@ def _sentence(x: LookAlike) -> str:
     if x.kind is not LookAlikeKind.BRANCH:
         what += f" ({RELATIVE})"
     reduced = "" if x.kind is LookAlikeKind.BRANCH else f"; {REDUCED}"
-    return f"{what} has the same responses{reduced}{_values(x.kind, x.values)}"
+    near = f" within the scatter of this data (they differ by up to {percent(x.apart)})" * bool(
+        x.apart
+    )
+    return f"{what} has the same responses{near}{reduced}{_values(x.kind, x.values)}"
 
 
 def _values(kind: LookAlikeKind, values: Mapping[str, float] | None) -> str:

@@ -26,6 +26,7 @@ from disting.report.fit.doubts import (
     unseen,
     weak,
 )
+from disting.report.fit.look_alikes import look_alike_clause
 from disting.report.fit.mechanics_words import actuators_in_words, fold_names, structure_in_words
 from disting.report.fit.quality import quality_line
 
@@ -192,6 +193,7 @@ def _structure(selection: Selection) -> Iterator[str]:
     twins = len({twin.name for m in selection.members for twin in m.twins})
     if twins:
         yield f"{twins} more behave{'s' * (twins == 1)} exactly as one of these"
+    yield from look_alike_clause(selection)
     if selection.selected is None:
         yield (
             "no candidate is selected: by the criteria that you asked for, this data leaves some"
