@@ -10,6 +10,11 @@ discrete Fourier transforms of period p, at every excited line
 
 Noise that does not repeat averages out; the deviation is that of the mean of P periods. Trends of
 input and output are removed before (`trend`).
+
+An output that wanders, as the position of a free drive does under random torque, ends a period
+elsewhere than it began, and that jump leaks into all lines. The differences z(t) = x(t) - x(t - 1)
+hardly jump, and X = Z / (1 - exp(-j omega / rate)) exactly for a periodic x. But they add the noise
+of single samples to low lines. So the spectra of the differences are taken where they scatter less.
 """
 
 from collections.abc import Callable, Sequence
@@ -37,9 +42,13 @@ LIKENESS = 0.9
 FALLEN = 0.5  # a correlation has to fall below this before it can rise again to a period
 # a shorter period may raise the share of noise, 1 - correlation, by this much of itself
 EXCESS = 0.5
+SURE = 5.0  # standard errors from which on one spectrum scatters less than another by no chance
 ROUNDING = 1e-9  # of a correlation computed by fast Fourier transforms
 Detrend = tuple[Callable[[Trend], str], Callable[[Trend], str]]
 """Sentences on a trend that was removed from the input and from the output."""
+WANDERING = (
+    "the output wanders: its spectra are those of its changes; --read trend=keep takes them of it"
+)
 OFF_GRID = 1e-3  # of the line spacing, by which a given frequency may miss its line
 
 
@@ -65,9 +74,9 @@ def estimate(
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     detected = f"period of {length} samples ({length / rate:g} s) detected in the input"
     notes = [detected] if period is None else []
-    u, y, excitation = (
-        _whole_periods(x, length, _whole(transient, "transient", 0)) for x in (u, y, excitation)
-    )
+    start, whole = _whole(transient, "transient", 0) * length, y
+    u, y, excitation = (_whole_periods(x, length, transient) for x in (u, y, excitation))
+    before = float(whole[start - 1]) if start else None
     exciting = _spectra(excitation, length)
     spacing = rate / length
     if lines is None:
@@ -83,9 +92,12 @@ def estimate(
         chosen = _given(lines, spacing, exciting.shape[1])
     removed = list[str]()
     if detrend:
-        u, y, removed = _without_trends(u, y, length, chosen, detrend)
-        notes += removed
+        u, y, before, removed = _without_trends(u, y, before, length, chosen, detrend)
     inputs, outputs = _spectra(u, length), _spectra(y, length)
+    changes = _spectra_of_changes(y, length, before)
+    if detrend and changes is not None and _scatters_less(changes, outputs, inputs, chosen):
+        outputs, removed = changes, [*removed, WANDERING]
+    notes += removed
     between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
     notes += [said] if said else []
     if band is not None:
@@ -96,14 +108,45 @@ def estimate(
     refuse_few(omega, notes, band)
     response = _mean(inputs[:, chosen], outputs[:, chosen], omega, outliers)
     method = Method(length, len(inputs), transient, trends=tuple(removed))
-    loop = _loop(inputs[:, chosen], _of_changes(y, length)[:, chosen], response)
+    loop = _loop(inputs[:, chosen], (outputs if changes is None else changes)[:, chosen], response)
     response = replace(response, notes=(*notes, *response.notes), method=method, loop=loop)
     return _with_distortion(response, between, len(inputs))
 
 
-def _of_changes(y: Real, period: int) -> Complex:
-    """Spectra of the differences of samples: those of a position that wanders leak less."""
-    return _spectra(np.diff(y, prepend=y[0]), period)
+def _spectra_of_changes(y: Real, period: int, before: float | None) -> Complex | None:
+    """Spectra of whole periods from the differences of their samples, shape (P, period // 2 + 1),
+    without their constant part; `before`: the sample before the first one. None for a single period
+    before which nothing is known.
+    """
+    if before is None and len(y) < 2 * period:
+        return None
+    if before is None:
+        before = float(y[0] - (y[period] - y[period - 1]))
+    changes = _spectra(np.diff(y, prepend=before), period)
+    factor = 1 - np.exp(-2j * np.pi * np.arange(changes.shape[1]) / period)
+    factor[0] = np.inf
+    return np.asarray(changes / factor)
+
+
+def _scatters_less(
+    one: Complex, other: Complex, inputs: Complex, excited: NDArray[np.intp]
+) -> bool:
+    """Return True if the spectra of an output scatter less than others of it, and not by chance: at
+    the excited lines from period to period, of a single period at the lines between them.
+    """
+    if len(one) > 1:
+        of = [x[:, excited] / inputs[:, excited] for x in (one, other)]
+        each = [np.var(x, axis=0) for x in of]
+        size = np.abs(of[1]).max(axis=0)
+    else:
+        quiet = np.setdiff1d(np.arange(excited[0], excited[-1]), excited)
+        each = [np.abs(x[0, quiet]) ** 2 for x in (one, other)]
+        size = np.abs(other[0]).max()
+    known = (each[0] > 0) & (each[1] > (ROUNDING * size) ** 2)
+    if known.sum() < FEWEST:
+        return False
+    gain = np.log(each[1][known] / each[0][known])
+    return bool(gain.mean() > SURE * gain.std(ddof=1) / np.sqrt(len(gain)))
 
 
 def _loop(inputs: Complex, outputs: Complex, response: FrequencyResponse) -> Feedback | None:
@@ -179,16 +222,29 @@ def _autocorrelation(u: Real) -> Real:
 
 
 def _without_trends(
-    u: Real, y: Real, period: int, excited: NDArray[np.intp], detrend: Detrend
-) -> tuple[Real, Real, list[str]]:
-    """Input and output without their trends, and a note on each."""
-    signals, notes = [], list[str]()
-    for x, describe in zip((u, y), detrend, strict=True):
-        several = len(x) >= 2 * period
-        trend = trend_between_periods(x, period) if several else trend_of_one_period(x, excited)
-        signals.append(x - trend.samples(len(x)) if trend else x)
-        notes += [describe(trend)] if trend else []
-    return signals[0], signals[1], notes
+    u: Real,
+    y: Real,
+    before: float | None,
+    period: int,
+    excited: NDArray[np.intp],
+    detrend: Detrend,
+) -> tuple[Real, Real, float | None, list[str]]:
+    """Input, output and the sample before its first one without their trends, and a note on each
+    trend.
+    """
+    several = len(y) >= 2 * period
+    of_input, of_output = (
+        trend_between_periods(x, period) if several else trend_of_one_period(x, excited)
+        for x in (u, y)
+    )
+    notes = [
+        describe(trend)
+        for trend, describe in zip((of_input, of_output), detrend, strict=True)
+        if trend
+    ]
+    ahead, *trend = of_output.samples(len(y), 1)
+    before = None if before is None else before - ahead
+    return u - of_input.samples(len(u)), y - np.array(trend), before, notes
 
 
 def _whole_periods(x: Real, period: int, transient: int) -> Real:

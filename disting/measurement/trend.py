@@ -52,9 +52,11 @@ class Trend:
     def __bool__(self) -> bool:
         return bool(self.slope or self.change)
 
-    def samples(self, n: int) -> Real:
-        """Return the trend at n samples, shape (n,), zero in the middle."""
-        t = np.arange(n) - (n - 1) / 2
+    def samples(self, n: int, before: int = 0) -> Real:
+        """Return the trend at n samples, zero in their middle, and `before` them; shape
+        (before + n,).
+        """
+        t = np.arange(-before, n) - (n - 1) / 2
         return np.asarray(self.slope * t + self.change / (2 * n) * t**2)
 
 

@@ -124,3 +124,39 @@ def test_a_position_that_moves_on_is_read_by_welch_as_one_at_rest():
 def test_other_words_are_refused():
     with pytest.raises(InputError, match="trend is remove or keep, not 'linear'"):
         record().response(trend="linear")
+
+
+def wandering(seed, periods):
+    """A free drive under a multisine and random torque, and its exact response at the lines."""
+    random = np.random.default_rng(seed)
+    lines = np.unique(np.geomspace(3, 0.1 * PERIOD, 40).astype(int))
+    t = np.arange((periods + 1) * PERIOD)
+    phases = random.uniform(0, 2 * np.pi, len(lines))
+    u = np.cos(2 * np.pi * np.outer(t, lines) / PERIOD + phases).sum(axis=1)
+    numerator, denominator = [0, 1e-4, 1e-4], [1, -1.9999, 0.9999]
+    y = lfilter(numerator, denominator, u + 0.2 * random.normal(size=len(t)))
+    z = np.exp(-2j * np.pi * lines / PERIOD)
+    exact = np.polyval(numerator[::-1], z) / np.polyval(denominator[::-1], z)
+    return TimeSeries(u, y, 1000.0), exact
+
+
+@pytest.mark.parametrize("periods", [1, 2, 4])
+def test_a_position_that_wanders_leaks_little_into_the_response(periods):
+    """A random torque ends the position elsewhere in each period: the jump leaked into all lines."""
+    errors = {"remove": [], "keep": []}
+    for seed in range(5):
+        series, exact = wandering(seed, periods)
+        for trend, found in errors.items():
+            found.append(np.abs(series.response(period=PERIOD, trend=trend).G / exact - 1))
+    removed, kept = (float(np.median(errors[trend])) for trend in ("remove", "keep"))
+    assert removed < kept / 3
+    assert removed < 0.03
+
+
+def test_the_deviation_of_a_position_that_wanders_is_that_of_its_lines():
+    series, exact = wandering(1, 8)
+    response = series.response(period=PERIOD)
+    assert any("wanders" in note for note in response.notes)
+    assert np.mean((np.abs(response.G - exact) / response.deviation) ** 2) == pytest.approx(
+        1, abs=0.6
+    )

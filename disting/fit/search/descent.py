@@ -131,7 +131,8 @@ def fine(
     where a step gains less than the share `gain` of the cost.
     """
     free = box.free
-    origin = box.clipped(start)
+    # a start may come from a relative whose parameter was fixed to 0
+    origin = np.where(free, np.maximum(box.clipped(start), SMALLEST), box.clipped(start))
 
     def at(steps: Real) -> Real:
         """Parameters after steps of the logarithms."""
