@@ -52,7 +52,8 @@ candidates
   --undamped              springs without dampers beside them
   --base                  also on an elastic base, with the encoder fixed to it
   --fix m1=0.02           a known parameter; --bound k12=0..500 is its range
-  --models NETWORK        circuits, compartments or branched machines instead
+  --models NETWORK        circuits, compartments or branched machines instead;
+                          with --masses 1-3 beside it, both compete
 
 results
   --out DIR               a page with figures, tables and a .mat file
@@ -201,11 +202,16 @@ def _structures(group: argparse._ArgumentGroup) -> None:
     """Which structures are fitted."""
     text = (
         "networks instead of chains: a text such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4', a"
-        " file of models, or a family such as cells-4; several at once, and may be repeated"
+        " file of models, or a family such as cells-4; several at once, and may be repeated; with"
+        " --masses 1-3 beside it machines and chains compete"
     )
     group.add_argument(
         "--models", action="extend", nargs="+", default=[], metavar="NETWORK", help=text
     )
+    text = (
+        "with --models: each machine also with a damper from the mass with the force to the ground"
+    )
+    group.add_argument("--ground-damper", action="store_true", help=text)
     add_notation(group)
     group.add_argument(
         "--masses",
