@@ -82,14 +82,24 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
 
 
 def add_look_arguments(p: argparse.ArgumentParser) -> None:
-    """Arguments of `disting look`: those by which a fit reads a file."""
+    """Arguments of `disting look`: those by which a fit reads files."""
     p.add_argument(
-        "file",
+        "train",
+        nargs="*",
         type=Path,
         metavar="FILE",
-        help="measured frequency response, or force and motion in time",
+        help="measured frequency response, or force and motion in time; several may be given",
     )
-    _reading(p.add_argument_group("data"))
+    p.set_defaults(test=[])
+    data = p.add_argument_group("data")
+    text = "places of the sensors, as in a fit: 1,2 shows two responses (default: 1)"
+    data.add_argument("--sensor", default="1", metavar="PORT", help=text)
+    text = "another response of the same machine, as in a fit; may be repeated"
+    data.add_argument("--experiment", action="append", default=[], metavar="FILE:CHANGE", help=text)
+    data.add_argument(
+        "--demo", action="store_true", help="simulated data of a small drive instead of a file"
+    )
+    _reading(data)
     _quantities(p.add_argument_group("quantities"))
     group = p.add_argument_group("output")
     group.add_argument(
