@@ -51,6 +51,10 @@ def run(options: argparse.Namespace) -> int:
         from disting.cli.fit_networks import run as run_networks
 
         return run_networks(options)
+    if options.ground_damper:
+        raise InputError(
+            "--ground-damper is for --models: chains are fitted with every set of ground dampers"
+        )
     controller = read_controller(options.controller) if options.controller else None
     measured = data(options)
     if any(response.is_impedance for response in measured.every):

@@ -52,7 +52,8 @@ candidates
   --undamped              springs without dampers beside them
   --base                  also on an elastic base, with the encoder fixed to it
   --fix m1=0.02           a known parameter; --bound k12=0..500 is its range
-  --models NETWORK        circuits, compartments or branched machines instead
+  --models NETWORK        circuits, compartments or branched machines instead;
+                          with --masses 1-3 beside it, both compete
 
 results
   --out DIR               a page with figures, tables and a .mat file
@@ -81,14 +82,24 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
 
 
 def add_look_arguments(p: argparse.ArgumentParser) -> None:
-    """Arguments of `disting look`: those by which a fit reads a file."""
+    """Arguments of `disting look`: those by which a fit reads files."""
     p.add_argument(
-        "file",
+        "train",
+        nargs="*",
         type=Path,
         metavar="FILE",
-        help="measured frequency response, or force and motion in time",
+        help="measured frequency response, or force and motion in time; several may be given",
     )
-    _reading(p.add_argument_group("data"))
+    p.set_defaults(test=[])
+    data = p.add_argument_group("data")
+    text = "places of the sensors, as in a fit: 1,2 shows two responses (default: 1)"
+    data.add_argument("--sensor", default="1", metavar="PORT", help=text)
+    text = "another response of the same machine, as in a fit; may be repeated"
+    data.add_argument("--experiment", action="append", default=[], metavar="FILE:CHANGE", help=text)
+    data.add_argument(
+        "--demo", action="store_true", help="simulated data of a small drive instead of a file"
+    )
+    _reading(data)
     _quantities(p.add_argument_group("quantities"))
     group = p.add_argument_group("output")
     group.add_argument(
@@ -201,11 +212,16 @@ def _structures(group: argparse._ArgumentGroup) -> None:
     """Which structures are fitted."""
     text = (
         "networks instead of chains: a text such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4', a"
-        " file of models, or a family such as cells-4; several at once, and may be repeated"
+        " file of models, or a family such as cells-4; several at once, and may be repeated; with"
+        " --masses 1-3 beside it machines and chains compete"
     )
     group.add_argument(
         "--models", action="extend", nargs="+", default=[], metavar="NETWORK", help=text
     )
+    text = (
+        "with --models: each machine also with a damper from the mass with the force to the ground"
+    )
+    group.add_argument("--ground-damper", action="store_true", help=text)
     add_notation(group)
     group.add_argument(
         "--masses",

@@ -101,21 +101,28 @@ def sensors(options: argparse.Namespace) -> list[str]:
     return text.split(",")
 
 
-def _check(options: argparse.Namespace) -> None:
-    several = len(sensors(options)) > 1 or options.experiment
+def check_source(options: argparse.Namespace, command: str = "fit") -> None:
+    """Raise InputError where files and --demo are both given, or neither."""
     if options.demo and options.train:
         raise InputError("--demo brings its own data: leave it, or the files, away")
     if not options.demo and not options.train:
         raise InputError(
-            "a file with measured data is needed, such as disting fit bench.csv; --demo shows a fit"
-            " of simulated data"
+            f"a file with measured data is needed, such as disting {command} bench.csv; --demo"
+            f" shows a {command} of simulated data"
         )
     own = options.test or options.read or options.column or options.quantity or options.hold
-    if options.demo and (own or several):
+    if options.demo and (own or options.experiment or len(sensors(options)) > 1):
         raise InputError(
             "--demo brings its own data: leave --test, --read, --column, --quantity, --hold,"
             " --experiment and several sensors away"
         )
+    if options.repeat and len(options.train) > 1:
+        raise InputError("--repeat repeats one file: give the mean of each, or leave it away")
+
+
+def _check(options: argparse.Namespace) -> None:
+    check_source(options)
+    several = len(sensors(options)) > 1 or options.experiment
     moved = options.family or options.gap or ":" in options.actuator + options.sensor
     if options.base and (several or moved):
         raise InputError(
@@ -130,8 +137,6 @@ def _check(options: argparse.Namespace) -> None:
         raise InputError(
             "--site links the page to the catalogues: name the page's folder with --out"
         )
-    if options.repeat and len(options.train) > 1:
-        raise InputError("--repeat repeats one file: give the mean of each, or leave it away")
 
 
 def _from_files(options: argparse.Namespace) -> Data:
@@ -181,18 +186,33 @@ def read_mean(
     """The response in `files`, the mean of several, with the units and factors of the command
     line; `which` of `count` sensors, in one file `together`.
     """
-    settings = reader_settings(options)
-    settings |= {"outliers": "drop"} if options.outliers == "drop" and len(files) == 1 else {}
-    if count > 1:
-        settings = _of_one(settings, which, count)
-    if column:
-        settings["column"] = column
-    each = [_begun(f, settings, which) if together and count > 1 else settings for f in files]
+    own = {"outliers": "drop"} if options.outliers == "drop" and len(files) == 1 else {}
+    each = [
+        settings_of(f, options, which, count, together=together, column=column) | own for f in files
+    ]
     response = mean_of(
-        [read(file, **own) for file, own in zip(files, each, strict=True)],
+        [read(file, **settings) for file, settings in zip(files, each, strict=True)],
         outliers=options.outliers,
     )
     return in_units(response, options)
+
+
+def settings_of(
+    file: Path,
+    options: argparse.Namespace,
+    which: int = 0,
+    count: int = 1,
+    *,
+    together: bool = False,
+    column: str = "",
+) -> dict[str, Any]:
+    """Return the options of `read` for one of `count` sensors, in one file `together`. Raises
+    InputError.
+    """
+    settings = reader_settings(options)
+    settings = _of_one(settings, which, count) if count > 1 else settings
+    settings |= {"column": column} if column else {}
+    return _begun(file, settings, which) if together and count > 1 else settings
 
 
 def reader_settings(options: argparse.Namespace) -> dict[str, Any]:
@@ -257,19 +277,25 @@ def _signs(options: argparse.Namespace, count: int) -> list[int]:
     return [sign * numbers[0] for sign in numbers * (count if len(numbers) == 1 else 1)]
 
 
-def _experiment(
-    text: str, options: argparse.Namespace, signs: dict[str, int]
-) -> Iterator[FurtherResponse]:
-    """The responses of one experiment: those of all sensors, or of the one that it names."""
+def experiment_of(text: str) -> tuple[Path, dict[str, list[str]]]:
+    """Return the file of an experiment and its entries by name. Raises InputError."""
     match = EXPERIMENT.fullmatch(text)
     if not match:
         raise InputError(f"{FORM}, not {short(text)}")
-    file, entries = Path(match[1]), dict[str, list[str]]()
+    entries = dict[str, list[str]]()
     for part in match[2].split(","):
         name, equals, value = part.partition("=")
         if name not in ("sensor", "force", "column", *CHANGED) or not (equals and value):
             raise InputError(f"{FORM}, not {short(text)}")
         entries.setdefault(name, []).append(value)
+    return Path(match[1]), entries
+
+
+def _experiment(
+    text: str, options: argparse.Namespace, signs: dict[str, int]
+) -> Iterator[FurtherResponse]:
+    """The responses of one experiment: those of all sensors, or of the one that it names."""
+    file, entries = experiment_of(text)
     changes = [
         change
         for name, kind in CHANGED.items()

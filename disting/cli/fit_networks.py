@@ -1,11 +1,14 @@
-"""disting fit --models: networks fitted to a measured response: circuits to an impedance."""
+"""disting fit --models: networks fitted to a measured response: circuits to an impedance, machines
+to a motion; with --masses chains compete in the same list.
+"""
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from disting.cli.fit_data import data
+from disting.cli.arguments import is_damped
+from disting.cli.fit_data import data, sensors
 from disting.cli.output import complain, emit, keep_apart
 from disting.cli.verdicts import listed_models
 from disting.cli.workers import engine_for
@@ -13,6 +16,8 @@ from disting.errors import InputError, enumeration
 from disting.files import json_text
 from disting.fit.networks import fit_networks
 from disting.fit.results.networks import BAR, NetworkSelection
+from disting.fit.search.candidates import chosen_ports, on_elastic_bases
+from disting.fit.search.machines import as_machine, each_once, with_ground_damper
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
 from disting.measurement.look_text import short_lines
@@ -24,22 +29,24 @@ from disting.network.notation import network_of, notations_of
 from disting.report.fit.network_words import standing, value_lines
 
 UNKNOWN = {
-    "--test", "--experiment", "--sensor", "--masses", "--actuator", "--gap", "--family", "--left",
-    "--base",
-    "--damped", "--undamped", "--fix", "--bound", "--weights", "--rule", "--thresholds", "--case",
-    "--optimiser", "--no-prune", "--controller", "--site", "--profiles", "--demo",
+    "--test", "--experiment", "--family", "--left", "--fix", "--bound", "--weights", "--rule",
+    "--thresholds", "--case", "--optimiser", "--no-prune", "--controller", "--site", "--profiles",
+    "--demo",
 }  # fmt: skip
+OF_CHAINS = {"--sensor", "--actuator", "--gap", "--base", "--damped", "--undamped"}
 
 
 def run(options: argparse.Namespace) -> int:
     """Fit networks, print what explains the data."""
-    foreign = sorted({word.partition("=")[0] for word in options.words} & UNKNOWN)
-    if foreign:
-        verb = "are" if len(foreign) > 1 else "is"
-        raise InputError(f"{enumeration(foreign)} {verb} not supported with --models; remove it")
+    named = {word.partition("=")[0] for word in options.words}
+    _refuse(named)
     options.models, files = _without_data_files(options.models)
     options.train = [*options.train, *files]
     networks = _networks(options.models, options.notation)
+    if "--masses" in named:
+        networks = _beside_chains(networks, options)
+    elif options.ground_damper:
+        networks = each_once(with_ground_damper(networks))
     keep_apart(network.name for network in networks)
     measured = _measured(options, networks)
     first = measured[0]
@@ -56,6 +63,37 @@ def run(options: argparse.Namespace) -> int:
         if options.json != "-":
             print(f"\nwritten to {options.out}; open {options.out / 'fit.html'}")
     return 0 if selection.left else 1
+
+
+def _refuse(named: Collection[str]) -> None:
+    """Raise InputError for options that a fit of networks has not."""
+    foreign = sorted(UNKNOWN & {*named})
+    if foreign:
+        verb = "are" if len(foreign) > 1 else "is"
+        raise InputError(f"{enumeration(foreign)} {verb} not supported with --models; remove it")
+    of_chains = sorted(OF_CHAINS & {*named})
+    if of_chains and "--masses" not in named:
+        raise InputError(
+            f"{enumeration(of_chains)} with --models: name the chains that compete too by their"
+            " number of masses, as --masses 1-3"
+        )
+
+
+def _beside_chains(networks: Sequence[Network], options: argparse.Namespace) -> list[Network]:
+    """Chains as machines, then the networks that are none of them; raises InputError."""
+    if any(n.sort is not Sort.MACHINE or n.shape != (1, 1) for n in networks):
+        raise InputError(
+            "--masses adds chains: these compete with machines of one force and one sensor, not"
+            " with circuits, compartments or several responses"
+        )
+    if len(sensors(options)) > 1:
+        raise InputError("chains and networks are compared by one response: name one --sensor")
+    chains = chosen_ports(options.masses, options.actuator, options.sensor, options.gap)
+    bare = [c for c in chains if not (c.ground_dampers or c.lag or c.dead_time)]
+    bare += on_elastic_bases(bare) if options.base else ()
+    machines = [as_machine(replace(chain, damped=is_damped(options))) for chain in bare]
+    whole = [*machines, *networks]
+    return each_once(with_ground_damper(whole) if options.ground_damper else whole)
 
 
 def _without_data_files(texts: Sequence[str]) -> tuple[list[str], list[Path]]:

@@ -1,57 +1,175 @@
-"""disting look: a measured file as it is read, before anything is fitted to it."""
+"""disting look: measured files as they are read, before anything is fitted to them."""
 
 import argparse
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
+from typing import Any
 
-from disting.cli.fit_data import in_units, reader_settings
+from disting.cli.fit_data import (
+    check_source,
+    experiment_of,
+    in_units,
+    reader_settings,
+    sensors,
+    settings_of,
+)
 from disting.cli.output import emit
 from disting.cli.terminal_plot import bode_lines, nyquist_lines, signs_of
-from disting.errors import printable
+from disting.errors import InputError, printable
 from disting.files import json_text
 from disting.measurement import FrequencyResponse
 from disting.measurement.look_text import WIDTH, look_lines
-from disting.measurement.looking import Look, look, name_units
+from disting.measurement.looking import Look, look, look_at, name_units
+from disting.model.chain import Sensor
+from disting.model.presentation import plural
 
 NARROWEST, WIDEST = 60, 160  # characters of a line
 
 
+@dataclass(frozen=True, slots=True)
+class View:
+    """One response as it is read; `place` as a fit names it: its sensor, its experiment; "" where
+    there is one response.
+    """
+
+    place: str
+    seen: Look
+
+
 def run(options: argparse.Namespace) -> int:
     """Read, print and write."""
-    seen = look(
-        options.file,
-        repeat=options.repeat,
-        outliers=options.outliers,
-        changes=list(_changes(options)),
-        **reader_settings(options),
-    )
-    seen = name_units(seen, dict(options.unit))
+    check_source(options, "look")
+    views = list(_views(options))
     if options.json:
-        emit(options.json, f"{json_text(seen.to_dict(), indent=1)}\n")
+        emit(options.json, f"{json_text(_plain(views), indent=1)}\n")
     if options.json != "-":
         columns = shutil.get_terminal_size((WIDTH, 24)).columns
-        width = min(max(columns, NARROWEST), WIDEST)
-        print("\n".join([*look_lines(seen, width), *_plot(seen, width)]))
+        print("\n".join(_text(views, min(max(columns, NARROWEST), WIDEST))))
     if options.out:
-        from disting.report.look import write_look
-
-        write_look(seen, options.out)
+        pages = list(_write(views, options.out))
         if options.json != "-":
-            print(f"\nwritten to {options.out}; open {options.out / 'look.html'}")
+            print(f"\nwritten to {options.out}; open {', '.join(map(str, pages))}")
     return 0
 
 
-def _changes(options: argparse.Namespace) -> Iterator[partial[FrequencyResponse]]:
+def _views(options: argparse.Namespace) -> Iterator[View]:
+    """Every response that a fit with these options reads: of all sensors, then of all experiments.
+    Files without a place for each are shown one by one.
+    """
+    if options.demo:
+        from disting.simulation import demo
+
+        yield View("", look_at(demo(), Sensor.ACCELERATION, list(_changes(options))))
+        return
+    places = sensors(options)
+    if len(options.train) > 1 and len(places) == 1:
+        for k, file in enumerate(options.train, 1):
+            yield View(f"file {k}", _seen(file, options))
+    else:
+        yield from _at_sensors(options, places)
+    for text in options.experiment:
+        yield from _of_experiment(text, options, places)
+
+
+def _at_sensors(options: argparse.Namespace, places: Sequence[str]) -> Iterator[View]:
+    files, count = options.train, len(places)
+    together = len(files) == 1
+    if not together and len(files) != count:
+        raise InputError(
+            f"{len(files)} files and {plural(count, 'sensor')}: name a place for each file, as"
+            " --sensor 1,2, or leave --sensor away to look at every file"
+        )
+    for k, place in enumerate(places):
+        name = f"sensor {place}" if count > 1 or options.experiment else ""
+        file = files[0 if together else k]
+        seen = _seen(file, options, k, count, together=together, repeat=options.repeat)
+        yield View(name, seen)
+
+
+def _of_experiment(text: str, options: argparse.Namespace, places: Sequence[str]) -> Iterator[View]:
+    """The responses of one experiment: those of all sensors, or of the one that it names."""
+    file, entries = experiment_of(text)
+    own, column = entries.get("sensor"), ",".join(entries.get("column", ()))
+    change = [f"{name}={x}" for name in entries if name != "column" for x in entries[name]]
+    for k, place in enumerate(own or places):
+        which = places.index(place) if own and place in places else k
+        several = [] if own or len(places) == 1 else [f"sensor={place}"]
+        seen = _seen(file, options, which, len(places), together=not own, column=column)
+        yield View(f"experiment {', '.join([*change, *several])}", seen)
+
+
+def _seen(
+    file: Path,
+    options: argparse.Namespace,
+    which: int = 0,
+    count: int = 1,
+    *,
+    together: bool = False,
+    column: str = "",
+    repeat: Sequence[Path] = (),
+) -> Look:
+    """One file as it is read for one of `count` sensors; where it does not say which response is
+    meant, as it is read without, with the reason among the doubts.
+    """
+    reasons = list[str]()
+    try:
+        settings = settings_of(file, options, which, count, together=together, column=column)
+    except InputError as reason:
+        settings = reader_settings(options)
+        reasons.append(str(reason))
+    seen = look(
+        file,
+        repeat=repeat,
+        outliers=options.outliers,
+        changes=list(_changes(options, which)),
+        **settings,
+    )
+    seen = replace(seen, refusals=(*reasons, *seen.refusals))
+    return name_units(seen, dict(options.unit))
+
+
+def _changes(options: argparse.Namespace, which: int = 0) -> Iterator[partial[FrequencyResponse]]:
     """What a fit does with a response before it computes with it."""
     yield partial(in_units, options=options)
     if options.band:
         yield partial(FrequencyResponse.masked, low=options.band[0], high=options.band[1])
     if options.lines:
         yield partial(FrequencyResponse.thinned, count=options.lines)
-    if options.sign.split(",")[0] == "-":
+    signs = options.sign.split(",")
+    if signs[which if which < len(signs) else 0] == "-":
         yield partial(FrequencyResponse.sign_reversed)
+
+
+def _text(views: Sequence[View], width: int) -> Iterator[str]:
+    for view in views:
+        if view is not views[0]:
+            yield ""
+        if view.place:
+            yield printable(f"{view.place}:")
+        yield from look_lines(view.seen, width)
+        yield from _plot(view.seen, width)
+
+
+def _plain(views: Sequence[View]) -> dict[str, Any]:
+    """The first response as plain data, with the others."""
+    first, *others = (
+        view.seen.to_dict() | ({"place": view.place} if view.place else {}) for view in views
+    )
+    return first | ({"further": others} if others else {})
+
+
+def _write(views: Sequence[View], folder: Path) -> Iterator[Path]:
+    """Pages: the first one in the folder, each other one in a folder with its number there."""
+    from disting.report.look import write_look
+
+    for k, view in enumerate(views, 1):
+        own = folder / str(k) if k > 1 else folder
+        write_look(view.seen, own)
+        yield own / "look.html"
 
 
 def _plot(seen: Look, width: int) -> Iterator[str]:

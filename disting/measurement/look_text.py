@@ -62,7 +62,11 @@ def short_lines(response: FrequencyResponse, shows: str = "") -> Iterator[str]:
 
 
 def column_table(seen: "Look", width: int) -> Iterator[str]:
-    """Return the table of columns: those that are used, and the others up to a number."""
+    """Return the table of columns: those that are used, and the others up to a number; nothing of
+    what is in no file.
+    """
+    if not seen.columns:
+        return
     used = [column for column in seen.columns if column.is_used]
     others = [column for column in seen.columns if not column.is_used]
     shown = sorted([*used, *others[:MOST]], key=lambda column: column.number)

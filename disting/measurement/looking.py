@@ -265,6 +265,26 @@ def look(
     return _with_statistics(seen, options, bool(repeat))
 
 
+def look_at(
+    record: TimeSeries, sensor: Sensor | None = None, changes: Sequence[Change] = ()
+) -> Look:
+    """Return a record that is in no file as it is understood; `sensor`: the quantity of its
+    response (default: as recorded); `changes` as of `look`.
+
+    >>> from disting.simulation import demo
+    >>> look_at(demo(), Sensor.ACCELERATION).response.sensor.value
+    'acceleration'
+    """
+    refusals, response = list[str](), None
+    try:
+        response = _changed(record.response(sensor), changes, refusals)
+    except InputError as reason:
+        refusals.append(str(reason))
+    file = record.origin or "record"
+    seen = Look(file, record.columns, response, record, refusals=tuple(refusals))
+    return _with_statistics(seen, {}, is_mean=False)
+
+
 def name_units(seen: Look, units: dict[str, str]) -> Look:
     """Return the same with units of input and output that the caller gives."""
     columns = seen.columns

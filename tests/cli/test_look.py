@@ -7,8 +7,10 @@ import subprocess
 
 import numpy as np
 import pytest
+from jsonschema import Draft202012Validator
 
 from disting.cli.terminal_plot import ASCII, UNICODE, bode_lines, curve, nyquist_lines
+from disting.files import Format, schema
 from disting.measurement import look
 from tests.cli.process import COMMAND, called
 
@@ -90,6 +92,63 @@ def test_what_is_refused_is_shown_with_status_0_and_what_is_no_table_is_not(bode
         done = called("look", tmp_path / name)
         assert done.returncode == 2 and done.stdout == "" and len(done.stderr.splitlines()) == 1
     assert called("look", bode, "--read", "wrong=1").returncode == 2
+
+
+@pytest.fixture
+def two(tmp_path):
+    """A file with the responses of two sensors."""
+    rows = [f"{f},{20 - f},{-9 * f},{f},{-f}" for f in range(1, 20)]
+    path = tmp_path / "two.csv"
+    path.write_text("\n".join(["f [Hz],Re motor,Im motor,Re load,Im load", *rows, ""]))
+    return path
+
+
+def test_several_sensors_and_experiments_are_shown_one_after_the_other(two):
+    """As a fit reads them."""
+    words = (two, "--sensor", "1,2", "--sign=+,-", "--experiment", f"{two}:lock=2")
+    plain = json.loads(called("look", *words, "--json", "-").stdout)
+    Draft202012Validator(schema(Format.LOOK)).validate(plain)
+    every = [plain, *plain["further"]]
+    locked = "experiment lock=2, sensor="
+    assert [x["place"] for x in every] == ["sensor 1", "sensor 2", f"{locked}1", f"{locked}2"]
+    origins = ["two.csv, column 2 (Re motor)", "two.csv, column 4 (Re load)"]
+    assert [x["origin"] for x in every] == origins * 2
+
+
+def test_each_sensor_has_its_page(two, tmp_path):
+    out = tmp_path / "out"
+    lines = called("look", two, "--sensor", "1,2", "--out", out).stdout.splitlines()
+    assert [line for line in lines if line.startswith("sensor")] == ["sensor 1:", "sensor 2:"]
+    pages = [out / "look.html", out / "2" / "look.html"]
+    assert lines[-1] == f"written to {out}; open {pages[0]}, {pages[1]}"
+    assert all(page.exists() for page in pages)
+
+
+def test_files_without_places_are_shown_one_by_one(bode, two):
+    """A fit refuses these: it cannot know what they are to each other."""
+    assert called("fit", bode, two).returncode == 2
+    plain = json.loads(called("look", bode, two, "--json", "-").stdout)
+    assert plain["place"] == "file 1" and plain["file"] == "bode.csv"
+    assert [(x["place"], x["file"]) for x in plain["further"]] == [("file 2", "two.csv")]
+
+
+def test_a_sensor_without_a_response_is_shown_with_the_reason(two):
+    plain = json.loads(called("look", two, "--sensor", "1,2,3", "--json", "-").stdout)
+    first, last = plain, plain["further"][-1]
+    assert not first["refused"] and last["refused"] and len(last["columns"]) == 5
+    assert last["doubts"][0].startswith("two.csv holds 2 responses, for 3 sensors")
+
+
+def test_the_demonstration_is_shown_as_a_fit_reads_it(bode):
+    done = called("look", "--demo")
+    assert done.returncode == 0 and "response: acceleration" in done.stdout
+    assert "excitation: multisine" in done.stdout
+    for words, reason in (
+        ((), "such as disting look bench.csv"),
+        (("--demo", bode), "its own data"),
+    ):
+        refused = called("look", *words)
+        assert refused.returncode == 2 and reason in refused.stderr
 
 
 def test_names_of_a_file_are_escaped_on_the_page(tmp_path):

@@ -11,7 +11,7 @@ from disting import Chain
 from disting.fit import predict
 from disting.measurement import from_arrays, write_csv
 from tests.cli.process import called
-from tests.measurement.bench_data import measured_data
+from tests.measurement.bench_data import measured_data, write_branched_drive
 from tests.report.guide_blocks import TEXTS, blocks, commands_alone, transcripts
 
 CHEAP = tuple(
@@ -104,8 +104,9 @@ def test_what_is_shown_is_what_is_said(
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The simulated bench of the first steps."""
+    """The simulated bench of the first steps, and a branched drive."""
     folder = tmp_path_factory.mktemp("bench")
+    write_branched_drive(folder / "drive.csv")
     (command,) = {c for _, c, _ in transcripts() if c.startswith("disting simulate")}
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
