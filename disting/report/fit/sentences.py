@@ -12,6 +12,7 @@ from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
 from disting.report.fit.doubts import (
+    amplitude,
     bad,
     better,
     clear_band,
@@ -19,8 +20,6 @@ from disting.report.fit.doubts import (
     correlated_residuals,
     differing_parameters,
     doubtful_deviations,
-    machine_change,
-    nonlinearity,
     same_data_twice,
     suspicious_data,
     unseen,
@@ -53,11 +52,10 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
     """
     if selection.question:
         cost = selection.task.cost
-        first = (*nonlinearity(selection), selection.question)
+        first = (*amplitude(selection), selection.question)
         return (*first, *same_data_twice(selection), *suspicious_data(cost))
     said = [
-        *nonlinearity(selection),
-        *machine_change(selection),
+        *amplitude(selection),
         *_other_quantities(selection),
         *(
             []
