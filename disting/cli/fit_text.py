@@ -204,7 +204,8 @@ def _beside(selection: Selection, line: Line) -> Iterator[str]:
     same = fold_names(twin.name for m in rest for twin in m.twins)
     if same:
         yield f"{', '.join(m.name for m in rest)} may as well be {_named(same)}"
-    unknown = fold_names(name for m in line.members for name in m.open)
+    more = {m.name for m in selection.containing}  # they are left whatever behaves the same
+    unknown = fold_names(name for m in line.members for name in m.open if name not in more)
     if unknown:
         yield f"not decided: {_named(unknown)}"
     own = [m.candidate.chain for m in line.members]
