@@ -129,6 +129,7 @@ def json_text(
     """
 
     def written(data: object) -> str:
+        """JSON text; raises ValueError for numbers that are not finite."""
         separators = (",", ":") if indent is None and not spaced else None
         return json.dumps(
             data,

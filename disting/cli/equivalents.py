@@ -44,6 +44,28 @@ SOURCES = {
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
+    _models(parser)
+    text = (
+        "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly;"
+        " of a circuit they may stand in braces, such as R{R=20}"
+    )
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
+    )
+    text = (
+        f"list what keeps the response of this experiment too: {EXAMPLES}, one or several, at"
+        " masses of the given model (3/2: mass 2 of the other one, else every one is tried); may be"
+        " repeated"
+    )
+    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+    _forms(parser)
+    add_damped(parser)
+    add_notation(parser)
+    add_no_cache(parser)
+
+
+def _models(parser: argparse.ArgumentParser) -> None:
+    """The given model, and those among which its equivalents are."""
     named = (
         "masses:number of the given model, as 'disting models' lists it; +b2: damper from mass 2 to"
         " the ground; +lag; +delay"
@@ -58,19 +80,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--to", default="", metavar="M:J|M|NETWORK|FILE", help=others)
     text = "of a network: all networks of this family, such as circuits-5"
     parser.add_argument("--family", default="", metavar="FAMILY", help=text)
-    text = (
-        "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly;"
-        " of a circuit they may stand in braces, such as R{R=20}"
-    )
-    parser.add_argument(
-        "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
-    )
-    text = (
-        f"list what keeps the response of this experiment too: {EXAMPLES}, one or several, at"
-        " masses of the given model (3/2: mass 2 of the other one, else every one is tried); may be"
-        " repeated"
-    )
-    parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
+
+
+def _forms(parser: argparse.ArgumentParser) -> None:
+    """How the result is written."""
     form = parser.add_mutually_exclusive_group()
     add_json(form, "the result", alone=True)
     form.add_argument(
@@ -82,9 +95,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     form.add_argument(
         "--sympy", action="store_true", help="print formulas as Python source for SymPy"
     )
-    add_damped(parser)
-    add_notation(parser)
-    add_no_cache(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -71,6 +71,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     _responses(data)
     _reading(data)
     _quantities(data)
+    _counted(data)
     candidates = p.add_argument_group("candidates")
     _structures(candidates)
     add_damped(p)
@@ -100,7 +101,9 @@ def add_look_arguments(p: argparse.ArgumentParser) -> None:
         "--demo", action="store_true", help="simulated data of a small drive instead of a file"
     )
     _reading(data)
-    _quantities(p.add_argument_group("quantities"))
+    quantities = p.add_argument_group("quantities")
+    _quantities(quantities)
+    _counted(quantities)
     group = p.add_argument_group("output")
     group.add_argument(
         "--out", type=written_folder, metavar="DIR", help="write a page with figures and JSON there"
@@ -160,7 +163,7 @@ def _reading(group: argparse._ArgumentGroup) -> None:
 
 
 def _quantities(group: argparse._ArgumentGroup) -> None:
-    """What the numbers of the files mean, and which of them count."""
+    """What the numbers of the files mean."""
     text = (
         "what the sensor shows (default: what the file says, else acceleration; of a record in time"
         " position)"
@@ -187,15 +190,6 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
         " SI units"
     )
     group.add_argument("--torque-constant", type=float, metavar="K", help=text)
-    group.add_argument(
-        "--band", type=frequency_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
-    )
-    group.add_argument(
-        "--lines",
-        type=int,
-        metavar="N",
-        help="use only so many lines, evenly spaced on a logarithmic scale",
-    )
     text = (
         "time for which a digital drive holds its input, in s, such as 125e-6; record: the sampling"
         " time of a record (default: the input is not held)"
@@ -206,6 +200,19 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
         " several --sign=+,- (default: +)"
     )
     group.add_argument("--sign", type=signs, default="+", metavar="SIGN", help=text)
+
+
+def _counted(group: argparse._ArgumentGroup) -> None:
+    """Which lines of the files count."""
+    group.add_argument(
+        "--band", type=frequency_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
+    )
+    group.add_argument(
+        "--lines",
+        type=int,
+        metavar="N",
+        help="use only so many lines, evenly spaced on a logarithmic scale",
+    )
 
 
 def _structures(group: argparse._ArgumentGroup) -> None:

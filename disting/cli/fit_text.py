@@ -12,10 +12,11 @@ from disting.fit.judge.members import Disagreement, Member
 from disting.fit.judge.modes import Result, physical
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
+from disting.measurement.linearity import NOT_COUNTED
 from disting.measurement.look_text import short_lines
 from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
-from disting.report.fit.doubts import limits_in_words
+from disting.report.fit.doubts import hold, limits_in_words
 from disting.report.fit.links import commands, new_names
 from disting.report.fit.look_alikes import look_alike_sentences
 from disting.report.fit.mechanics_words import actuators_in_words, fold_names
@@ -120,9 +121,10 @@ def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from (f"  {line}" for line in _each(selection))
     yield from (f"  {line}" for line in _parameters(selection))
     yield ""
-    yield from (
-        f"  {line}" for line in _results(physical(selection.described, selection.task), train)
-    )
+    only = hold(selection)
+    results = physical(selection.described, selection.task)
+    yield from (f"  {line}{' *' * bool(only)}" for line in _results(results, train))
+    yield from [f"  * {only}: {NOT_COUNTED}"] * bool(only)
 
 
 def _lines(selection: Selection) -> str:
@@ -202,7 +204,8 @@ def _beside(selection: Selection, line: Line) -> Iterator[str]:
     same = fold_names(twin.name for m in rest for twin in m.twins)
     if same:
         yield f"{', '.join(m.name for m in rest)} may as well be {_named(same)}"
-    unknown = fold_names(name for m in line.members for name in m.open)
+    more = {m.name for m in selection.containing}  # they are left whatever behaves the same
+    unknown = fold_names(name for m in line.members for name in m.open if name not in more)
     if unknown:
         yield f"not decided: {_named(unknown)}"
     own = [m.candidate.chain for m in line.members]
@@ -215,9 +218,10 @@ def _relied_on(selection: Selection) -> Iterator[str]:
     """What holds for all of them."""
     if selection.relied_on:
         yield ""
+        only = hold(selection) and f", {hold(selection)},"
         yield (
-            "what you may rely on if the machine is one of these, or what may as well be one of"
-            " them (95 %; not looked at: larger ones that contain one, and those not decided):"
+            f"what you may rely on{only} if the machine is one of these, or what may as well be one"
+            " of them (95 %; not looked at: larger ones that contain one, and those not decided):"
         )
         yield from (f"  {statement.text}" for statement in selection.relied_on)
 
@@ -273,14 +277,15 @@ def _parameters(selection: Selection) -> Iterator[str]:
     c = selection.described
     apart = {d.name: d for m in selection.members[:1] for d in m.disagreements}
     wide = selection.members[0].intervals if selection.members else {}
+    mark = " *" * bool(hold(selection))
     for name, value in c.estimate.parameters.items():
         error = c.practical.relative_errors.get(name)
         if error is None:
             said = "given"
         elif name in wide and not error <= FROM_ZERO:
-            said = limits_in_words(*wide[name])
+            said = f"{limits_in_words(*wide[name])}{mark}"
         else:
-            said = "not determined" if not error <= UNDETERMINED else f"± {percent(error)}"
+            said = "not determined" if not error <= UNDETERMINED else f"± {percent(error)}{mark}"
         yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
 
 

@@ -106,19 +106,7 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
         )
     effort = _effort(options, named.model, named.values, named)
     _warn(effort)
-    plans = list[tuple[Plan, Plan | None]]()
-    with engine_for(options) as (engine, pool, progress):
-        planned = partial(effort.planned, engine=engine, executor=pool)
-        for rival, values in named.rivals.items():
-            progress("rival", len(plans), len(named.rivals))
-            other_plan = planned(named.model, named.values, rival)
-            is_same = other_plan.answer is Answer.SAME and values
-            plans.append((other_plan, planned(rival, values, named.model) if is_same else None))
-        reverse = {
-            structure: planned(structure, values, named.model)
-            for structure, values in named.larger.items()
-            if structure in named.determined and contains(structure, named.model)
-        }
+    plans, reverse = _plans(named, effort, options)
     rows = [plan_to_dict(own_plan) | _reverse(back) for own_plan, back in plans]
     larger = [{"name": name_of(x), **_reverse(reverse.get(x))} for x in named.larger]
     plain = {"same": named.same, "rivals": rows, "larger": larger}
@@ -134,6 +122,28 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
         if options.json != "-":
             print(f"\nwritten to {options.out}; open {options.out / 'plan.html'}")
     return 0
+
+
+def _plans(
+    named: AnyNamed, effort: Effort, options: argparse.Namespace
+) -> tuple[list[tuple[Plan, Plan | None]], dict[Any, Plan]]:
+    """The selected structure against each rival, and back where the rival cannot be excluded; and
+    each larger structure, with values that the data determine, against the selected one.
+    """
+    plans = list[tuple[Plan, Plan | None]]()
+    with engine_for(options) as (engine, pool, progress):
+        planned = partial(effort.planned, engine=engine, executor=pool)
+        for rival, values in named.rivals.items():
+            progress("rival", len(plans), len(named.rivals))
+            other_plan = planned(named.model, named.values, rival)
+            is_same = other_plan.answer is Answer.SAME and values
+            plans.append((other_plan, planned(rival, values, named.model) if is_same else None))
+        reverse = {
+            structure: planned(structure, values, named.model)
+            for structure, values in named.larger.items()
+            if structure in named.determined and contains(structure, named.model)
+        }
+    return plans, reverse
 
 
 def _reverse(the_plan: Plan | None) -> dict[str, Any]:
@@ -188,7 +198,7 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: Paramete
     is_machine = model.sort is Sort.MACHINE
     response = response.to_quantity(sensor_of(model)) if is_machine else as_impedance(response)
     for note in (*response.notes, *response.suspicions):
-        complain(f"{response.origin or 'data'}: {note}")
+        complain(note)
     response = response.masked(*options.band) if options.band else response
     responses = responses_of(model, values, response.omega)
     if len(responses) > 1:

@@ -24,6 +24,19 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     text = "the structure to exclude (with FIT.json: each that it names)"
     p.add_argument("rival", nargs="?", metavar="M:J|NETWORK", help=text)
     add_notation(p)
+    _data(p)
+    text = (
+        "write figure, spectrum to run, lines and JSON there; of FIT.json a page with those of each"
+        " rival"
+    )
+    p.add_argument("--out", type=written_folder, metavar="DIR", help=text)
+    add_json(p, "the plan")
+    add_damped(p)
+    add_work(p)
+
+
+def _data(p: argparse.ArgumentParser) -> None:
+    """Values of the true structure, and the data to plan for."""
     text = (
         "values of all parameters of the true structure, such as m1=0.01,k12=500; of a circuit they"
         " may stand in braces, such as R{R=20}"
@@ -50,11 +63,3 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         " FRF.csv): the fewer, the less it excludes"
     )
     p.add_argument("--repeats", type=whole(1, 1000), metavar="R", help=text)
-    text = (
-        "write figure, spectrum to run, lines and JSON there; of FIT.json a page with those of each"
-        " rival"
-    )
-    p.add_argument("--out", type=written_folder, metavar="DIR", help=text)
-    add_json(p, "the plan")
-    add_damped(p)
-    add_work(p)

@@ -5,6 +5,8 @@ the mean of a response, by an amount that no single measurement shows: values th
 amplitude that they were measured at. The reader has to know that before any structure.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from disting.measurement.nonlinear import is_even_beyond_noise
@@ -14,6 +16,8 @@ CAUSES = "probably friction, backlash or the steps of an encoder"
 OTHER_CAUSES = f"{CAUSES}; or a machine that changes between the repeats"
 HOLD = "values hold for this amplitude, and may lie outside their intervals"
 LEAST = 1e-4  # share of a response below which its size does not matter
+ONLY = "for this amplitude only"  # beside a value of such data
+NOT_COUNTED = "± counts scatter, not by how much friction or backlash shift a value"
 APART = 1.1  # ratio of levels from which on two measurements have different amplitudes
 
 
@@ -33,7 +37,7 @@ def describe_nonlinearity(response: FrequencyResponse) -> str:
     if response.noise is not None and response.nonlinear is not None:
         noise, level = (float(np.median(x / size)) for x in (response.noise, response.nonlinear))
         causes = OTHER_CAUSES if between is None else CAUSES
-        return f"noise {_percent(noise)}, distortion {_percent(level)} ({causes}): {HOLD}"
+        return held([f"noise {_percent(noise)}, distortion {_percent(level)}"], causes)
     periods = response.method.periods if response.method else 0
     if between is None or not between.told_apart or periods < 2:
         return ""
@@ -41,15 +45,34 @@ def describe_nonlinearity(response: FrequencyResponse) -> str:
         return ""
     at = np.interp(between.omega, response.omega, size)
     level = float(np.median((between.level / at)[between.even]))
-    return f"distortion of even order {_percent(level)} ({CAUSES}): {HOLD}"
+    return held([f"distortion of even order {_percent(level)}"], CAUSES)
 
 
 def describe_jumps(jumps: float, noise: float) -> str:
     """Sentence on lines that jump by more than the periods scatter, medians as shares of |G|."""
-    return (
-        f"noise {_percent(noise)}, neighbouring lines jump by {_percent(jumps)}: an error that"
-        f" repeats with the excitation ({CAUSES}): {HOLD}"
-    )
+    seen = f"noise {_percent(noise)}, neighbouring lines jump by {_percent(jumps)}"
+    return held([seen], CAUSES)
+
+
+def held(seen: Sequence[str], causes: str) -> str:
+    """Sentence on what data show of a machine that is not linear, and on what that means for
+    values.
+
+    >>> held(["noise 3 %, distortion 4 %"], "friction")
+    'noise 3 %, distortion 4 % (friction): values hold for this amplitude, and may lie outside \
+their intervals'
+    """
+    return f"{'; '.join(seen)} ({causes}): {HOLD}"
+
+
+def with_change(sentence: str, seen: str) -> str:
+    """A sentence of `held` with what another measurement shows of the same.
+
+    >>> with_change(held(["noise 3 %"], "friction"), "both records differ by 5 %")[:50]
+    'noise 3 %; both records differ by 5 % (friction): '
+    """
+    first, rest = sentence.split(" (", 1)
+    return f"{first}; {seen} ({rest}"
 
 
 def describe_levels(one: FrequencyResponse, other: FrequencyResponse) -> tuple[str, str] | None:

@@ -155,15 +155,16 @@ class TimeSeries:
             + (self.left_out and f"; {self.left_out}"),
             columns=self.columns,
             loop=the_response.loop if self.reference is None else None,
-            method=the_response.method and self._with_level(the_response.method),
+            method=the_response.method and self._completed(the_response.method),
         )
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold
             response = response.held(held, self.sensor.order)
         return response if sensor is None else response.to_quantity(sensor)
 
-    def _with_level(self, method: Method) -> Method:
-        return replace(method, level=float(np.std(self.u)), unit=self.input.unit)
+    def _completed(self, method: Method) -> Method:
+        sampled = {"rate": self.sampling_rate, "order": self.sensor.order}
+        return replace(method, level=float(np.std(self.u)), unit=self.input.unit, **sampled)
 
     def _by_welch(
         self,

@@ -207,7 +207,8 @@ def test_the_bench_and_its_demonstration_are_explained():
     assert found.explanation.chi2 == pytest.approx(0.860, abs=0.01) and found.explanation.explains
     assert found.explanation.scatter.source == "the difference of training and test data"
     assert any(
-        "the machine changed between them, for example its friction" in s for s in suspicions(found)
+        "training and test data differ by" in s and "values hold for this amplitude" in s
+        for s in suspicions(found)
     )
 
 

@@ -12,12 +12,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from disting.cli.fit_text import fit_text
 from disting.fit.judge.explanation import Level
+from disting.fit.judge.modes import physical
 from disting.fit.search.candidates import reference
 from disting.fit.select import select
 from disting.measurement.repeats import mean_of
 from disting.model.chain import Chain
 from disting.report.fit.selection_json import selection_to_dict
+from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sentences import first_lines
 from tests.fit.friction_drives import TRUTH, Machine, responses, run_of
 
@@ -91,6 +94,23 @@ def test_distortion_is_reported_before_any_structure_and_widens_the_intervals():
     assert any(said in first for said in selection_to_dict(with_it)["suspicions"])
     assert all(abs(z) < FAR for z in errors(with_it, machine).values())
     assert reference(with_it.described.chain) == "2:1+b1" and with_it.explanation.explains
+
+
+def test_values_of_a_machine_that_is_not_linear_are_marked_wherever_they_stand():
+    """Play makes k12 low by more than its interval says: no interval looks sure."""
+    (measured,) = responses([run_of(Machine(2, play=2e-3))])
+    found = select(measured, CANDIDATES[3:4])
+    said = list(fit_text(found, measured))
+    values = [line for line in said if line.startswith(("  m1", "  k12", "  resonance 1  "))]
+    assert len(values) >= 3 and all(line.endswith("*") for line in values)
+    assert any(line.startswith("  * for this amplitude only: ") for line in said)
+    assert selection_to_dict(found)["values_hold"] == "for this amplitude only"
+    page = fit_page(found, physical(found.described, found.task), (), measured)
+    assert "Parameters of the model, for this amplitude only." in page
+    (linear,) = responses([run_of(Machine(2))])
+    found = select(linear, CANDIDATES[3:4])
+    assert "amplitude only" not in "\n".join(fit_text(found, linear))
+    assert selection_to_dict(found)["values_hold"] == ""
 
 
 def test_a_model_with_too_few_masses_is_not_explained_by_distortion():

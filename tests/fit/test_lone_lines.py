@@ -1,5 +1,7 @@
 """Gains that rest on single lines, levels of explanation, and data of too few lines."""
 
+from math import inf
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,8 @@ from disting.fit.judge.explanation import (
     Level,
     chi2_apart,
     largest_cost,
+    largest_miss,
+    level_of,
     needed_lines,
     noise_limit,
 )
@@ -86,9 +90,27 @@ def test_a_gain_over_many_lines_is_shown_by_the_rest():
 def test_two_worst_neighbours_are_left_out_of_chi2():
     omega, residual = np.tile(np.arange(1.0, 11.0), 2), np.ones(20)
     residual[[3, 4, 13, 14]] = 7.0
-    assert chi2_apart(residual, np.ones(20), omega) == 1.0
+    assert chi2_apart(residual, np.ones(20), omega) == (1.0, 1.0)
     residual[8] = 3.0
-    assert chi2_apart(residual, np.ones(20), omega) == pytest.approx((15 + 9) / 16)
+    assert chi2_apart(residual, np.ones(20), omega) == pytest.approx(((15 + 9) / 16, (1 + 9) / 2))
+
+
+def test_a_few_lines_that_are_missed_by_far_do_not_hide_in_the_mean_of_many():
+    """Chi2 per line 1.7, of which nearly all are three lines at one narrow resonance."""
+    n, scatter = 120, Scatter(np.full(120, 0.1), np.ones(120), "repeats", inf)
+    omega, residual = np.tile(np.arange(1.0, n + 1), 2), np.full(2 * n, 0.9)
+    residual[[60, 61, 62]] = 9.0  # the model is too small there by a factor of 1 / (1 - 0.9)
+    power = residual**2
+    apart, worst = chi2_apart(residual, np.ones(2 * n), omega)
+    assert power.mean() < 2 and apart < largest_cost(scatter)
+    assert level_of(power.mean(), apart, worst, scatter) is Level.NOT
+    residual[62] = 0.9  # two neighbouring lines alone may be a disturbance
+    apart, worst = chi2_apart(residual, np.ones(2 * n), omega)
+    assert level_of(1.6, apart, worst, scatter) is Level.APART
+    source = np.random.default_rng(2)
+    noise = source.normal(size=(2_000, n, 2))
+    most = np.max(np.mean(noise**2, axis=2), axis=1) * largest_cost(scatter)
+    assert np.mean(most > largest_miss(scatter)) < 5e-3  # once in 1,000 times
 
 
 def test_noise_alone_rarely_exceeds_its_limit():

@@ -1,5 +1,7 @@
 """A held input against exact discretisation, and fits of digital drives."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -7,16 +9,23 @@ from scipy.linalg import expm
 from disting.cli import main
 from disting.errors import InputError
 from disting.fit import figure_1, predict, select
+from disting.fit.judge.held import held
+from disting.fit.search.cost import Cost
+from disting.fit.search.descent import fine
+from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse, read
 from disting.measurement.hold import Hold
+from disting.measurement.method import Method
 from disting.measurement.observation import Observation
 from disting.model.chain import Chain
+from disting.report.fit.sentences import first_lines
 
 RATE = 4000.0
 OMEGA = 2 * np.pi * np.geomspace(4.0, 400.0, 110)
 VALUES = {"m1": 2e-3, "m2": 5e-3, "k12": 300.0, "d12": 0.02, "b1": 0.01}
 DRIVE = Chain(2, damped=True, ground_dampers=(1,))
+DEAD = {"dead_time": True}
 
 
 def sampled(values, omega, order, delay=0, lag=None, rate=RATE):
@@ -88,6 +97,61 @@ def test_the_actuator_of_a_digital_drive_is_found_through_its_hold(delay, lag, t
         assert values["Td"] == pytest.approx(delay / RATE, rel=0.03)
     bare = select(data, figure_1([2]))
     assert bare.selected.chain != true or bare.explanation.chi2 > 2
+
+
+def recorded(order=1, delay=0, lag=None, noise=7e-4):
+    """The response of a record of 4 kHz of position or speed, held or with a true actuator."""
+    if lag is None:
+        exact = sampled(VALUES, OMEGA, order, delay)
+    else:
+        chain = replace(DRIVE, lag=True, sensor=["position", "velocity"][order])
+        p = np.array([{**VALUES, "T1": lag}[n] for n in chain.parameters])
+        exact = Plant(chain.structure, OMEGA).response(p)
+    parts = np.random.default_rng(7).normal(size=(2, len(OMEGA)))
+    response = exact * (1 + noise * (parts[0] + 1j * parts[1]))
+    sensor = ["position", "velocity"][order]
+    method = Method(1000, 10, rate=RATE, order=order)
+    return FrequencyResponse(OMEGA, response, sensor=sensor, method=method)
+
+
+def near(data, chain, **values):
+    """An estimate of a chain near these values, and its task."""
+    task = Task(Cost(data))
+    p = np.array([{**VALUES, **values}[n] for n in chain.parameters])
+    p, j = fine(task.plant(chain), task.cost, task.box(chain.parameters), p)
+    found = dict(zip(chain.parameters, map(float, p), strict=True))
+    return Estimate(chain, found, j), task
+
+
+@pytest.mark.parametrize("order", [0, 1])
+@pytest.mark.parametrize(("delay", "dead_time"), [(0, 0.0), (1, 2.5e-4)])
+def test_a_hold_that_explains_the_actuator_is_found(order, delay, dead_time):
+    """A dead time of T/2 and 3 T/2, which is none and T behind the hold."""
+    chain = replace(DRIVE, sensor=["position", "velocity"][order], **DEAD)
+    data = recorded(order, delay)
+    estimate, task = near(data, chain, Td=1e-4)
+    assert estimate.parameters["Td"] == pytest.approx((delay + 0.5) / RATE, rel=0.02)
+    found = held(estimate, task)
+    assert found.period == 1 / RATE and found.is_better
+    assert found.chain == replace(chain, dead_time=delay > 0)
+    assert found.dead_time == pytest.approx(dead_time, rel=0.02)
+    for other in (data.held(1 / RATE, order), replace(data, method=None)):
+        assert held(estimate, Task(Cost(other))) is None
+
+
+def test_no_hold_is_found_for_a_lag_that_is_none():
+    chain = replace(DRIVE, sensor="velocity", lag=True)
+    assert held(*near(recorded(lag=1.6e-3), chain, T1=1e-3)) is None
+
+
+def test_the_third_line_suggests_the_hold():
+    data = recorded(noise=7e-3)
+    (line,) = (
+        said
+        for said in first_lines(select(data, [replace(DRIVE, sensor="velocity", **DEAD)]))
+        if said.startswith("next: ")
+    )
+    assert "for the 0.00025 s between samples, give --hold record: so 2:1+b1 fits" in line
 
 
 def test_hold_and_welch_are_seen_together():

@@ -53,8 +53,9 @@ class Candidate:
     """A fitted candidate; `reasons` say which of its parameters are not determined, `residual` is
     that on the test data, shape (n_y,), whitened, and `missed` what it is expected to be.
 
-    `chi2` per line, and `chi2_apart` without the lines missed most, see `explain`; `noise` =
-    covariance of the residuals on the training data, from which all standard errors follow;
+    `chi2` per line, and `chi2_apart` and `worst_apart` without the lines missed most, see
+    `explain`; `noise` = covariance of the residuals on the training data, from which all standard
+    errors follow;
     `excluded`: by which other candidate, if by any; `rests_on`: single lines on which its gain over
     a structure that it contains rests, if it does.
     """
@@ -73,6 +74,7 @@ class Candidate:
     excluded: Exclusion | None = None
     rests_on: LoneLines | None = None
     chi2_apart: float = inf
+    worst_apart: float = inf
 
     def __repr__(self) -> str:
         excluded = f", excluded by {reference(self.excluded.by)}" if self.excluded else ""
@@ -98,7 +100,7 @@ class Candidate:
 
     def explains(self, seen: Scatter) -> bool:
         """True if it explains the judged data, which scatter so, perhaps apart from something."""
-        return level_of(self.chi2, self.chi2_apart, seen) is not Level.NOT
+        return level_of(self.chi2, self.chi2_apart, self.worst_apart, seen) is not Level.NOT
 
     @property
     def order(self) -> tuple[float, int]:
@@ -218,6 +220,7 @@ def _candidate(
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
     missed = _expected(estimate, task, test, *own_scatters)
     whitened = WhitenedCost(cost, own_scatters[1]).residual(response)
+    apart, worst = chi2_apart(whitened, missed, line_frequencies(cost))
     return Candidate(
         chain,
         estimate,
@@ -228,7 +231,8 @@ def _candidate(
         whitened,
         missed,
         noise,
-        chi2_apart=chi2_apart(whitened, missed, line_frequencies(cost)),
+        chi2_apart=apart,
+        worst_apart=worst,
     )
 
 

@@ -13,7 +13,9 @@ is 1 for the true model and independent of what other candidates do. There are t
 - it explains them apart from something where chi2 is larger, but at most `LARGEST` (more where the
   scatter is known from little) without the two neighbouring lines that it misses most. Machines do
   a little that no chain does, and a bench may disturb single lines: a misfit of one line is no more
-  a proof against a structure than a gain at one line is one for another (`lone_lines`);
+  a proof against a structure than a gain at one line is one for another (`lone_lines`). Nor may any
+  other line be missed by more than noise of that chi2 gives at one of n lines once in 1,000 times:
+  a few lines that are missed by far hide in the mean of many;
 - else it does not explain them, and none does where the data are mostly noise: less than
   `FEW_CLEAR` of the lines scatter by less than 20 %.
 
@@ -104,7 +106,8 @@ class Explanation:
     """What the residuals of a candidate say of it: chi2 per line, correlation of neighbouring
     lines, what it misses where; `clear`: share of the lines that carry information in that one of
     several responses that has most; `chi2_apart`: without the two neighbouring lines that it misses
-    most; `lines` of the data, and `needed` ones.
+    most; `worst_apart`: that of the line which it misses most beside these; `lines` of the data,
+    and `needed` ones.
     """
 
     chi2: float
@@ -113,6 +116,7 @@ class Explanation:
     misses: tuple[Miss, ...]
     clear: float | None = None
     chi2_apart: float = inf
+    worst_apart: float = inf
     lines: int = 0
     needed: int = 0
 
@@ -125,7 +129,7 @@ class Explanation:
         """How far the candidate explains the data."""
         if self.noisy or self.too_few:
             return Level.NOT
-        return level_of(self.chi2, self.chi2_apart, self.scatter)
+        return level_of(self.chi2, self.chi2_apart, self.worst_apart, self.scatter)
 
     @property
     def explains(self) -> bool:
@@ -143,13 +147,14 @@ class Explanation:
         return (self.scatter.clear if self.clear is None else self.clear) < FEW_CLEAR
 
 
-def level_of(whole: float, apart: float, own_scatter: Scatter) -> Level:
-    """How far a structure explains data of this scatter: by its chi2 per line and by that without
-    the two neighbouring lines that it misses most.
+def level_of(whole: float, apart: float, worst: float, own_scatter: Scatter) -> Level:
+    """How far a structure explains data of this scatter: by its chi2 per line, by that without the
+    two neighbouring lines that it misses most, and by that of the worst line beside these.
     """
     if whole <= noise_limit(own_scatter):
         return Level.EXPLAINS
-    return Level.APART if apart <= largest_cost(own_scatter) else Level.NOT
+    near = apart <= largest_cost(own_scatter) and worst <= largest_miss(own_scatter)
+    return Level.APART if near else Level.NOT
 
 
 def noise_limit(own_scatter: Scatter) -> float:
@@ -162,8 +167,17 @@ def largest_cost(own_scatter: Scatter) -> float:
     return max(LARGEST, _critical(LEVEL, own_scatter))
 
 
-def _critical(level: float, own_scatter: Scatter) -> float:
-    count = 2 * len(own_scatter.rho)
+def largest_miss(own_scatter: Scatter) -> float:
+    """Largest chi2 of one line, beside the two that are missed most, of a model that explains data
+    of this scatter apart from something.
+    """
+    lines = len(own_scatter.rho)
+    return largest_cost(own_scatter) * _critical(CHANCE / lines, own_scatter, count=2)
+
+
+def _critical(level: float, own_scatter: Scatter, count: int = 0) -> float:
+    """Mean square of `count` residuals, of all where it is 0, that noise exceeds so rarely."""
+    count = count or 2 * len(own_scatter.rho)
     if isfinite(own_scatter.freedom):
         return float(f_distribution.isf(level, count, own_scatter.freedom))
     return float(chi2_distribution.isf(level, count)) / count
@@ -186,21 +200,21 @@ def chi2(residual: Real, missed: Real) -> float:
     return float(np.mean((residual[used] / missed[used]) ** 2)) if used.any() else 0.0
 
 
-def chi2_apart(residual: Real, missed: Real, omega: Real) -> float:
-    """chi2 per line of residuals without the two neighbouring lines that are missed most; `omega`:
-    frequency of each residual, shape (n_y,).
+def chi2_apart(residual: Real, missed: Real, omega: Real) -> tuple[float, float]:
+    """chi2 per line of residuals without the two neighbouring lines that are missed most, and that
+    of the worst line beside these; `omega`: frequency of each residual, shape (n_y,).
     """
     used = missed > 0
     if not used.any():
-        return 0.0
+        return 0.0, 0.0
     power = (residual[used] / missed[used]) ** 2
     lines, at = np.unique(omega[used], return_inverse=True)
     if len(lines) < 3:
-        return float(power.mean())
+        return float(power.mean()), float(power.max())
     size, count = np.bincount(at, power), np.bincount(at)
     worst = int(np.argmax(size[:-1] + size[1:]))
     rest = np.delete(np.arange(len(lines)), [worst, worst + 1])
-    return float(size[rest].sum() / count[rest].sum())
+    return float(size[rest].sum() / count[rest].sum()), float((size / count)[rest].max())
 
 
 def line_frequencies(cost: AnyCost) -> Real:
@@ -212,12 +226,14 @@ def explanation(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) 
     """What whitened residuals, shape (n_y,), of data with this scatter say; `missed` = their
     expected sizes.
     """
+    apart, worst = chi2_apart(residual, missed, line_frequencies(cost))
     return Explanation(
         chi2(residual, missed),
         own_scatter,
         correlation(residual),
         _misses(residual, missed, cost, own_scatter),
-        chi2_apart=chi2_apart(residual, missed, line_frequencies(cost)),
+        chi2_apart=apart,
+        worst_apart=worst,
         lines=len(cost.measured),
     )
 
@@ -351,13 +367,15 @@ def explain(cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter) -
     misses.sort(key=lambda miss: -miss.share)
     largest = correlations(cost, residual)
     clearest = max(this_explanation.scatter.clear for this_explanation in each)
+    apart, worst = chi2_apart(residual, missed, line_frequencies(cost))
     return Explanation(
         chi2(residual, missed),
         own_scatter,
         largest,
         tuple(misses[:RANGES]),
         clear=clearest,
-        chi2_apart=chi2_apart(residual, missed, line_frequencies(cost)),
+        chi2_apart=apart,
+        worst_apart=worst,
         lines=sum(one.lines for one in each),
     )
 

@@ -117,6 +117,7 @@ def _from_limit(
         j_test=contained.j_test,
         chi2=contained.chi2,
         chi2_apart=contained.chi2_apart,
+        worst_apart=contained.worst_apart,
         residual=contained.residual,
         missed=contained.missed,
     )

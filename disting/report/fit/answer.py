@@ -24,6 +24,7 @@ from disting.fit.results.selection import Selection
 from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
+from disting.report.fit.doubts import hold
 from disting.report.fit.links import Link, Site, Step, step_to, steps_of
 from disting.report.fit.mechanics_words import actuators_in_words, headline
 from disting.report.fit.responses import drawing, with_all_sensors
@@ -243,7 +244,8 @@ def _third(selection: Selection, results: Sequence[ParameterRow]) -> KeyFigure:
     """The first resonance; of a model without one how far a line scatters."""
     for row in results:
         if row.name.startswith("resonance"):
-            return KeyFigure(row.name, f"{row.value} {row.unit}", "value ± standard error")
+            only = hold(selection) and f", {hold(selection)}"
+            return KeyFigure(row.name, f"{row.value} {row.unit}", f"value ± standard error{only}")
     scatter = selection.explanation.scatter
     return KeyFigure("scatter", percent(scatter.typical), f"of a line, known from {scatter.source}")
 

@@ -18,11 +18,20 @@ from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
-from disting.measurement.linearity import describe_jumps, describe_levels, describe_nonlinearity
+from disting.measurement.linearity import (
+    ONLY,
+    describe_jumps,
+    describe_levels,
+    describe_nonlinearity,
+    held,
+    with_change,
+)
 
 FEWEST = 8  # lines of a fit
 SMOOTHED = 5  # lines over which the scatter is looked at
 MOST_CLEAR = 0.7  # share of the lines that carry information, above which no band is proposed
+LINEAR = "the machine is not linear: friction, backlash"  # why two measurements differ
+CHANGED = "the machine changed between them, for example its friction with the amplitude"
 HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
 
 
@@ -126,9 +135,35 @@ def differing_parameters(both: tuple[Disagreement, ...]) -> str:
     )
 
 
-def nonlinearity(selection: Selection) -> Iterator[str]:
-    """Distortion of each response: what its lines or its repeats show, else lines that jump by
-    more than they scatter.
+def amplitude(selection: Selection) -> tuple[str, ...]:
+    """What shows that values hold for this amplitude only, one sentence for each response:
+    distortion of its own, and the difference to another measurement of it. Empty where the machine
+    is linear as far as the data show.
+    """
+    own, changes = list(_nonlinearity(selection)), list(_machine_change(selection))
+    if len(own) == len(changes) == 1:
+        of, sentence = own[0]
+        seen, cause = changes[0]
+        both = with_change(sentence, f"{seen}{': the machine is not linear' * (cause == LINEAR)}")
+        return (f"{of}{both}",)
+    return (*(f"{of}{sentence}" for of, sentence in own), *(held([s], c) for s, c in changes))
+
+
+def distorts(selection: Selection) -> bool:
+    """Return True if a response by itself shows that the machine is not linear."""
+    return any(True for _ in _nonlinearity(selection))
+
+
+def hold(selection: Selection) -> str:
+    """What to say beside values and intervals; empty where they hold for any amplitude, as far as
+    the data show.
+    """
+    return ONLY if not selection.question and amplitude(selection) else ""
+
+
+def _nonlinearity(selection: Selection) -> Iterator[tuple[str, str]]:
+    """Distortion of each response, which it is and a sentence: what its lines or its repeats show,
+    else lines that jump by more than they scatter.
     """
     for k, (part, of) in enumerate(
         zip(selection.task.cost.parts, _of_each(selection.task.cost), strict=True)
@@ -142,12 +177,12 @@ def nonlinearity(selection: Selection) -> Iterator[str]:
             noise = float(np.median(own.noise / np.abs(own.G)))
             sentence = describe_jumps(float(np.sqrt(2)) * seen.typical, noise)
         if sentence:
-            yield f"{of[4:]}: {sentence}" if of else sentence
+            yield f"{of[4:]}: " if of else "", sentence
 
 
-def machine_change(selection: Selection) -> Iterator[str]:
-    """A machine that is not the same in two measurements: where their excitations are known to
-    differ, one that is not linear.
+def _machine_change(selection: Selection) -> Iterator[tuple[str, str]]:
+    """A machine that is not the same in two measurements, and why: where their excitations are
+    known to differ, it is not linear.
     """
     for one, other, at, names in _measured_twice(selection):
         fitted = [
@@ -156,17 +191,12 @@ def machine_change(selection: Selection) -> Iterator[str]:
         scatters = [scatter(d, [own]) for d, own in zip((one, other), fitted, strict=True)]
         tau, levels = change(one, other, *scatters), describe_levels(one, other)
         own = max(this_scatter.typical for this_scatter in scatters)
-        if tau and levels:
+        if tau:
+            at_levels = f" at {levels[0]} and {levels[1]} (input, rms)" if levels else ""
             yield (
-                f"{names} at {levels[0]} and {levels[1]} (input, rms) differ by {100 * tau:.2g} % a"
-                f" line beyond their scatter of {100 * own:.2g} %: the machine is not linear"
-                " (friction, backlash); each set of values holds for its own amplitude"
-            )
-        elif tau:
-            yield (
-                f"{names} differ by {100 * tau:.2g} % a line beyond their scatter of"
-                f" {100 * own:.2g} %: the machine changed between them, for example its friction"
-                " with the amplitude"
+                f"{names}{at_levels} differ by {100 * tau:.2g} % a line beyond their scatter of"
+                f" {100 * own:.2g} %",
+                LINEAR if levels else CHANGED,
             )
 
 

@@ -126,9 +126,8 @@ def _sentence(x: LookAlike) -> str:
     if x.kind is not LookAlikeKind.BRANCH:
         what += f" ({RELATIVE})"
     reduced = "" if x.kind is LookAlikeKind.BRANCH else f"; {REDUCED}"
-    near = f" within the scatter of this data (they differ by up to {percent(x.apart)})" * bool(
-        x.apart
-    )
+    differ = f"they differ by up to {percent(x.apart)}"
+    near = f" within the scatter of this data ({differ})" if x.apart else ""
     return f"{what} has the same responses{near}{reduced}{_values(x.kind, x.values)}"
 
 

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 from disting.fit.results.selection import Selection
 from disting.report.fit.doubts import (
+    amplitude,
     closed_loops,
+    distorts,
     doubtful_deviations,
-    machine_change,
-    nonlinearity,
     same_data_twice,
 )
 from disting.report.fit.words import percent
@@ -19,15 +19,15 @@ def quality_line(selection: Selection) -> str:
     """
     scatter = selection.explanation.scatter
     noise = f"noise {percent(scatter.typical)} (from {scatter.source})"
-    size = "; ".join(nonlinearity(selection)) or noise
-    return "; ".join([f"{_lines(selection)}, {size}", *quality_remarks(selection)])
+    said = [*([] if distorts(selection) else [noise]), *quality_remarks(selection)]
+    return f"{_lines(selection)}, {'; '.join(said)}"
 
 
 def quality_remarks(selection: Selection) -> Iterator[str]:
     """Yield what is wrong with the data, as far as it changes the use of the values."""
+    yield from amplitude(selection)
     yield from closed_loops(selection)
     yield from same_data_twice(selection)
-    yield from machine_change(selection)
     yield from doubtful_deviations(selection)
 
 

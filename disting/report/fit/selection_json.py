@@ -18,6 +18,7 @@ from disting.fit.search.candidates import listed_form, reference
 from disting.measurement import FrequencyResponse
 from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain
+from disting.report.fit.doubts import hold
 from disting.report.fit.look_alikes import look_alikes_to_dict
 from disting.report.fit.quality import quality_remarks
 from disting.report.fit.sentences import first_lines, places, suspicions
@@ -48,6 +49,7 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
         "status": _status(selection),
         "answer": list(first_lines(selection)),
         "remarks": list(quality_remarks(selection)),
+        "values_hold": hold(selection),
         "mechanics": _mechanics_to_dict(fold(selection.members)) if selection.members else None,
         "question": selection.question,
         "quantities": [_quantity_to_dict(reading) for reading in selection.quantities],

@@ -23,6 +23,7 @@ from disting.report.fit.answer import (
 )
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
+from disting.report.fit.doubts import hold
 from disting.report.fit.links import Site, next_steps
 from disting.report.fit.look_alikes import look_alike_sentences
 from disting.report.fit.responses import drawing, shown_responses, with_all_sensors
@@ -114,6 +115,7 @@ def fit_page(
         choices=choices(selection),
         first_lines=first_lines(selection),
         suspicions=suspicions(selection),
+        only=hold(selection) and f", {hold(selection)}",
         steps=next_steps(selection),
         members=members,
         lines=list_lines(members),

@@ -7,11 +7,13 @@ Structures are named as the commands read them, such as 2:1+b2+delay.
 from collections.abc import Iterator, Sequence
 
 from disting.fit.judge.explanation import BESIDE, Explanation, Level, noise_limit
+from disting.fit.judge.held import held
 from disting.fit.judge.mechanics import actuator, fold, mechanics
 from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
 from disting.report.fit.doubts import (
+    amplitude,
     bad,
     better,
     clear_band,
@@ -19,15 +21,17 @@ from disting.report.fit.doubts import (
     correlated_residuals,
     differing_parameters,
     doubtful_deviations,
-    machine_change,
-    nonlinearity,
     same_data_twice,
     suspicious_data,
     unseen,
     weak,
 )
 from disting.report.fit.look_alikes import look_alike_clause
-from disting.report.fit.mechanics_words import actuators_in_words, fold_names, structure_in_words
+from disting.report.fit.mechanics_words import (
+    actuators_in_words,
+    fold_names,
+    structure_in_words,
+)
 from disting.report.fit.quality import quality_line
 
 FEW = 8  # names in one line
@@ -44,7 +48,8 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
     explains = selection.explanation.explains
     structure = _structure(selection) if explains else _missed(selection)
     more = _to_decide(selection) if explains else _unexplained(selection)
-    return (data, f"structure: {'; '.join(structure)}", f"next: {'; '.join(more)}")
+    following = "; ".join([*held_input(selection), *more])
+    return (data, f"structure: {'; '.join(structure)}", f"next: {following}")
 
 
 def suspicions(selection: Selection) -> tuple[str, ...]:
@@ -53,11 +58,10 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
     """
     if selection.question:
         cost = selection.task.cost
-        first = (*nonlinearity(selection), selection.question)
+        first = (*amplitude(selection), selection.question)
         return (*first, *same_data_twice(selection), *suspicious_data(cost))
     said = [
-        *nonlinearity(selection),
-        *machine_change(selection),
+        *amplitude(selection),
         *_other_quantities(selection),
         *(
             []
@@ -267,6 +271,21 @@ def _differing(selection: Selection) -> Iterator[str]:
         yield f"{name} at {hertz:.3g} Hz (by {100 * size:.2g} %)"
     if len(shown) > NEAREST:
         yield f"{len(shown) - NEAREST} more"
+
+
+def held_input(selection: Selection) -> Iterator[str]:
+    """That a record's input may have been held, where this explains the actuator as well."""
+    of, chain = selection.described, selection.described.chain
+    found = held(of.estimate, selection.task)
+    if found is None:
+        return
+    name, own = reference(found.chain), reference(chain)
+    how = "better than" if found.is_better else "as well as"
+    adds = f" with a dead time of {found.dead_time:.2g} s" if found.dead_time else ""
+    yield (
+        f"if the drive holds its input for the {found.period:.3g} s between samples, give --hold"
+        f" record: so {name}{adds} fits this data {how} {own} does without it"
+    )
 
 
 def lone(selection: Selection) -> Iterator[str]:
