@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.full
+
 GENERAL = """
 from disting import Model, Query, View, compare
 
