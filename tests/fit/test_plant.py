@@ -12,6 +12,7 @@ from disting.model.chain import Chain, Sensor
 from tests.fit.drives import CHAINS, OMEGA, dense_response, response, truth
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 @settings(max_examples=30)
 @given(seed=st.integers(0, 10**6))
