@@ -223,6 +223,7 @@ def test_damped_base_of_as_many_masses_is_no_duplicate_and_an_undamped_one_is():
         assert first[base] == (base if damped else chain)
 
 
+@pytest.mark.full
 def test_base_refuses_what_it_is_not_for():
     words = [sys.executable, "-m", "disting", "fit", "--demo", "--base", "--gap", "1"]
     done = subprocess.run(words, capture_output=True, text=True)

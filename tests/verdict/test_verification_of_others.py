@@ -125,6 +125,7 @@ def test_what_was_decided_holds_from_its_file_alone(name: str) -> None:
     assert verify(told(name)).sentence == "holds"
 
 
+@pytest.mark.full
 def test_every_kind_of_evidence_is_among_the_cases() -> None:
     kinds = {told(name)["evidence"]["kind"] for name in CASES}
     assert kinds >= {"counts", "forms", "ranks", "renaming", "free-choice", "constants"}
