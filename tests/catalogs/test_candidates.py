@@ -70,6 +70,7 @@ def test_a_part_of_the_matrix_is_as_computed_now():
                 assert column(found, left, right) == column(known, right, left)
 
 
+@pytest.mark.full
 def test_as_compare_says():
     engine, known, random = Engine(), stored.shipped_matrix(), Random(1)
     for _ in range(60):

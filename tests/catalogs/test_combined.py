@@ -47,6 +47,7 @@ def test_forty_four_models_of_one_to_four_masses():
     assert len(combined_family((4, 2, 1, 3, 3), damped=False)) == 44
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_models_of_different_sizes_are_distinguishable_by_their_degrees(damped):
     """All pairs of 1 to 4 masses: by condition 1, and by 2 where equally many coefficients are

@@ -66,6 +66,7 @@ def test_all_models_and_pairs_are_there(n, damped):
     assert sum(found.found.counts().values()) == MODELS[n] * (MODELS[n] - 1) // 2
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_three_masses_are_current_to_the_byte(damped):
     assert text_of(damper_family(3, damped=damped), Settings()) == shipped_text(3, damped)
@@ -81,6 +82,7 @@ def test_larger_families_are_current_to_the_byte(n, damped):
         )
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), ALL)
 def test_without_dampers_as_the_shipped_catalogue_says(n, damped):
     found, plain = damper_catalog(n, damped=damped), catalog(n, damped=damped)
@@ -88,6 +90,7 @@ def test_without_dampers_as_the_shipped_catalogue_says(n, damped):
         assert found.look_up((left, ()), (right, ()))[0] in (verdict.relation, OPEN)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [3, 4])
 def test_at_random_as_compare_says(n):
     found, random = damper_catalog(n, damped=True), Random(n)
@@ -103,6 +106,7 @@ def test_at_random_as_compare_says(n):
             )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n", "damped"), ALL)
 def test_what_the_exact_decision_settled_at_random_as_one_fibre_says(n, damped):
     """Pairs of one bucket, asked anew: distinguishable ones have an empty fibre, or a rank of
@@ -194,6 +198,7 @@ def test_models_that_are_not_there_are_refused():
         damper_catalog(5, damped=False).look_up((74, ()), (1, ()))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_file_is_verified_and_a_changed_one_is_found_out(damped, tmp_path):
     name = f"{damper_name(3, damped)}.jsonl"
@@ -219,6 +224,7 @@ def one_of_each(known):
     return {found.evidence.kind: (found, *pair) for pair, found in by_cost}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("damped", "kinds"), [(True, {"shared"}), (False, {"shared", "solved", "refuted"})]
 )
@@ -286,6 +292,7 @@ def test_a_settled_pair_that_something_else_contradicts_is_refused():
         classes(same, Engine(), settled={pair: Finding(EXACT, Outcome.FAILS)})
 
 
+@pytest.mark.full
 def test_what_is_settled_and_what_contradicts_the_file_is_said_by_the_names_of_the_models(tmp_path):
     family, sets = Family(4, damped=True), ((1,),)
     chains = [replace(chain, ground_dampers=(1,)) for chain in family]

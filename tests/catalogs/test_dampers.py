@@ -71,6 +71,7 @@ FIG_14 = {
 }
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("domain", [Domain.POSITIVE, Domain.COMPLEX])
 @pytest.mark.parametrize("number", [3, 6, 8])
 def test_as_compare_says(number, domain):
@@ -113,6 +114,7 @@ def has_equivalent(given, other):
     return basis.exprs != [1]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("sensor", [1, 2])
 def test_against_sympy(sensor):
     found = dampers(

@@ -37,6 +37,7 @@ from tests.oracles.twins import STARTS, twin
 QUICK = ("circuits-4", "compartments-2")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "name",
     [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in sorted({*SHIPPED} - {*QUICK}))],
@@ -45,6 +46,7 @@ def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine()) == []
 
 
+@pytest.mark.full
 def test_a_theorem_stays_beside_what_a_search_found():
     """What a renaming proves over complex values it proves over positive ones: so says a comparison
     of the two alone, and so say the files, made in whatever order.
@@ -122,6 +124,7 @@ def searched(request):
     return request.param, sides, records[header["models"] :]
 
 
+@pytest.mark.full
 def test_a_large_family_is_searched_in_brief(searched):
     name, _, pairs = searched
     open_ = [r for r in pairs if r["positive"]["relation"] == "undecided"]
@@ -129,6 +132,7 @@ def test_a_large_family_is_searched_in_brief(searched):
     assert all(WAS_BRIEF in r["finding"].note for r in open_)
 
 
+@pytest.mark.full
 def test_pairs_of_a_large_family_are_found_again(searched):
     """Some that were asked about: parts of the networks do not tell them."""
     name, sides, pairs = searched
@@ -141,6 +145,7 @@ def test_pairs_of_a_large_family_are_found_again(searched):
         assert engine.answer(searched_by, models, engine.settings) == r["finding"]
 
 
+@pytest.mark.full
 def test_what_pairs_have_from_others_is_true_of_them(searched):
     """That networks which give the same do so, by twins in plain numbers, and all evidence of some."""
     name, sides, pairs = searched
@@ -172,6 +177,7 @@ def test_what_a_theorem_tells_is_written_beside_an_open_search():
     assert record["finding"][1] == "abandoned"
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", ["circuits-4", "machines-3-damped"])
 def test_what_can_be_determined_is_taken_over(name):
     """Networks of 15 values take minutes: nothing of them is computed again."""
@@ -183,6 +189,7 @@ def test_what_can_be_determined_is_taken_over(name):
         assert engine.answers[key].to_dict() == record["identifiability"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("group", "kinds"), [(6, {"of-part", "witnesses"}), (9, {"explicit"})])
 def test_some_of_a_large_family_alone_get_what_the_whole_gets(group, kinds):
     """Eight networks of a class: other ones are searched then, and what is found is the same."""
@@ -210,6 +217,7 @@ def test_some_of_a_large_family_alone_get_what_the_whole_gets(group, kinds):
 FAMILY_TEXTS = ("#~1, 1~2; F1; S1",)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("text", [*FAMILY_TEXTS, "#~2, 2~1; F2; S2"])
 def test_a_network_of_a_family_in_any_numbers_is_looked_up(text):
     given, engine = of_network(network_of(text)), Engine()
@@ -264,6 +272,7 @@ def first_witnesses(lines):
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("digits", "told"), [("{:.5g}", False), ("{:.1e}", True), ("", True)])
 def test_digits_of_an_equivalent_are_checked_by_themselves(digits, told, tmp_path):
     """Where it lies on a curve a search in rounded numbers ends at others on another processor."""
@@ -310,6 +319,7 @@ def test_a_damaged_file_is_refused(damage, tmp_path):
         recall("circuits-4", Engine(), tmp_path)
 
 
+@pytest.mark.full
 def test_commands(tmp_path, capsys):
     assert main(["catalog", "families", "compartments-2", "--out", str(tmp_path)]) == 0
     assert main(["catalog", "verify", "compartments-2", "--catalog", str(tmp_path)]) == 0

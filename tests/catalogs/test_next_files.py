@@ -27,6 +27,7 @@ FAMILIES = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
 DAMPED_OR_NOT = pytest.mark.parametrize("damped", [False, True])
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
 def test_every_group_of_every_catalogue_is_there(n, damped):
     stored, found = catalog(n, damped=damped), next_catalog(n, damped=damped)
@@ -36,6 +37,7 @@ def test_every_group_of_every_catalogue_is_there(n, damped):
         assert whole is not None and whole.structures == tuple(stored.family[m] for m in members)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_shipped_bytes_are_what_is_computed(damped):
     assert verify_next(catalog(3, damped=damped), shipped_folder(), Engine()) == []

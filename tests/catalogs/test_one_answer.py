@@ -62,6 +62,7 @@ def by_compare(shipped, pairs, **query) -> dict[tuple[int, int], Answer]:
     }
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n", "damped"), SMALL[:4])
 def test_by_default_every_door_gives_the_same_answer_over_positive_parameters(n, damped):
     assert_one_answer(n, damped)
@@ -83,6 +84,7 @@ def assert_one_answer(n, damped):
     assert by_page(shipped, "positive") == stored
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(("n", "damped"), SMALL[:4])
 def test_and_over_complex_ones(n, damped):
     shipped = catalog(n, damped=damped)
@@ -94,6 +96,7 @@ def test_and_over_complex_ones(n, damped):
     assert by_page(shipped, "exact") == stored
 
 
+@pytest.mark.full
 def test_four_masses_at_some_pairs():
     """With the pair that depends on the values."""
     shipped = catalog(4, damped=False)
@@ -116,6 +119,7 @@ def test_five_masses_at_some_pairs(damped):
     }
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("n", "damped", "sometimes"),
     [(3, False, 0), (4, False, 1), (4, True, 0), (5, False, 13), (5, True, 0)],
@@ -133,6 +137,7 @@ def test_what_depends_on_the_values_is_in_no_group_for_that(n, damped, sometimes
         assert any({low, high} <= set(group) for group in shipped.classes(View.EXACT))
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(("n", "damped"), [*SMALL, (5, False), (5, True)])
 def test_groups_over_positive_parameters_hold_every_indistinguishable_pair_and_no_other(n, damped):
     shipped = catalog(n, damped=damped)

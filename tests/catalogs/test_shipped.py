@@ -23,11 +23,13 @@ def stored_text(n, damped):
     return (shipped_folder() / f"{name_of(n, damped)}.jsonl").read_text(encoding="utf-8")
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), SMALL + LARGE)
 def test_rebuilding_gives_the_same_bytes(n, damped):
     assert lines(list(build(n, damped=damped, engine=Engine()).records)) == stored_text(n, damped)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), SMALL + LARGE)
 def test_every_shipped_evidence_holds(n, damped):
     assert list(false_evidence(catalog(n, damped=damped))) == []
@@ -41,6 +43,7 @@ SAMPLES = {
 }
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n", "damped"), SAMPLES)
 def test_some_pairs_are_decided_again_with_the_same_evidence(n, damped):
     """Pairs of every rule and relation, in all views."""
@@ -61,6 +64,7 @@ def test_provenance_names_the_digest_of_every_file():
     assert len(stored["files"]) == 41
 
 
+@pytest.mark.full
 def test_verify_finds_one_altered_evidence(tmp_path):
     shutil.copytree(shipped_folder(), tmp_path, dirs_exist_ok=True)
     (tmp_path / PROVENANCE).unlink()  # it would refuse the file at once
@@ -176,6 +180,7 @@ def test_writing_leaves_no_partial_files(tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted(p.name for p in paths)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("n", "damped", "left_open"),
     [(2, True, 0), (3, True, 0), (4, False, 0), (4, True, 0), (5, False, 0), (5, True, 0)],

@@ -62,6 +62,7 @@ def test_small_sizes_are_as_computed_now(both: dict[bool, SizesCatalog], damped:
         assert stored.closure is computed.inclusion(i, j, Sense.CLOSURE)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("damped", "count"), [(False, 8), (True, 4)])
 def test_large_sizes_are_as_compare_says(
     both: dict[bool, SizesCatalog], damped: bool, count: int
@@ -116,6 +117,7 @@ def test_the_counts_of_one_to_four_masses(both: dict[bool, SizesCatalog], damped
     assert told.count(Inclusion.NEITHER) == 482 - inside
 
 
+@pytest.mark.thin(1)
 @DAMPINGS
 def test_groups_are_those_of_each_size(both: dict[bool, SizesCatalog], damped: bool) -> None:
     found, view = both[damped], View.POSITIVE

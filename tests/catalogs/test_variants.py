@@ -30,6 +30,7 @@ SIZE = {1: 1, 2: 3, 3: 11, 4: 29, 5: 73}
 
 # Printed, for 3 masses: "the first-order hold model leads to augmented models that are
 # distinguishable from the original models in all eleven cases".
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
 def test_a_lag_is_always_distinguishable_from_none(n, damped):
     found = with_and_without_lag(Family(n, damped), ENGINE)
@@ -58,6 +59,7 @@ def test_lagged_against_original_damped_ones_by_condition():
     }
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
 def test_a_dead_time_is_told_from_none_by_a_theorem(n, damped):
     found = with_and_without_dead_time(Family(n, damped), ENGINE)

@@ -32,6 +32,7 @@ def test_an_impedance_is_simulated_and_fitted(tmp_path):
     assert done.returncode == 0 and "R0-p(R1,C1) is the simplest" in done.stdout
 
 
+@pytest.mark.full
 def test_what_is_mostly_inductive_is_not_turned(tmp_path):
     path = tmp_path / "coil.csv"
     called("simulate", "R1-L1", "--set", "R1=1,L1=0.1", "--output-noise", "1e-4", "--csv", path)
@@ -40,6 +41,7 @@ def test_what_is_mostly_inductive_is_not_turned(tmp_path):
     assert "-Im" not in done.stderr
 
 
+@pytest.mark.full
 def test_all_sensors_are_simulated_and_fitted(tmp_path):
     """One file for each sensor; a fit of an undamped machine to them begins anywhere."""
     two, values = "1~2~3; F1; S1 S3", "m1=0.01,m2=0.012,m3=0.006,k12=500,k23=900"
@@ -86,6 +88,7 @@ def test_networks_of_a_file_are_named_by_file_and_name(tmp_path):
     assert done.returncode == 2 and "3:1 is a numbered chain" in done.stderr
 
 
+@pytest.mark.full
 def test_a_tree_is_simulated_with_friction():
     done = called("simulate", TREE, "--set", VALUES, "--samples", "500", "--friction", "3=0.01")
     assert done.returncode == 0 and "# sensor: acceleration" in done.stdout
@@ -93,6 +96,7 @@ def test_a_tree_is_simulated_with_friction():
     assert other.stdout != done.stdout
 
 
+@pytest.mark.full
 def test_a_plan_says_how_much_noise_may_be_there():
     """By hand: R1 in series to C1 against R1 alone differ by 1/(j w C1); its best fit is a real
     number, so that of two lines the sum of squares is known.
@@ -114,6 +118,7 @@ def test_a_plan_says_how_much_noise_may_be_there():
         assert np.sum(other**2) > np.sum(apart**2)
 
 
+@pytest.mark.full
 def test_a_plan_writes_what_simulate_runs(tmp_path):
     done = called(
         "plan",
@@ -143,6 +148,7 @@ def test_same_networks_are_impossible_to_tell_apart_and_next_is_named():
     assert "disting next 'R0-p(R1,C1)' 'p(R0,R1-C1)'" in done.stdout.splitlines()[0]
 
 
+@pytest.mark.full
 def test_a_network_that_contains_the_true_one_is_never_excluded():
     done = called(
         "plan",
@@ -176,6 +182,7 @@ def fit_file(tmp_path_factory):
     return folder / "fit.json", done.stdout
 
 
+@pytest.mark.full
 def test_rivals_of_a_fit_of_networks_are_planned_for(fit_file):
     path, said = fit_file
     done = called("plan", path)
@@ -188,6 +195,7 @@ def test_rivals_of_a_fit_of_networks_are_planned_for(fit_file):
     assert same.startswith("impossible: ") and "the same responses for all positive values" in same
 
 
+@pytest.mark.full
 def test_what_to_measure_next_on_what_a_fit_of_networks_left(fit_file):
     path, _ = fit_file
     done = called("next", path)
@@ -203,6 +211,7 @@ def test_what_to_measure_next_on_what_a_fit_of_networks_left(fit_file):
     assert len(rows) > 5
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -251,6 +260,7 @@ def test_bad_input(command, words):
     assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
 
 
+@pytest.mark.full
 def test_special_values_are_left_aside_only_where_they_are() -> None:
     """In the sentence for who measures: two arcs in series and their parallel form give the same for
     all positive values, a branched machine gives more than the row.
@@ -267,6 +277,7 @@ def test_special_values_are_left_aside_only_where_they_are() -> None:
 VOIGT, LADDER = "R0-p(R1,C1)-p(R2,C2)-p(R3,C3)", "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"
 
 
+@pytest.mark.full
 def test_formulas_in_three_languages():
     said = called("equivalents", VOIGT, "--to", LADDER, "--formulas").stdout
     assert said.startswith(f"{VOIGT}: of 1 other network 1 can do the same for all positive values")
@@ -285,6 +296,7 @@ def test_where_formulas_are_not_known_it_is_said():
     assert "no formulas: roots of a polynomial of degree 3 are needed" in done.stdout
 
 
+@pytest.mark.full
 def test_values_of_several_sensors():
     values = "m1=1,m2=2,m3=3,m4=1,k12=1,k23=5,k34=2"
     one, two = "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"
@@ -292,6 +304,7 @@ def test_values_of_several_sensors():
     assert "k12 = 1, k23 = 10/7, k24 = 25/7, m1 = 1, m2 = 2, m3 = 3/7, m4 = 25/7" in done.stdout
 
 
+@pytest.mark.full
 def test_values_of_large_circuits_by_synthesis():
     values = "R0=1,R1=2,R2=3,R3=1,C1=1,C2=1/2,C3=3"
     done = called("equivalents", LADDER, "--to", VOIGT, "--set", values)

@@ -80,6 +80,7 @@ PLACES = [
 ]
 
 
+@pytest.mark.thin(4)
 @pytest.mark.parametrize("command", ["next", "plan"])
 @pytest.mark.parametrize("way", PLACES, ids=str)
 def test_numbers_that_no_fit_writes_are_refused(path, tmp_path, way, command):
@@ -146,6 +147,7 @@ def test_plain_data_says_what_the_numbers_are(path):
     assert 0 < lock["power"] <= 1
 
 
+@pytest.mark.full
 def test_a_brake_is_told_of_where_it_costs_something(path):
     said = called("next", path, "--cost", "brake=0.5").stdout
     assert "a known brake at mass 2" in said

@@ -11,6 +11,8 @@ import pytest
 
 from tests.cli.process import disting
 
+pytestmark = pytest.mark.full
+
 LACKING = """
 import importlib.util, os, signal, sys
 import filelock, multiprocessing.popen_spawn_posix, platformdirs, subprocess  # they have a way of their own for each system

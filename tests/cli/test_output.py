@@ -38,6 +38,7 @@ def models(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.full
 @POSIX
 @pytest.mark.parametrize(
     ("asked", "encoding"),
@@ -61,6 +62,7 @@ def test_data_are_the_same_bytes_in_a_file_and_on_any_standard_output(
     assert not content.isascii() and content.decode("utf-8")
 
 
+@pytest.mark.full
 @POSIX
 @pytest.mark.parametrize(
     "command",
@@ -80,6 +82,7 @@ def test_pipes_and_streams_are_written_to(tmp_path: Path, command: str) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
 
 
+@pytest.mark.full
 @POSIX
 def test_a_stream_that_is_a_file_keeps_what_stands_in_it(tmp_path: Path) -> None:
     """It is written to at its end, and is still the file that the shell opened."""
@@ -90,6 +93,7 @@ def test_a_stream_that_is_a_file_keeps_what_stands_in_it(tmp_path: Path) -> None
     assert first == b"before" and json.loads(rest)["left"] == "3:1"
 
 
+@pytest.mark.full
 @POSIX
 def test_a_verdict_from_a_standard_output_of_any_encoding_is_verified(tmp_path: Path) -> None:
     done = shell(
@@ -98,6 +102,7 @@ def test_a_verdict_from_a_standard_output_of_any_encoding_is_verified(tmp_path: 
     assert done.returncode == 0 and b"holds" in done.stdout
 
 
+@pytest.mark.full
 @POSIX
 @pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
 def test_names_that_differ_are_written_differently(models: Path, encoding: str) -> None:
@@ -115,6 +120,7 @@ def test_signs_of_words_stay_readable_where_no_name_needs_them(tmp_path: Path) -
     assert done.returncode == 0 and b"\\u" not in done.stdout and done.stdout.isascii()
 
 
+@pytest.mark.full
 @POSIX
 @pytest.mark.parametrize(
     ("asked", "unbuffered"),
@@ -126,6 +132,7 @@ def test_a_full_standard_output_is_named(tmp_path: Path, asked: str, unbuffered:
     assert (done.returncode, done.stderr) == (2, said)
 
 
+@pytest.mark.full
 @POSIX
 def test_a_full_device_is_named(tmp_path: Path) -> None:
     done = shell(f"$D {PAIR} --json /dev/full", tmp_path)

@@ -86,6 +86,7 @@ def test_indistinguishable_pair_is_impossible_and_next_is_named():
     assert "are indistinguishable over positive parameters" in verdict
 
 
+@pytest.mark.full
 def test_noise_of_a_measured_response_is_taken_line_by_line(tmp_path):
     exact = response(MODEL, NUMBERS)
     rho = np.geomspace(0.3, 0.03, len(exact))
@@ -118,6 +119,7 @@ def rivals(fit_file):
     return done, json.loads(path.read_text(encoding="utf-8"))
 
 
+@pytest.mark.full
 def test_what_contains_the_selected_structure_is_no_rival_and_the_reverse_is_planned_for(
     fit_file, rivals
 ):
@@ -141,6 +143,7 @@ def test_what_contains_the_selected_structure_is_no_rival_and_the_reverse_is_pla
     }  # fmt: skip
 
 
+@pytest.mark.full
 def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file, rivals):
     back, found = rivals[1]["larger"][0]["reverse"], fit_file[1]
     values = found.containing[0].candidate.estimate.parameters
@@ -152,6 +155,7 @@ def test_reverse_plan_of_a_fit_is_the_plan_of_that_pair(fit_file, rivals):
     assert back["noncentrality"] == pytest.approx(alone.noncentrality, rel=1e-6)
 
 
+@pytest.mark.full
 def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
     path, _ = fit_file
     plain = json.loads(path.read_text(encoding="utf-8"))
@@ -165,6 +169,7 @@ def test_twins_that_a_fit_names_are_impossible(tmp_path, fit_file):
     assert f"\nfor another experiment: disting next {other}\n" in said
 
 
+@pytest.mark.full
 def test_what_is_the_same_for_these_values_names_no_command_that_denies_it():
     values = (  # of 3:1+b1+b3 with m = 1, 2, 3, k = 100, 150, d = 0.1, 0.2, b = 0.2, 0.3
         "m1=0.149957938326015,m2=1,m3=4.84996534958645,k12=23.8889425518369,k23=76.1116574329771,"

@@ -24,6 +24,7 @@ def told(*arguments: str, progress: str | None) -> subprocess.CompletedProcess[s
     )
 
 
+@pytest.mark.full
 def test_a_pipe_is_told_what_is_done_and_the_result_stays_as_it_is() -> None:
     done, silent = told(*WORK, progress="0.02"), called(*WORK)  # which is told of no progress
     lines = done.stderr.splitlines()

@@ -92,6 +92,7 @@ def test_a_word_of_another_meaning_is_refused_with_the_remedy(
     assert "--quantity" not in says or "--sensor" not in hidden
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [1, 3, 5])
 def test_lists_of_models_fit_eighty_columns(n: int) -> None:
     for kind in ("--damped", "--undamped"):

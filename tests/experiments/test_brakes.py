@@ -33,6 +33,7 @@ def agrees_with_groebner_bases(left, right, pair):
     assert found.relation.value == ("indistinguishable" if all(ways) else "distinguishable")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right", "i", "j"),
     [(1, 1, 1, 3), (1, 1, 2, 2), (1, 11, 1, 1), (8, 11, 3, 3), (2, 5, 1, 3), (9, 10, 2, 3)],
@@ -63,6 +64,7 @@ def random_pairs(count, seed):
         yield draw.choice(family), draw.choice(family), tuple(sides)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("case", list(random_pairs(12, "brakes")), ids=str)
 def test_random_brakes(case):
     agrees_with_groebner_bases(*case)
@@ -101,6 +103,7 @@ def test_a_brake_adds_no_inertia():
     assert _by_mass(under(INERTIA, 1), under(INERTIA, 1)) is not None
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("argument", ["brakes", "springs"])
 def test_rows_that_show_the_same_have_equivalents(argument):
     """Whatever is added where force and sensor of a row are, or in a row that both share."""

@@ -160,6 +160,7 @@ CASES = [
 ]
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize(("chain", "changes"), CASES)
 def test_transfer_functions_are_those_of_the_dynamic_stiffness_matrix(chain, changes):
     numbers = {name: Rational(7 * i + 3, i + 2) for i, name in enumerate(chain.parameters)}

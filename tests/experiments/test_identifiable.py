@@ -71,6 +71,7 @@ def test_there_are_468_cases():
     assert (len(TWO), len(THREE)) == (72, 396)
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("chain", "kind", "i"), [*TWO[::3], *THREE[::24]])
 def test_ranks(chain, kind, i):
     check_ranks(chain, kind, i)
@@ -82,6 +83,7 @@ def test_all_ranks(chain, kind, i):
     check_ranks(chain, kind, i)
 
 
+@pytest.mark.thin(5)
 @pytest.mark.parametrize(("chain", "kind", "i"), TWO[::6])
 def test_whether_other_values_fit(chain, kind, i):
     check_values(chain, kind, i)
@@ -93,6 +95,7 @@ def test_whether_other_values_fit_for_more(chain, kind, i):
     check_values(chain, kind, i)
 
 
+@pytest.mark.full
 def test_one_experiment_is_what_is_known_of_the_chain_alone():
     for chain in [*Family(3, damped=False), *list(Family(3, damped=True))[2::4]]:
         alone, under = (identifiability(chain, experiments=e) for e in ((), [Experiment()]))

@@ -47,6 +47,7 @@ def pairs(draw, max_masses=3):
     return left, right, [(Experiment(), Experiment()), *further]
 
 
+@pytest.mark.full
 @few
 @given(pairs())
 def test_more_experiments_never_make_a_pair_indistinguishable(case):
@@ -56,6 +57,7 @@ def test_more_experiments_never_make_a_pair_indistinguishable(case):
         assert not (before == "distinguishable" and after == "indistinguishable")
 
 
+@pytest.mark.full
 @few
 @given(pairs())
 def test_the_order_of_experiments_and_of_sides_does_not_matter(case):
@@ -66,6 +68,7 @@ def test_the_order_of_experiments_and_of_sides_does_not_matter(case):
     assert relation(left, right, [*asked, asked[-1]]) == wanted
 
 
+@pytest.mark.full
 @few
 @given(pairs(max_masses=2))
 def test_conditions_and_exact_decision_never_contradict_each_other(case):
@@ -104,6 +107,7 @@ def test_a_single_experiment_has_the_profile_of_the_chain(chain):
         assert replace(stacked, **kept) == replace(plain, **kept)
 
 
+@pytest.mark.full
 @few
 @given(chains(2, 4), st.data())
 def test_force_and_sensor_can_be_exchanged(chain, data):

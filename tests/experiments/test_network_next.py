@@ -40,6 +40,7 @@ GROUPS = [
 ]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped", "numbers"), GROUPS)
 def test_chains_are_told_what_they_are_told_as_chains(n, damped, numbers, engine):
     family = Family(n, damped=damped)
@@ -164,6 +165,7 @@ def column_of(place, entries):
     return found
 
 
+@pytest.mark.full
 def test_the_same_whatever_the_order_and_some_of_them_only(engine):
     texts = [*RANDLES, "R0-p(R1-p(R2,C2),C1)"]
     group = [(t, network_of(t)) for t in texts]
@@ -184,6 +186,7 @@ def test_a_battery_is_told_apart_at_an_inner_node(capsys):
     assert "mass" not in shown and "force" not in shown and "sensor does" not in shown
 
 
+@pytest.mark.full
 def test_compartments_and_machines(capsys):
     assert main(["next", "1>2,2>1,2>0; in 1; out 1", "1>2,2>1,1>0; in 1; out 1"]) == 0
     assert "surely enough: the contents of compartment 2 measured" in capsys.readouterr().out
@@ -193,6 +196,7 @@ def test_compartments_and_machines(capsys):
     assert all("mass" in item for item in told["menu"])
 
 
+@pytest.mark.full
 def test_networks_with_two_sensors_and_with_constant_phase_elements(capsys):
     assert main(["next", "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"]) == 0
     told = capsys.readouterr().out

@@ -41,6 +41,7 @@ def named(family, *numbers):
     return [(f"{family.n_masses}:{m}", family[m]) for m in numbers]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("pair", SAME)
 def test_the_truth_as_told_by_next(pair, engine):
     found = menu_for(named(A, *pair), engine)
@@ -86,6 +87,7 @@ def test_the_group_of_five_undamped(engine):
     ]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_tables_say_what_compare_says(kind, engine):
     """Every pair of places of a group, one by one, without classes and buckets."""
@@ -98,6 +100,7 @@ def test_tables_say_what_compare_says(kind, engine):
         assert found.tables[kind].look_up((0, i), (1, j))[0] is said.relation
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("number", "damped"), list(product(range(1, 12), (False, True))))
 def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
     """A structure against itself: the experiment at a place that gains nothing leaves as many
@@ -206,6 +209,7 @@ def agrees_with_other_code(names, kind, i, j):
     return same is (said is Relation.INDISTINGUISHABLE)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("case", DAMPERS[1::5], ids=str)
 def test_truth_with_dampers_to_the_ground(case):
     assert agrees_with_other_code(*case)
@@ -263,6 +267,7 @@ def test_an_inertia_whose_effect_is_foretold_excludes_where_another_one_is(engin
         assert said.relation is Relation.DISTINGUISHABLE
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_what_is_said_of_any_mass_holds_of_every_mass(damped, engine):
     """Two structures whose effects are both foretold are alike there: no "any mass" then."""

@@ -54,6 +54,7 @@ def reflected(chain, values):
     return {name(p) if int(p[1]) > chain.gap else p: x for p, x in values.items()}
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("number", "kind"), list(product((2, 4, 5, 8, 9, 10), KINDS)))
 def test_the_standard_form_shows_the_same(number, kind):
     chain = U[number]
@@ -134,6 +135,7 @@ def test_inertias_of_two_sizes_are_not_compared_by_their_masses():
     assert all(any("scale" in p for p in m.parameters) for m in match_maps(*both))
 
 
+@pytest.mark.full
 def test_five_damped_masses_have_bounds():
     """Without the coordinates of the mass, primes of 64 bits gave none, and nothing decided."""
     chain = Family(5, damped=True)[44]

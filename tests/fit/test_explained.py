@@ -96,6 +96,7 @@ def test_more_candidates_do_not_explain_a_beam_either():
     told(WRONG["a free beam"][0], select(WRONG["a free beam"][0], figure_1()))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("data", "chain", "words"),
     [
@@ -146,6 +147,7 @@ def with_friction():
     return series.response("acceleration", period=2500, transient=1)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "data",
     [
@@ -168,6 +170,7 @@ def test_a_lead_that_does_not_explain_the_data_is_none(data):
     assert "no further mass explains it: is the machine a chain" in said
 
 
+@pytest.mark.full
 def test_a_mass_more_is_named_where_it_explains_the_data():
     three = Chain(3, damped=True, ground_dampers=(2,))
     values = VALUES | {"m3": 0.4, "k23": 1e4, "d23": 3.0}
@@ -175,6 +178,7 @@ def test_a_mass_more_is_named_where_it_explains_the_data():
     assert [r.words for r in found.readings] == ["with one mass more"]
 
 
+@pytest.mark.full
 def test_gains_in_db_are_named_where_a_gain_has_no_unit():
     level = 20 * np.log10(np.abs(EXACT) * 100)
     data = noisy(level * np.exp(1j * np.angle(EXACT)))
@@ -184,6 +188,7 @@ def test_gains_in_db_are_named_where_a_gain_has_no_unit():
         assert (words in [r.words for r in found.readings]) == bool(note)
 
 
+@pytest.mark.full
 def test_noise_is_called_noise():
     found = select(noisy(np.ones(OMEGA.size), size=30.0), [Chain(1, damped=False), ONE])
     told(found.test, found)
@@ -201,6 +206,7 @@ def test_right_models_explain(seed):
     assert f"; {found.members[0].name} explains this data" in first_lines(found)[1]
 
 
+@pytest.mark.full
 def test_the_bench_and_its_demonstration_are_explained():
     train, test = bench("A"), bench("B")
     found = select(train, [replace(DRIVE, dead_time=True)], test=test)
@@ -271,6 +277,7 @@ def test_what_is_missed_is_named_by_its_frequencies():
     )
 
 
+@pytest.mark.full
 def test_what_the_paper_does_not_admit_is_named_where_it_fits_better():
     """A parameter at its bound is not admissible; one that is given does not count. By default it
     stays and is marked.
@@ -292,6 +299,7 @@ def test_what_the_paper_does_not_admit_is_named_where_it_fits_better():
     assert kept.selected.reasons == ("k12 is at its bound",)
 
 
+@pytest.mark.full
 def test_where_nothing_explains_the_data_the_misfit_is_not_taken_for_noise():
     data = [response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2)]
     found = select(
@@ -304,6 +312,7 @@ def test_where_nothing_explains_the_data_the_misfit_is_not_taken_for_noise():
     assert not found.explanation.explains and found.described.j_test == lowest
 
 
+@pytest.mark.full
 def test_what_explains_the_data_goes_before_what_does_not():
     """Few repeats of a quiet machine: the loud lines above the resonance hide in the cost what the
     simpler candidate misses at the quiet ones below it.
@@ -330,6 +339,7 @@ def test_what_is_not_determined_has_no_percentage():
     assert "known badly: m1 not at all, b1 to ± 50 %" in suspicions(badly)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("step", "said"), [(1.0, True), (0.002, False)])
 def test_a_resonance_between_two_lines_is_named(step, said):
     """A small mass beside a large one: its resonance and antiresonance are 0.02 Hz apart."""
@@ -341,6 +351,7 @@ def test_a_resonance_between_two_lines_is_named(step, said):
     assert bool(named) == said, suspicions(found)
 
 
+@pytest.mark.full
 def test_what_one_line_alone_determines_is_not_foretold_by_the_others():
     """A narrow resonance next to one line: without this line its height is not known."""
     machine = bench_drive(4, 52)

@@ -104,6 +104,7 @@ def test_the_script_makes_every_model_in_python_control():
         )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "chain", [CHAINS[1], pytest.param(CHAINS[2], marks=pytest.mark.slow)], ids=str
 )

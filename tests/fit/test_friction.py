@@ -24,6 +24,8 @@ from disting.report.fit.selection_page import fit_page
 from disting.report.fit.sentences import first_lines
 from tests.fit.friction_drives import TRUTH, Machine, responses, run_of
 
+pytestmark = pytest.mark.full
+
 VELOCITY = Chain(1, damped=False, sensor="velocity")
 CANDIDATES = [
     VELOCITY,

@@ -80,6 +80,7 @@ def test_intervals_of_95_percent_cover_92_to_98(chain, level):
     assert all(0.92 <= share <= 0.98 + 0.01 for share in found.values()), found
 
 
+@pytest.mark.full
 def test_intervals_cover_in_a_small_sample():
     found = coverage(TWO, 0.003, 40)
     assert all(share >= 0.85 for share in found.values()), found
@@ -115,6 +116,7 @@ def test_residuals_above_the_scatter_widen_the_errors_where_they_are():
     assert np.all(wide[43:57] > 3) and np.median(wide[:30]) == 1.0
 
 
+@pytest.mark.full
 def test_a_parameter_that_differs_between_training_and_test_is_flagged():
     values = drive(TWO, 1)
     train, test = (
@@ -145,6 +147,7 @@ def test_errors_without_scatter_in_the_file_follow_the_noise():
     assert sizes[1] / sizes[0] == pytest.approx(10, rel=0.3)
 
 
+@pytest.mark.full
 def test_where_an_interval_ends_the_likelihood_has_fallen_as_far_as_it_says():
     """The other parameters by a search of scipy's own, from what the fit found."""
     machine = bench_drive(2, 5)
@@ -174,6 +177,7 @@ def test_where_an_interval_ends_the_likelihood_has_fallen_as_far_as_it_says():
             assert risen == pytest.approx(most, rel=0.1), name
 
 
+@pytest.mark.full
 def test_what_has_gone_to_zero_may_come_back_where_others_are_held():
     """A damper is zero at the optimum: m2 is known as badly as if it were there."""
     machine = bench_drive(3, 10)
@@ -184,6 +188,7 @@ def test_what_has_gone_to_zero_may_come_back_where_others_are_held():
         assert low <= machine.values[name] <= high, name
 
 
+@pytest.mark.full
 def test_an_interval_holds_the_value_where_parameters_run_away_together():
     """A speed read as an acceleration: m1 goes to zero as T1 goes to infinity."""
     chain = Chain(1, damped=True, ground_dampers=(1,), lag=True)
@@ -196,6 +201,7 @@ def test_an_interval_holds_the_value_where_parameters_run_away_together():
         assert low <= values[name] <= high, name
 
 
+@pytest.mark.full
 def test_intervals_hold_every_valley_that_the_data_do_not_exclude():
     """Noise makes another valley than the true one the deepest, by 11 in twice the likelihood."""
     machine = bench_drive(4, 9)

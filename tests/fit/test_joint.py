@@ -103,6 +103,7 @@ def vector(chain, delays, seed):
     return values, np.array(list(values.values()))
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("chain", [TWO, THREE, RELATIVE], ids=str)
 @settings(max_examples=15)
 @given(seed=st.integers(0, 10**6))
@@ -118,6 +119,7 @@ def test_the_stacked_response_is_that_of_the_matrix_equations(chain, seed):
         np.testing.assert_allclose(own, exact, rtol=1e-9)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("chain", [TWO, THREE], ids=str)
 @settings(max_examples=15)
 @given(seed=st.integers(0, 10**6))
@@ -291,6 +293,7 @@ def test_intervals_of_95_percent_cover_92_to_98(chain):
     assert all(0.92 <= share <= 0.98 + 0.01 for share in found.values()), found
 
 
+@pytest.mark.full
 def test_intervals_cover_in_a_small_sample():
     found = coverage(TWO, 40)
     assert all(share >= 0.85 for share in found.values()), found
@@ -311,6 +314,7 @@ def test_two_equal_responses_are_one_of_half_the_variance():
     np.testing.assert_allclose(sizes[0] / sizes[1], np.sqrt(2), rtol=0.1)
 
 
+@pytest.mark.full
 def test_a_search_reaches_the_cost_of_the_truth_and_finds_it():
     values = drive(TWO, 2)
     data = white(TWO, values, Setup(), 0.003, 2)
@@ -334,6 +338,7 @@ def test_a_search_reaches_the_cost_of_the_truth_and_finds_it():
         assert value == pytest.approx(values[name], rel=0.1)
 
 
+@pytest.mark.full
 def test_a_second_sensor_identifies_what_the_first_leaves_open():
     """Force at 1, sensor at 2 without a damper to the ground: only m1 m2 and m1 + m2 are seen, over
     k12; a sensor at 1 tells which mass is which.
@@ -349,6 +354,7 @@ def test_a_second_sensor_identifies_what_the_first_leaves_open():
         assert value == pytest.approx(values[name], rel=0.1)
 
 
+@pytest.mark.full
 def test_what_behaves_alike_in_the_first_response_alone_is_not_merged():
     """Force and sensor are both ends: the damper at either end is the same structure mirrored, for
     this sensor; with a sensor at the force it is not.
@@ -417,6 +423,7 @@ def test_a_twin_must_have_all_responses():
         assert behaves_alike(one, values, other, there, task) is alike
 
 
+@pytest.mark.full
 def test_a_response_that_is_zero_teaches_nothing_and_is_named():
     values = drive(TWO, 6)
     data = white(TWO, values, Setup(), 0.003, 6)
@@ -449,6 +456,7 @@ def test_places_that_no_candidate_has_are_refused():
             select(data, [TWO], further=[FurtherResponse(data, setup)])
 
 
+@pytest.mark.full
 def test_a_coarse_grid_does_not_pass_for_scatter():
     """Every other line over a sharp resonance: neighbours jump because the response bends. Taken for
     scatter it would leave the response without weight, and its dead time open.

@@ -22,6 +22,8 @@ from disting.report.fit.write import export, not_exported
 from tests.cli.process import called
 from tests.fit.drives import response
 
+pytestmark = pytest.mark.full
+
 LINEAR = 2 * np.pi * np.linspace(3.0, 500.0, 100)
 BOTH = {"lag": True, "dead_time": True}
 

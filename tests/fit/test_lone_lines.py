@@ -38,6 +38,7 @@ def disturbed(size, lines, seed=3):
     return FrequencyResponse(data.omega, moved)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("size", "lines"), [(12.0, (62, 63)), (20.0, (70,)), (20.0, (62, 63))])
 def test_a_disturbed_line_makes_no_mass(size, lines):
     found = select(disturbed(size, lines), TWO_AND_THREE)
@@ -51,6 +52,7 @@ def test_a_disturbed_line_makes_no_mass(size, lines):
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 10))]
 )
@@ -62,6 +64,7 @@ def test_a_small_mass_that_several_lines_see_is_found(seed):
     assert found.explanation.level is Level.EXPLAINS
 
 
+@pytest.mark.full
 def test_a_mass_of_a_millionth_neither_is_selected_nor_excludes():
     path = measured_data("../cases/gear_0_A.csv")
     found = select(read(path), figure_1([2, 3]))
@@ -69,6 +72,7 @@ def test_a_mass_of_a_millionth_neither_is_selected_nor_excludes():
     assert all(c.excluded is None for c in found.candidates if c.chain == found.selected.chain)
 
 
+@pytest.mark.full
 def test_lines_that_a_structure_misses_alone_are_named_where_a_mass_could_only_fit_them():
     path = measured_data("../cases/c4_2_A.csv")
     found = select(read(path), [c for c in figure_1([3, 4]) if not c.ground_dampers])
@@ -132,6 +136,7 @@ def branch(s):
     return s**2 / whole
 
 
+@pytest.mark.full
 def test_what_no_candidate_can_do_is_told_apart_or_not_explained():
     """Damped branches are no chain: chi2 is above what noise gives, at whatever level."""
     source, s = np.random.default_rng(2), 1j * OMEGA
@@ -141,6 +146,7 @@ def test_what_no_candidate_can_do_is_told_apart_or_not_explained():
     assert found.explanation.level is not Level.EXPLAINS
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("count", "enough"), [(12, False), (15, False), (16, True)])
 def test_few_lines_judge_no_structure(count, enough):
     omega = 2 * np.pi * np.geomspace(5.0, 200.0, count)
@@ -156,6 +162,7 @@ def test_the_response_of_the_bench_of_these_tests_is_that_of_the_matrices():
     np.testing.assert_allclose(response(SMALL, SMALL_VALUES, OMEGA).G, exact, rtol=1e-9)
 
 
+@pytest.mark.full
 def test_a_larger_structure_that_needs_more_lines_is_not_judged():
     """20 lines are enough for two masses, not for the three that contain them."""
     omega = 2 * np.pi * np.geomspace(5.0, 200.0, 20)

@@ -81,6 +81,7 @@ def look_alike_response(look_alike):
     return response(values, joints, (1, n + 1), (1, n + 1), base=n + 1)
 
 
+@pytest.mark.thin(12)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("masses", [1, 2, 3, 4])
 @pytest.mark.parametrize("sensor", [1, 2, 3, 4])
@@ -122,6 +123,7 @@ def test_look_alikes_are_those_of_the_theorems():
     assert kinds(Chain(3, damped=True, ground_dampers=(3,))) == []
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("masses", "damped"), [(2, False), (3, False), (4, False), (2, True)])
 def test_engine_confirms_the_theorem_of_the_free_base(masses, damped):
     """The general engine knows nothing of the theorem."""
@@ -205,6 +207,7 @@ def fitted(tmp_path, response, candidates, s=S):
     return "\n".join(fit_text(selection, train)), selection_to_dict(selection)
 
 
+@pytest.mark.full
 def test_fit_of_a_drive_on_an_elastic_base_names_the_base(tmp_path):
     """The true base is among the named ones, with its values."""
     drive = two_masses(1e-3, 2e-3, 300, 0) + 1 / (5e-3 * S**2 + 3500)
@@ -216,6 +219,7 @@ def test_fit_of_a_drive_on_an_elastic_base_names_the_base(tmp_path):
     assert any(x == pytest.approx(true, rel=0.02) for x in bases)
 
 
+@pytest.mark.full
 def test_fit_of_a_branch_names_the_branch(tmp_path):
     s = 2j * np.pi * np.geomspace(3, 500, 60)
     load = sum(1 / (1 / k + 1 / (m * s**2)) for k, m in ((300, 1e-3), (900, 0.8e-3)))
@@ -227,6 +231,7 @@ def test_fit_of_a_branch_names_the_branch(tmp_path):
     assert np.array(ends) == pytest.approx(np.array([(0.8e-3, 900), (1e-3, 300)]), rel=0.02)
 
 
+@pytest.mark.full
 def test_damped_elastic_base_is_fitted_as_a_candidate(tmp_path):
     """A chain does not explain it and the text names the option; on the base it is selected."""
     drive = two_masses(1e-3, 2e-3, 300, 0.02) + 1 / (5e-3 * S**2 + 0.3 * S + 2000)
@@ -247,6 +252,7 @@ def test_damped_base_of_as_many_masses_is_no_duplicate_and_an_undamped_one_is():
         assert first[base] == (base if damped else chain)
 
 
+@pytest.mark.full
 def test_base_refuses_what_it_is_not_for():
     words = [sys.executable, "-m", "disting", "fit", "--demo", "--base", "--gap", "1"]
     done = subprocess.run(words, capture_output=True, text=True)

@@ -40,6 +40,7 @@ def test_cascade_around_one_mass():
     assert found.phase == pytest.approx(degrees(atan(crossover / 4.0)), rel=1e-4)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("loop", ["position", "velocity", "cascade"])
 def test_stability_is_that_of_the_closed_loop_poles_and_phase_that_of_python_control(loop):
     source, seen = np.random.default_rng(7), set()

@@ -22,6 +22,8 @@ from tests.cli.process import called
 from tests.fit.drives import OMEGA, response
 from tests.measurement.bench_data import measured_data
 
+pytestmark = pytest.mark.full
+
 VALUES = {"m1": 5e-3, "m2": 4e-3, "k12": 800.0, "d12": 0.02, "b1": 0.05, "Td": 1e-4}
 
 

@@ -115,6 +115,7 @@ def test_large_sets_are_counted():
     )
 
 
+@pytest.mark.full
 @given(st.permutations(figure_1((1, 2, 3))), st.integers(1, 40))
 def test_the_lines_name_every_structure_exactly_once(chains, count):
     """Literally: the name of the line and one of the ends beside it are the name of a member."""
@@ -141,6 +142,7 @@ def found():
     return select(train, [DRIVE, lagging, replace(DRIVE, ground_dampers=())], test=test)
 
 
+@pytest.mark.full
 def test_text_and_data_say_the_same(found):
     lines, plain = first_lines(found), selection_to_dict(found)
     text = list(fit_text(found, found.task.cost.measured))
@@ -174,6 +176,7 @@ def test_no_suspicion_is_lost_and_none_is_said_twice(found):
         assert text.count(sentence) == 1, sentence
 
 
+@pytest.mark.full
 def test_where_one_structure_is_left_nothing_is_to_decide():
     clean, again = (response(DRIVE, VALUES, noise=1e-4, seed=seed) for seed in (1, 2))
     others = [replace(DRIVE, dead_time=False), replace(DRIVE, dead_time=False, lag=True)]
@@ -186,12 +189,14 @@ def test_where_one_structure_is_left_nothing_is_to_decide():
     )
 
 
+@pytest.mark.full
 def test_of_too_few_lines_more_are_asked_for():
     few = select(response(DRIVE, VALUES, omega=OMEGA[::12], noise=0.01, seed=1), [DRIVE])
     assert first_lines(few)[1].startswith("structure: 10 lines are too few to judge 2:1+b1+delay")
     assert first_lines(few)[2] == "next: measure at least 18 lines"
 
 
+@pytest.mark.full
 def test_where_no_candidate_may_be_selected_nothing_is_called_decided():
     train = response(DRIVE, VALUES, noise=0.01, seed=1)
     strict = Thresholds(1.5, 1.5, 1.01)

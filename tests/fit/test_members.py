@@ -51,6 +51,7 @@ def test_the_command_line_reads_the_names_that_a_fit_writes(n, data):
 MIRRORED = Chain(2, 0, 0, 2, 0, 2, damped=True, ground_dampers=(1,))
 
 
+@pytest.mark.full
 def test_a_machine_counted_from_the_other_end_is_named_after_the_one_that_is_listed():
     values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "b1": 3.0}
     there = {"m1": 0.6, "m2": 1.0, "k12": 3e4, "d12": 8.0, "b2": 3.0}
@@ -102,6 +103,7 @@ def test_each_member_has_its_own_twins_in_whatever_order_workers_finish(selectio
     assert among == alone and {t.chain.n_masses for t in among[0].twins} == {3}
 
 
+@pytest.mark.full
 def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
     plain = json.loads(json.dumps(selection_to_dict(selection), allow_nan=False))
     first = plain["not_excluded"][0]
@@ -113,6 +115,7 @@ def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
     assert "2:1" not in [m["name"] for m in plain["not_excluded"]]
 
 
+@pytest.mark.full
 def test_the_third_line_says_that_the_machine_may_as_well_be_another(selection):
     assert "if it is 3:1, it may as well be 3:11" in first_lines(selection)[2]
     assert commands(selection)[-1].startswith(
@@ -120,6 +123,7 @@ def test_the_third_line_says_that_the_machine_may_as_well_be_another(selection):
     )
 
 
+@pytest.mark.full
 def test_a_well_determined_model_is_never_hidden_but_by_the_rule_of_the_paper(selection):
     """Its condition index exceeds any threshold that is low enough, however little noise there
     is.
@@ -135,6 +139,7 @@ def test_a_well_determined_model_is_never_hidden_but_by_the_rule_of_the_paper(se
     assert paper.candidates[0].estimate == weighed.selected.estimate
 
 
+@pytest.mark.full
 def test_what_is_known_badly_stays_excluded_and_says_so():
     train = response(ROW, VALUES, noise=0.3, seed=1)
     (candidate,) = select(train, [ROW], thresholds=Thresholds(1.5, 1.5, 1.01)).candidates

@@ -45,6 +45,7 @@ def test_an_element_that_the_data_do_not_show_has_an_end_on_one_side():
     assert all(0 < a < b < np.inf for n, (a, b) in fit.intervals.items() if n != small)
 
 
+@pytest.mark.full
 def test_an_element_that_has_vanished_comes_back_for_the_intervals():
     """W1 goes to 1e-30 in the fit; it is bounded by what the data would show, and so are the
     others with it: the true values, W1 = 0.01 among them, lie inside.

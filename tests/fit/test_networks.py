@@ -62,6 +62,7 @@ def test_response_and_gradient_are_those_of_the_transfer_function(text):
             )
 
 
+@pytest.mark.full
 def test_stacked_responses_have_the_gradients_of_each():
     network = network_of("1=2*i, 2~#; F1 F2; S1 S2:1")
     omegas = tuple(np.logspace(0, 1, n) for n in (3, 4, 5, 6))
@@ -88,6 +89,7 @@ def lambdify(text, values):
     return sp.lambdify(sp.Symbol("s"), sp.sympify(text, values))
 
 
+@pytest.mark.full
 def test_two_sensors_are_fitted_together(tmp_path):
     omega, draw = np.logspace(-0.7, 1, 80), np.random.default_rng(3)
     texts = ["1=2=3; F1; S1 S3", "1=2, 1=3; F1; S1 S3", "1=2; F1; S1 S2"]
@@ -169,6 +171,7 @@ def kept(name: str, count: int, seed: int) -> int:
     return found
 
 
+@pytest.mark.full
 def test_the_true_circuit_is_kept():
     assert kept("cells-4", 2, 1) == 2
 
@@ -179,6 +182,7 @@ def test_the_truth_is_kept_in_95_of_100(name):
     assert kept(name, 60, 2) >= 57
 
 
+@pytest.mark.full
 def test_wrong_networks_are_excluded_or_do_not_explain():
     truth = network_of("R0-p(R1,C1)-p(R2,C2)")
     plant = NetworkPlant(truth, np.logspace(0, 4, 60))
@@ -220,6 +224,7 @@ def test_a_network_that_fits_alike_in_another_place_excludes_none(left, excluded
     assert (_excluding(true, [true, other], scatter) == "other") == excluded
 
 
+@pytest.mark.full
 def test_an_exponent_is_found_and_a_capacitor_excluded():
     texts = ["R0-p(R1,C1)", "R0-p(R1,P1)", "p(R0,R1-P1)", "R0-p(R1,W1)"]
     plant = NetworkPlant(network_of(texts[1]), np.logspace(0, 5, 60))

@@ -56,6 +56,7 @@ def exact(machine: Drive, omega: np.ndarray) -> np.ndarray:
     return response_at(truth(machine), machine.values, omega)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("repeats", [1, 2, 10])
 def test_the_scatter_is_that_of_the_bench_however_often_it_was_measured(repeats):
     sizes, shapes = [], []
@@ -93,6 +94,7 @@ def test_the_reader_of_every_kind_of_record_is_a_few_lines_of_numpy(kind):
         np.testing.assert_allclose(data.G, response, rtol=1e-9)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("repeats", [1, 2, 10])
 @pytest.mark.parametrize("kind", ["white", "coloured", "quantised", "swept"])
 def test_whitened_residuals_of_every_kind_are_standard_normal(kind, repeats):
@@ -156,6 +158,7 @@ def test_repeats_know_their_degrees_of_freedom():
     assert mean_of(repeats).masked(10.0, 200.0).freedom == 4.0
 
 
+@pytest.mark.full
 def test_a_machine_that_does_not_change_is_not_said_to():
     for machine in DRIVES:
         one, other = measured(machine, 1), measured(machine, 1, 1)
@@ -166,6 +169,7 @@ def test_a_machine_that_does_not_change_is_not_said_to():
         assert change(one, moved, *known) > 0.2
 
 
+@pytest.mark.full
 def test_the_level_of_the_test_is_what_it_says():
     """Linear models: a true one is excluded by one with two elements more in 1 % of all cases."""
     source = np.random.default_rng(3)
@@ -246,6 +250,7 @@ def test_on_test_data_a_second_fit_takes_away_what_bends(left, excluded):
     assert found.keys() == ({chains[0]} if excluded else set())
 
 
+@pytest.mark.full
 def test_a_truth_over_a_long_valley_is_kept_on_test_data():
     """Fitted to one record it lies on the far side, and tangents do not reach the near one."""
     machine = drive(3, 0)
@@ -260,6 +265,7 @@ def test_what_contains_what():
     assert not contains(replace(both, meas_plus=2), one)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("machine", "repeats"), [(DRIVES[0], 1), pytest.param(DRIVES[2], 2, marks=pytest.mark.slow)]
 )
@@ -269,6 +275,7 @@ def test_the_true_structure_is_kept(machine, repeats):
     assert found.kept and found.explained and found.smaller_excluded > 0.6
 
 
+@pytest.mark.full
 def test_a_damper_that_is_hardly_there_is_below_a_value():
     """A steel shaft: the structure stays, and says how much the damper is at most."""
     chain = Chain(2, sensor="velocity", damped=True, ground_dampers=(1,))
@@ -283,6 +290,7 @@ def test_a_damper_that_is_hardly_there_is_below_a_value():
     assert len(data) == 99
 
 
+@pytest.mark.full
 def test_a_damper_may_be_fixed_to_zero_or_left_away():
     chain = Chain(2, sensor="velocity", ground_dampers=(1,))
     values = {"m1": 5e-3, "m2": 4e-3, "k12": 500.0, "d12": 1e-9, "b1": 0.1}
@@ -301,6 +309,7 @@ def test_a_damper_may_be_fixed_to_zero_or_left_away():
         select(data, [with_damper], fixed={"m1": 0.0})
 
 
+@pytest.mark.full
 def test_parameters_are_those_of_the_highest_likelihood():
     """A loud drive: beside it no step of a parameter leads to less, by formula; a cost of the paper
     that is asked for is kept.
@@ -353,6 +362,7 @@ def test_the_true_structure_is_kept_in_every_kind_of_record(kind):
     assert np.mean([one.smaller_excluded for one in found]) >= 2 / 3
 
 
+@pytest.mark.full
 def test_data_that_are_noise_but_for_a_band_name_it():
     """Loud above 100 Hz: the lines below are enough for a fit of their own."""
     chain = Chain(1, ground_dampers=(1,))
@@ -368,6 +378,7 @@ def test_data_that_are_noise_but_for_a_band_name_it():
     assert line.startswith("from 5 to ") and "fits these alone" in line
 
 
+@pytest.mark.full
 def test_a_loop_is_among_the_first_lines_where_it_shows():
     """In a record whose input follows its output; not with a reference, not in open loop."""
     u, y, r = closed_loop(0.12)
@@ -383,6 +394,7 @@ def test_a_loop_is_among_the_first_lines_where_it_shows():
     assert all("is the machine a chain" in one for one in said[1:])
 
 
+@pytest.mark.full
 def test_a_narrow_resonance_in_short_segments_is_no_further_mass():
     """Segments of 1 s, a resonance that rings longer; a mass more fitted what they miss."""
     machine = drive(2, 38, "random")

@@ -33,6 +33,7 @@ def planned():
     return plan(MODEL, VALUES, RIVAL, OMEGA, alike(0.05 / np.sqrt(found.factor)))
 
 
+@pytest.mark.full
 def test_best_fit_of_the_rival_is_that_of_another_optimiser(planned):
     exact, rho = frequency_response(MODEL, VALUES, OMEGA), planned.rival.rho
 
@@ -50,6 +51,7 @@ def test_best_fit_of_the_rival_is_that_of_another_optimiser(planned):
     assert planned.rival.trust is Trust.AGREED and planned.surplus == 2
 
 
+@pytest.mark.full
 def test_planned_power_is_had(planned):
     assert planned.power == pytest.approx(0.95, abs=1e-6)
     draw, exact = np.random.default_rng(1), frequency_response(MODEL, VALUES, OMEGA)
@@ -63,6 +65,7 @@ def test_planned_power_is_had(planned):
     assert excluded / count == pytest.approx(0.95, abs=3.5 * np.sqrt(0.95 * 0.05 / count))
 
 
+@pytest.mark.full
 def test_a_chain_is_planned_alike_as_a_network():
     model, rival = (Chain(2, damped=True, ground_dampers=(i,)) for i in (1, 2))
     values = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08, "b1": 0.1}
@@ -77,6 +80,7 @@ def test_a_chain_is_planned_alike_as_a_network():
         assert other.rival.parameters[name] == pytest.approx(value, rel=1e-2)
 
 
+@pytest.mark.full
 def test_an_exponent_is_a_parameter_of_the_rival():
     values = {"R1": 1.0, "P1": 0.01, "n1": 0.7}
     model, rival = network_of("p(R1,P1)"), network_of("R0-p(R1,C1)")
@@ -91,6 +95,7 @@ def test_same_networks_are_not_even_fitted():
     assert found.answer is Answer.IMPOSSIBLE and found.rival is None
 
 
+@pytest.mark.full
 def test_a_network_in_which_the_model_is_contained_is_never_excluded():
     found = plan(RIVAL, {n: VALUES[n] for n in RIVAL.parameters}, MODEL, OMEGA, alike(0.1))
     assert found.answer is Answer.SAME and found.is_contained
@@ -100,6 +105,7 @@ DRIVE = {"m1": 0.01, "m2": 0.02, "m3": 0.01, "k12": 500.0, "k23": 300.0}
 LINES = 2 * np.pi * np.geomspace(5.0, 200.0, 40)
 
 
+@pytest.mark.full
 def test_what_several_sensors_tell_is_summed():
     """Two sensors that show the same tell twice as much; another one tells more than one alone."""
     values = DRIVE | {"d12": 0.1, "d23": 0.1}
@@ -120,6 +126,7 @@ def test_what_several_sensors_tell_is_summed():
         assert adversary.noncentrality(shares) == pytest.approx(found.noncentrality, rel=1e-4)
 
 
+@pytest.mark.full
 def test_planned_power_of_two_sensors_is_had():
     model, rival = (network_of(t) for t in ("R1-p(R2,C2)-p(R3,C3)", "R1-p(R2,C2)"))
     model, rival = (replace(n, inputs=n.inputs * 2, outputs=n.outputs) for n in (model, rival))
@@ -140,6 +147,7 @@ def test_planned_power_of_two_sensors_is_had():
         gain(found.rival, parts[0])
 
 
+@pytest.mark.full
 def test_an_undamped_machine_is_found_back():
     """From random starts its sharp resonances are seen from nowhere."""
     tree, row = network_of("1~2, 1~3; F1; S2 S3"), network_of("1~2~3; F1; S2 S3")

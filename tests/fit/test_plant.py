@@ -12,6 +12,7 @@ from disting.model.chain import Chain, Sensor
 from tests.fit.drives import CHAINS, OMEGA, dense_response, response, truth
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 @settings(max_examples=30)
 @given(seed=st.integers(0, 10**6))
@@ -22,6 +23,7 @@ def test_the_response_is_that_of_the_matrix_equation(chain, seed):
     np.testing.assert_allclose(Plant(chain.structure, OMEGA[::20]).response(p), expected, rtol=1e-9)
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 @settings(max_examples=30)
 @given(seed=st.integers(0, 10**6))

@@ -31,6 +31,7 @@ def reversed_drive(fixed, **more):
     return chain, select(data, REVERSED, test=data, fixed=fixed, **more)
 
 
+@pytest.mark.full
 def test_a_given_mass_is_known_to_the_verdicts_that_prune():
     chain, found = reversed_drive({"m1": 0.01})
     assert found.saved == 0 and found.selected.chain == chain and len(found.candidates) == 2
@@ -42,6 +43,7 @@ def test_a_given_mass_is_known_to_the_verdicts_that_prune():
     assert "tell it apart" not in "".join(fit_text(found, found.test))
 
 
+@pytest.mark.full
 def test_bounds_prune_only_where_they_cut_nothing():
     for bounds, saved in (
         ({"m1": (0.0, 1.0)}, 0),
@@ -85,6 +87,7 @@ def test_what_the_drives_share_does_not_keep_them_apart():
     assert stands_for(*mirrored, Engine(), {"T1": (1e-3, 1e-3)})
 
 
+@pytest.mark.full
 def test_a_candidate_with_nothing_left_to_estimate_is_evaluated():
     train, test = demo(0).response("acceleration"), demo(1).response("acceleration")
     candidates = [c for c in figure_1((1, 2)) if not c.lag and len(c.ground_dampers) < 2]
@@ -98,6 +101,7 @@ def test_a_candidate_with_nothing_left_to_estimate_is_evaluated():
     assert found.selected.chain == Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
 
 
+@pytest.mark.full
 def test_a_selection_of_given_values_alone():
     train = response(Chain(1, damped=True), {"m1": 2.0}, noise=0.01)
     found = select(train, [Chain(1, damped=True)], fixed={"m1": 2.0})
@@ -120,6 +124,7 @@ def test_all_figures_of_a_selection_of_given_values_alone():
     assert len(fit_figures(found, physical(found.selected, found.task), train)) > 3
 
 
+@pytest.mark.full
 def test_what_is_given_does_not_count_as_determined():
     """A dead time that is given leaves four parameters for the three combinations that the rest
     determines.

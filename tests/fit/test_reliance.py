@@ -28,6 +28,7 @@ def left():
     return select(train, [ROW, Chain(2, damped=True)], test=test, controller=LAW)
 
 
+@pytest.mark.full
 def test_the_true_machine_lies_within_what_is_said(left):
     said = {s.name: s for s in left.relied_on}
     p = np.array(list(VALUES.values()))
@@ -122,6 +123,7 @@ def test_a_file_of_the_fit_holds_the_statements(left):
     )  # collocated velocity without dead time: as much as one likes
 
 
+@pytest.mark.full
 def test_draws_fit_the_data_where_a_parameter_is_not_determined():
     """Along a valley that bends the covariance leads away from the data, by a hundred times J."""
     machine = bench_drive(3, 9)

@@ -38,6 +38,7 @@ def selection():
     return select(planted(1), figure_1((1, 2)), test=planted(2))
 
 
+@pytest.mark.full
 def test_what_only_rounding_makes_cheaper_does_not_come_first(selection):
     small, large = sorted(selection.candidates[:2], key=lambda c: c.n_parameters)
     assert small.n_parameters < large.n_parameters
@@ -159,6 +160,7 @@ def test_a_profile_rises_on_both_sides(selection):
         profile(selection.selected, selection.task, "m9")
 
 
+@pytest.mark.full
 def test_of_more_lines_so_many_are_fitted_and_the_reading_says_so():
     found = select(planted(1), [Chain(1, damped=True)], test=planted(2), most_lines=40)
     for data in (found.task.cost.measured, found.test):
@@ -166,6 +168,7 @@ def test_of_more_lines_so_many_are_fitted_and_the_reading_says_so():
     assert selection_to_dict(found)["frequencies"]["lines"] == 40
 
 
+@pytest.mark.full
 def test_libraries_of_linear_algebra_get_one_thread_and_then_their_own_again():
     seen = []
 
@@ -179,12 +182,14 @@ def test_libraries_of_linear_algebra_get_one_thread_and_then_their_own_again():
     assert seen and set(seen) == {1} and after == {2}
 
 
+@pytest.mark.full
 def test_without_test_data_lines_are_left_out_in_turn():
     found = select(planted(1), [c for c in figure_1((2,)) if not c.lag])
     assert "cross-validation" in found.validation and found.selected.chain.n_masses == 2
     assert all(c.j_test > c.j_train for c in found.candidates if c.admissible)
 
 
+@pytest.mark.full
 def test_nothing_is_selected_where_no_candidate_is_admissible():
     found = select(
         planted(1),
@@ -200,6 +205,7 @@ def test_nothing_is_selected_where_no_candidate_is_admissible():
     )
 
 
+@pytest.mark.full
 def test_indistinguishable_candidates_are_fitted_once_and_named():
     """Force and sensor at the two ends: reciprocity mirrors the chain, so a ground damper may
     sit at either end.
@@ -234,6 +240,7 @@ def test_indistinguishable_candidates_are_fitted_once_and_named():
     assert said == [(second, Relation.INDISTINGUISHABLE), (third, Relation.UNDECIDED)]
 
 
+@pytest.mark.full
 def test_what_no_data_determine_is_said_by_its_combinations_and_never_selected():
     chain = Chain(2, meas_plus=2, damped=True)
     values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0}
@@ -270,6 +277,7 @@ def test_known_parameters_make_it_identifiable():
     assert found.admissible and found.practical.unidentifiable == "" and found.practical.rank == 3
 
 
+@pytest.mark.full
 def test_a_reversed_sensor_is_found():
     reversed_sensor = response(PLANTED, VALUES, noise=0.01, sign=-1)
     assert select(reversed_sensor, [PLANTED], sign=0).task.sign == -1
@@ -287,6 +295,7 @@ def test_input_that_does_not_fit_together_is_refused():
         select(planted(1), [Chain(1, damped=False)], lines=lines_by_deviation)
 
 
+@pytest.mark.full
 def test_the_bench_is_a_two_mass_drive_and_predicts_the_load_that_it_never_saw():
     train, test = bench("A"), bench("B")
     found = select(train, [c for c in figure_1((1, 2)) if not c.lag], test=test)

@@ -82,6 +82,7 @@ def test_equivalence_theorem_no_line_sees_more_than_the_optimum(adversary, best)
     assert closest[chosen] == pytest.approx(best.noncentrality, rel=0.15)
 
 
+@pytest.mark.full
 def test_optimal_spectrum_beats_ten_thousand_random_ones(adversary, best):
     """Every fit of the rival bounds a spectrum's noncentrality from above; what the bound leaves
     open is fitted."""
@@ -92,6 +93,7 @@ def test_optimal_spectrum_beats_ten_thousand_random_ones(adversary, best):
     assert 0 < max(some) < best.noncentrality
 
 
+@pytest.mark.full
 def test_best_band_is_no_worse_than_any_band_and_no_better_than_the_optimum(adversary, best):
     band = best_band(adversary)
     hertz = adversary.rival.hertz

@@ -12,6 +12,8 @@ from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 
+pytestmark = pytest.mark.full
+
 DRIVES, NOISE = 50, 0.02
 OMEGA = 2 * np.pi * np.geomspace(2.0, 200.0, 240)
 

@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.full
+
 GENERAL = """
 from disting import Model, Query, View, compare
 
@@ -46,7 +48,6 @@ quick_finding(Family(3, damped=False)[1], Family(3, damped=False)[2], Settings()
 """
 
 
-@pytest.mark.full
 @pytest.mark.parametrize("body", [PATIENT, CHAINS, pytest.param(GENERAL, marks=pytest.mark.slow)])
 def test_the_body_of_a_script_without_a_guard_runs_once(tmp_path, body):
     runs, script = tmp_path / "runs", tmp_path / "script.py"

@@ -6,8 +6,11 @@ are at work.
 import json
 
 import numpy as np
+import pytest
 
 from tests.house.package_copy import copied, said
+
+pytestmark = pytest.mark.full
 
 MODULE = """
 import json

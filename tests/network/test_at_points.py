@@ -69,6 +69,7 @@ def agrees(model, draw):
     return True
 
 
+@pytest.mark.full
 @settings(max_examples=40)
 @given(descriptions(), st.integers(0, 1000))
 def test_random_networks(description, seed) -> None:
@@ -81,6 +82,7 @@ def test_random_networks(description, seed) -> None:
     agrees(model, random.Random(seed))
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("family", "known"), [("machines-2-damped", 13), ("circuits-4", 63), ("compartments-2", 12)]
 )
@@ -93,6 +95,7 @@ def test_families(family, known) -> None:
     assert seen == known
 
 
+@pytest.mark.thin(6)
 @pytest.mark.parametrize(
     "text",
     [
@@ -158,6 +161,7 @@ def test_terms_are_written_out_when_they_are_asked_for() -> None:
 LARGE = "=".join(map(str, range(1, 11)))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("branch", "relation"),
     [("6=11, 11=12", Relation.UNDECIDED), ("5=11", Relation.DISTINGUISHABLE)],

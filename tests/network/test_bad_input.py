@@ -89,6 +89,7 @@ ELEMENTS = st.lists(
 )  # fmt: skip
 
 
+@pytest.mark.full
 @given(st.dictionaries(st.sampled_from(KEYS), VALUES | ELEMENTS, max_size=4))
 def test_entries_are_read_or_refused(entry):
     known = {"circuit", "machine", "network", "flows", "elements"} & entry.keys()
@@ -135,6 +136,7 @@ def test_no_circuit_is_read_in_one_dialect_that_means_another_one_in_a_second(te
             network_of(text)
 
 
+@pytest.mark.full
 @given(descriptions())
 def test_an_entry_is_read_back(description):
     network = built(description)
@@ -150,6 +152,7 @@ def writes_as_an_entry(network):
     )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "name",
     [pytest.param(n, marks=[pytest.mark.slow] * n.endswith("s-4")) for n in FAMILIES],  # trees-4

@@ -63,6 +63,7 @@ def agree(family: Family) -> int:
     return count
 
 
+@pytest.mark.full
 def test_networks_have_the_verdicts_of_chains_for_2_and_3_undamped_masses():
     assert agree(Family(2, damped=False)) + agree(Family(3, damped=False)) == 58
 

@@ -51,6 +51,7 @@ def classes_of(theorem):
     return [models for what, models in found.items() if what is not None and len(models) > 1]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("theorem", ["degree", "two kinds of elements", "compartments"])
 def test_some_constructions(theorem):
     assert not lacking(theorem, 20)

@@ -27,6 +27,7 @@ def rooted_trees(n_masses, joint):
         yield ", ".join(f"{a}{joint}{b}" for a, b in edges) + "; F1; S1"
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n_masses", "trees"), [(3, 2), (4, 4), pytest.param(5, 9, marks=pytest.mark.slow)]
 )

@@ -32,6 +32,7 @@ def signs(text, draw):
     return [orientation(model, e) for e in positive(goal_of(model, values), model, True) or ()]
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("text", "degree"), [(BRIDGE, 2), (ENDS, 1), *((text, 0) for text in SOME)]
 )
@@ -42,6 +43,7 @@ def test_the_sum_of_signs_is_the_same_everywhere(text, degree):
     assert all(found)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("bridge", [BRIDGE, ENDS])
 def test_a_bridge_whose_degree_is_not_0_gives_all(bridge):
     model = of_network(network_of(bridge))
@@ -53,6 +55,7 @@ def test_a_bridge_whose_degree_is_not_0_gives_all(bridge):
     assert verify(verdict_file(bridge, CHAIN)).sentence == "holds"
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("text", SOME)
 def test_bridges_of_degree_0_do_not(text):
     """What they give and what they do not is shown by points."""

@@ -89,6 +89,7 @@ def orders():
     return {text: reached(text) for text in (*RC, *LARGER)}
 
 
+@pytest.mark.full
 def test_one_network_is_within_another_one_exactly_where_its_orders_are(orders):
     networks = {text: network_of(text) for text in orders}
     held = 0

@@ -31,6 +31,7 @@ COUNTS = {
 }
 
 
+@pytest.mark.full
 def test_numbers_of_networks():
     assert {name: len(family_of(name).networks) for name in FAMILIES} == COUNTS
 
@@ -42,6 +43,7 @@ def test_numbers_of_circuits_by_size():
     assert len(bridges) == 85 - 68
 
 
+@pytest.mark.full
 def test_the_canonical_networks_of_ladenheim_are_those_of_which_all_values_can_be_determined():
     """108 of 148: Morelli and Smith, Passive Network Synthesis, SIAM 2019."""
     models = map(of_network, family_of("circuits-5").networks)
@@ -49,6 +51,7 @@ def test_the_canonical_networks_of_ladenheim_are_those_of_which_all_values_can_b
     assert len(found) == 108
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("masses", "some", "every", "whole"), [(2, 24, 18, 13), (3, 258, 185, 126)]
 )
@@ -124,6 +127,7 @@ def vector(size, ends):
     return Matrix([(i == ends[0]) - (i == ends[1]) for i in range(1, size + 1)])
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("count", [2, 3])
 def test_compartments_are_all_graphs_with_a_way_through(count):
     graphs = once(compartments(count))
@@ -190,6 +194,7 @@ def same_classes(listed, expected):
     )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("name", "kinds", "reactive", "most"),
     [
@@ -219,6 +224,7 @@ def form_of(network):
     return canonical(bases_of(edges), [e.letter for e in network.elements])
 
 
+@pytest.mark.full
 def test_cells_are_all_matroids_with_a_resistor_in_series():
     expected = {
         form
@@ -259,6 +265,7 @@ FITTED = [
 ]
 
 
+@pytest.mark.full
 def test_cells_have_what_is_fitted_to_impedance():
     known = set(map(form_of, family_of("cells-5").networks))
     assert [text for text in FITTED if form_of(network_of(text)) not in known] == []

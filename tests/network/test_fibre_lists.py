@@ -75,6 +75,7 @@ def near(values, rng, size):
     return {p: x * Fraction(1 + size * float(rng.uniform(-1, 1))) for p, x in values.items()}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "pair",
     [SOMETIMES[0], *(pytest.param(pair, marks=pytest.mark.slow) for pair in SOMETIMES[1:3]), NEVER],
@@ -93,6 +94,7 @@ def test_no_search_finds_what_lists_deny_and_all_around_it(pair):
     assert tried
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("pair", [*SOMETIMES, ALWAYS])
 def test_what_lists_find_is_found_around_it_too(pair):
     rng = np.random.default_rng(6)
@@ -118,6 +120,7 @@ def test_what_lists_find_is_found_around_it_too(pair):
     assert found
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("pair", SOMETIMES)
 def test_pairs_that_are_the_same_for_some_values(pair):
     left, right = models(pair)
@@ -128,6 +131,7 @@ def test_pairs_that_are_the_same_for_some_values(pair):
     assert compare(*pair).relation is Relation.SOMETIMES
 
 
+@pytest.mark.full
 def test_lists_agree_with_formulas():
     """Of circuits of four elements all pairs are decided by formulas and contradictions."""
     nets = [of_network(n) for n in family_of("circuits-4").networks[::2]]

@@ -53,6 +53,7 @@ def holds(data):
         return False
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("pair", [SAME, LIMIT])
 def test_no_statement_can_be_changed(pair):
     data = verdict_file(*pair)

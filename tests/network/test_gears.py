@@ -54,6 +54,7 @@ def response(network, values):
     return found and (found.num, found.den)
 
 
+@pytest.mark.full
 @given(trees(), st.integers(0, 10**6))
 def test_values_in_other_units_give_the_same(network, seed) -> None:
     draw = random.Random(seed)
@@ -105,6 +106,7 @@ SAME = [
 ]
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(
     ("pair", "view"), list(product(SAME, [View.EXACT, View.REAL, View.POSITIVE]))
 )

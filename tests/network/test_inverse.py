@@ -60,6 +60,7 @@ def asked():
     return left, right, by_inverse(left, right, "disting")
 
 
+@pytest.mark.full
 def test_the_other_pair_says_the_same(asked):
     _, _, found = asked
     assert found.outcome is Outcome.SOMETIMES and isinstance(found.evidence, AtInverse)
@@ -68,6 +69,7 @@ def test_the_other_pair_says_the_same(asked):
     assert compare(LEFT, RIGHT).relation.value == "sometimes"
 
 
+@pytest.mark.full
 def test_circuits_with_inductors_are_told_as_those_with_capacitors():
     pair = "R1-p(R2,L1-p(R3,L2))", "L1 1 2; R1 1 3; R2 2 3; R3 2 0; L2 3 0"
     twins = (text.replace("L", "C") for text in pair)
@@ -75,6 +77,7 @@ def test_circuits_with_inductors_are_told_as_those_with_capacitors():
     assert compare(*pair).relation.value == "sometimes"
 
 
+@pytest.mark.full
 def test_its_evidence_is_checked(asked):
     left, right, found = asked
     evidence = found.evidence

@@ -81,6 +81,7 @@ def is_in_lowest_terms(model):
     return top.gcd(bottom) in (1, -1)
 
 
+@pytest.mark.full
 @settings(max_examples=60)
 @given(descriptions(), st.integers(0, 2**32))
 def test_transfer_functions_of_networks(description, seed):

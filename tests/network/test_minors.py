@@ -62,6 +62,7 @@ def pairs(name, step):
     return found[::step]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("family", "step"),
     [

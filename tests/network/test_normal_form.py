@@ -46,6 +46,7 @@ TURNED = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right"), SAME)
 def test_parts_that_replace_each_other(left, right):
     assert has_one_form(network_of(left), network_of(right))
@@ -61,6 +62,7 @@ def test_parts_that_do_not(left, right):
     assert not has_one_form(network_of(left), network_of(right))
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize(("left", "right"), TURNED)
 def test_a_sensor_that_is_turned_changes_the_sign(left, right):
     """Positive values give a positive and a negative leading coefficient; complex ones agree."""
@@ -70,6 +72,7 @@ def test_a_sensor_that_is_turned_changes_the_sign(left, right):
     assert compare(left, turned).relation.value == "indistinguishable"
 
 
+@pytest.mark.full
 def test_a_verdict_by_replacement_is_checked_again():
     data = verdict_file(*SAME[-2])
     assert data["decided_by"] == "admissible" and verify(data).sentence == "holds"
@@ -80,6 +83,7 @@ def test_a_verdict_by_replacement_is_checked_again():
 FAMILIES = ["machines-3", "trees-4", "circuits-5", "cells-4", "compartments-3"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "name",
     [pytest.param(n, marks=pytest.mark.slow) if n == "trees-4" else n for n in FAMILIES],

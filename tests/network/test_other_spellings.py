@@ -118,6 +118,7 @@ def test_what_is_no_path_is_refused(text):
         compartments(text, "")
 
 
+@pytest.mark.full
 def test_models_and_fit_take_a_notation(tmp_path, capsys):
     assert main(["models", "[R1C1]", "--notation", "autoeis"]) == 2
     assert main(["models", "[R1C1]", "--notation", "boukamp"]) == 0

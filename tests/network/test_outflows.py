@@ -31,6 +31,7 @@ OTHER = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right"), ALL)
 def test_networks_that_are_the_same(left, right):
     found = compare(left, right)
@@ -38,6 +39,7 @@ def test_networks_that_are_the_same(left, right):
     assert found.certainty == ("theorem" if found.has_exceptions else "proven")
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right"), OTHER)
 def test_networks_that_are_not(left, right):
     found = compare(left, right)

@@ -57,6 +57,7 @@ def test_cells(left, right, same):
     assert relation(left, right) == relation(left, right, Domain.POSITIVE) == expected
 
 
+@pytest.mark.full
 def test_arcs_that_share_an_exponent_are_like_arcs_of_capacitors():
     last = ["P2", 3, 0, "n"]
     a = _network([["R0", 1, 2], ["R1", 2, 3], ["P1", 2, 3, "n"], ["R2", 3, 0], last])
@@ -119,6 +120,7 @@ def pairs_of(texts, most):
     return found[:most]
 
 
+@pytest.mark.full
 def test_verdicts_are_those_with_independent_symbols():
     draw, same = random.Random(2), 0
     for left, right in pairs_of(FEW, 16):
@@ -152,6 +154,7 @@ def agree_with_singular(pairs, least):
     assert seen > least and same > least / 20, (seen, same)
 
 
+@pytest.mark.full
 @needs_singular
 def test_verdicts_are_those_of_singular():
     agree_with_singular(pairs_of(FEW, 12), 8)
@@ -164,6 +167,7 @@ def test_verdicts_on_five_elements_are_those_of_singular():
     agree_with_singular(pairs_of(phases, 200), 150)
 
 
+@pytest.mark.full
 @settings(deadline=None, max_examples=15)
 @given(st.sampled_from([t for t in TEXTS if t.count("P") > 1]), st.randoms(use_true_random=False))
 def test_no_verdict_depends_on_names_and_order(text, draw):
@@ -181,6 +185,7 @@ def test_no_verdict_depends_on_names_and_order(text, draw):
     assert identifiability(network).rank == identifiability(other).rank
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("text", ["R0-p(R1-W1,P1)", *random.Random(3).sample(TEXTS, 25)])
 def test_as_many_parameters_are_determined_as_spectra_show(text):
     """The rank of d Z by all parameters, exponents too, at more frequencies than parameters."""

@@ -66,6 +66,7 @@ def has_one_form(left, right):
     return one is not None and one == simplest(right)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "name", [*FAMILIES, *(pytest.param(n, marks=pytest.mark.slow) for n in LARGE)]
 )
@@ -104,6 +105,7 @@ def test_numbers_of_nodes_do_not_matter():
         assert simplest(network_of(text)) == simplest(network), text
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize("name", [*FAMILIES, "machines-3", "circuits-5", "cells-4"])
 def test_damaged_networks_have_one_with_the_same_coefficients(name):
     """With elements too many, hanging, elsewhere, gears, ports turned: no error, no other order."""
@@ -131,6 +133,7 @@ def pattern(model, _):
     return [list(map(bool, side)) for side in (model.numerator_terms, model.denominator_terms)]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right", "relation"), DECIDED)
 def test_pairs_that_were_open(left, right, relation):
     data = verdict_file(left, right)

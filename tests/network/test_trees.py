@@ -31,6 +31,7 @@ def tried(weights, kept):
     return found
 
 
+@pytest.mark.full
 @given(EDGES, st.sets(st.sampled_from(NODES), min_size=1, max_size=4), st.integers(0, 99))
 def test_random_graphs(edges, kept, seed) -> None:
     draw = random.Random(seed)

@@ -73,6 +73,7 @@ def test_simulate_takes_them_and_set_wins():
     assert missing.returncode == 2 and "the value of C1, R2 is missing" in missing.stderr
 
 
+@pytest.mark.full
 def test_equivalents_and_plan_take_them():
     text = "R{R=1}(R{R=2}C{C=0.5})"
     done = called("equivalents", text, "--to", "p(R1,R2-C1)")

@@ -30,6 +30,7 @@ MANY = [
 DAMAGED = ["machines-2", "machines-2-damped", "circuits-4", "cells-4", "compartments-2"]
 
 
+@pytest.mark.thin(1)
 @needs_singular
 @pytest.mark.parametrize(("name", "most"), FEW)
 def test_some_verdicts_over_complex_values(name, most, record_property):
@@ -67,6 +68,7 @@ def agree_with_singular(pairs, record_property):
     assert 3 * len(seen) > len(pairs), told
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("name", "most"), [("machines-2", 8), ("compartments-2", 10), ("circuits-4", 6)]
 )

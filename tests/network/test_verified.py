@@ -14,6 +14,8 @@ from disting.network.families import family_of
 from disting.verdict.verification import Status
 from tests.network.pairs import damaged, some
 
+pytestmark = pytest.mark.full
+
 VIEWS = (View.EXACT, View.REAL, View.POSITIVE)
 FAMILIES = [
     ("machines-2", some(40), some(78)),

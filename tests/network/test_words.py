@@ -34,6 +34,7 @@ def test_a_limit_names_the_elements_that_are_missing():
     assert "1=2=3=1; F1; S1 without d13, k13 is 1=2=3; F1; S1" in told
 
 
+@pytest.mark.full
 def test_names_with_commas_are_parted_by_bars():
     assert "these are the same: 1>0, 1>2; in 1; out 2 | 1>2, 2>1; in 1; out 2\n" in said(
         "verdicts compartments-2"
@@ -48,6 +49,7 @@ def test_of_infinitely_many_values_some_are_told_as_such():
     assert told.endswith("  C1 = 2/9, R0 = 3, R1 = 3/2\n") and "of 1 other network 1" in told
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("network", "is_circuit"), [("R0-p(R1,C1)", True), ("1=2; F1; S2", False)])
 def test_values_of_circuits_have_units(tmp_path, network, is_circuit):
     s = 1j * np.logspace(0, 4, 60)

@@ -80,6 +80,7 @@ def test_drawings_tables_and_curves_are_in_them():
     assert kinds >= {"image/svg+xml", "text/html", "image/png", "text/latex", "text/plain"}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
 def test_every_cell_still_runs(path, tmp_path, monkeypatch):
     """In one process, without a kernel: names that have moved are found. What it says: by hand."""

@@ -21,6 +21,8 @@ from disting.verdict.query import View
 from disting.verdict.result import Relation
 from tests.report.outline import Outline
 
+pytestmark = pytest.mark.full
+
 NAMES = [
     "figures-3-4",
     "figures-5-6",
@@ -45,7 +47,6 @@ def page(folder) -> str:
     return (folder / "index.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.full
 def test_page_and_three_files_a_figure(folder):
     assert {p.name for p in folder.iterdir()} == {
         "index.html",
@@ -58,7 +59,6 @@ def test_page_and_three_files_a_figure(folder):
         assert min(width, height) > 500
 
 
-@pytest.mark.full
 def test_every_claim_stands_on_the_page_with_its_outcome(page):
     outline = Outline(page)
     said = re.sub(r"\s+", " ", outline.text)
@@ -79,7 +79,6 @@ def test_every_claim_stands_on_the_page_with_its_outcome(page):
             )
 
 
-@pytest.mark.full
 def test_nothing_comes_from_elsewhere(page):
     outline = Outline(page)
     links = [
@@ -96,7 +95,6 @@ def test_nothing_comes_from_elsewhere(page):
     assert len(page) < 1_000_000
 
 
-@pytest.mark.full
 def test_claims_lead_to_their_verdicts(findings):
     """Where the pages of the families lie beside: every page is there, every pair in it."""
     site = Path(__file__).parents[2] / "reports"
@@ -116,7 +114,6 @@ def test_claims_lead_to_their_verdicts(findings):
     assert unseen == ["figure-9"]  # it violates the constraints: no family has it
 
 
-@pytest.mark.full
 def test_table_2_and_table_3(page):
     assert re.findall(
         r'<th scope="row" class="n">(\d+)</th><td class="n">(\d*)</td><td class="n">(\d+)</td>',
@@ -131,7 +128,6 @@ def test_table_2_and_table_3(page):
     assert [int(number) for number, star in rows if star] == [1, 4, 6, 8, 11]
 
 
-@pytest.mark.full
 def test_fields_of_figure_10(findings):
     panel = of_decisions("left", findings.picture(3, False, View.TF))
     assert panel.names[:2] == ("A1", "A2")
@@ -143,7 +139,6 @@ def test_fields_of_figure_10(findings):
     assert ">undecided</text>" not in drawn
 
 
-@pytest.mark.full
 def test_a_narrow_figure_has_its_legend_in_rows(findings):
     panel = of_decisions("left", findings.picture(3, True, View.TF))
     one, two = (
@@ -165,7 +160,6 @@ def test_a_narrow_figure_has_its_legend_in_rows(findings):
         )
 
 
-@pytest.mark.full
 def test_phones_get_drawings_of_their_own(page):
     shown = re.findall(r'<svg class="plot (?:triangles )?(\w+)"', page)
     assert shown.count("wide") == shown.count("narrow") == 7 and shown.count("both") == 1
@@ -183,7 +177,6 @@ def test_the_same_findings_give_the_same_bytes(findings, folder):
     )
 
 
-@pytest.mark.full
 def test_another_computation_gives_the_same_bytes(folder):
     """Of one drawing of each kind."""
     fresh = Findings()
@@ -202,12 +195,10 @@ def test_another_computation_gives_the_same_bytes(folder):
         assert content == (folder / name).read_bytes(), name
 
 
-@pytest.mark.full
 def test_subscripts_of_hostile_text():
     assert with_scripts("<b>_x^2") == "&lt;b&gt;<sub>x</sub><sup>2</sup>"
 
 
-@pytest.mark.full
 def test_report_needs_something_to_report(capsys):
     assert main(["report"]) == 2
     assert "--paper" in capsys.readouterr().err

@@ -17,6 +17,8 @@ from disting.cli.parser import parser
 from disting.report import write_report
 from disting.report.write import PAGES
 
+pytestmark = pytest.mark.full
+
 REPORTS = Path(__file__).parents[2] / "reports"
 REMEDY = "run: disting report 1 2 3 4 5"
 
@@ -53,7 +55,6 @@ def is_current(new: Path, stored: Path) -> bool:
     return sum(histogram[64:]) <= 0.02 * images[0].width * images[0].height
 
 
-@pytest.mark.full
 def test_files_of_a_small_family_are_current(tmp_path: Path) -> None:
     """Beside the other pages, to which they lead. All files: by hand."""
     for page in (*(path.name for path in REPORTS.glob("*.html")), *others(REPORTS)):

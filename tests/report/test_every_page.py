@@ -19,6 +19,8 @@ from tests.report.page_kinds import LONG, REPORTS, SCHEMES, SHIPPED, SIGHTS, kin
 from tests.report.sight import out_of_sight
 from tests.report.test_model_list import HOSTILE
 
+pytestmark = pytest.mark.full
+
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 KINDS, LARGEST = kinds(3), kinds(5)
 # axe takes seconds: by default it looks at one page of each template
@@ -82,7 +84,6 @@ def _seen(tab, address: str, views: Sequence[View]) -> list[object]:  # type: ig
     return [*wrong, *(link for link in set(links) if not is_there(here, link))]
 
 
-@pytest.mark.full
 @pytest.mark.parametrize("kind", KINDS)
 def test_all_can_be_seen_and_reached(tab, site: Path, kind: str) -> None:  # type: ignore[no-untyped-def]
     turn = list(KINDS).index(kind) % 2 if kind in JUDGED else None
@@ -100,7 +101,6 @@ def test_all_can_be_seen_and_reached_everywhere(
     assert look(tab, f"{largest.as_uri()}/{LARGEST[kind]}", [View(sight, scheme)]) == []
 
 
-@pytest.mark.full
 def test_no_other_page_scrolls_sideways_on_a_phone(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
     tab.set_viewport_size({"width": 320, "height": 640})
     wide = []
@@ -123,7 +123,6 @@ def heights(tab, pages: Sequence[Path]) -> dict[str, int]:  # type: ignore[no-un
     return found
 
 
-@pytest.mark.full
 def test_no_page_is_endless(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
     written = [page for page in site.rglob("*.html") if page.parent.name not in SHIPPED]
     pages = sorted(written, key=lambda page: page.stat().st_size)[-6:]
@@ -137,7 +136,6 @@ def test_no_shipped_page_is_endless(tab) -> None:  # type: ignore[no-untyped-def
     assert {name: high for name, high in found.items() if high > TALL} == {}
 
 
-@pytest.mark.full
 def test_what_is_folded_opens_where_an_address_names_it_and_on_paper(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
     for address in (
         "guide/python-disting.html#Chain.parameters",
@@ -154,7 +152,6 @@ def test_what_is_folded_opens_where_an_address_names_it_and_on_paper(tab, site: 
     assert tab.locator(".claim:target").is_visible()
 
 
-@pytest.mark.full
 def test_what_is_wrong_would_be_found(tab, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
     wrong = {
         "a button": ("<button></button>", "button-name"),
@@ -189,7 +186,6 @@ def test_what_is_wrong_would_be_found(tab, tmp_path: Path) -> None:  # type: ign
     ] == []
 
 
-@pytest.mark.full
 def test_no_link_of_any_page_is_dead_and_no_name_is_given_twice(site: Path) -> None:
     pages = [page for page in site.rglob("*.html") if "joint" not in page.parts]
     assert len(pages) > 50
@@ -199,7 +195,6 @@ def test_no_link_of_any_page_is_dead_and_no_name_is_given_twice(site: Path) -> N
         assert len(ids) == len(set(ids)), page
 
 
-@pytest.mark.full
 def test_notebooks_are_listed_where_they_are(site: Path) -> None:
     names = sorted(path.stem for path in (site / "notebooks").glob("*.ipynb"))
     for address, root in (("index.html", "guide/"), ("guide/gallery.html", "")):
@@ -208,7 +203,6 @@ def test_notebooks_are_listed_where_they_are(site: Path) -> None:
     assert len(names) == 6
 
 
-@pytest.mark.full
 def test_every_page_has_its_sign_the_product_and_help(site: Path) -> None:
     pages = [page for page in site.rglob("*.html") if page.parent.name != "paper"]
     alone = 0
@@ -226,7 +220,6 @@ def test_every_page_has_its_sign_the_product_and_help(site: Path) -> None:
     assert alone == 8 + len(HOSTILE)  # fits, the question for the quantity, a plan, two looks
 
 
-@pytest.mark.full
 def test_coefficients_stay_inside_in_a_font_that_is_wider(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
     """Which font for formulas a phone has is not known: letters of 1.4 times the width."""
     tab.goto(f"{site.as_uri()}/models/3-damped/8.html")

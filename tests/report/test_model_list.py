@@ -174,6 +174,7 @@ def test_a_name_without_letters_is_refused() -> None:
         page_name(Path("ä ö.json"))
 
 
+@pytest.mark.full
 def test_the_command_writes_the_page_and_refuses_what_it_cannot(tmp_path: Path) -> None:
     for folder in ("one", "two"):
         (tmp_path / folder).mkdir()
@@ -212,6 +213,7 @@ def _settle(tab) -> None:  # type: ignore[no-untyped-def]
     )
 
 
+@pytest.mark.full
 def test_a_pair_is_found_by_its_names_and_told(visit, vessels) -> None:  # type: ignore[no-untyped-def]
     tab = visit(f"{NAME}.html")
     tab.fill("#find", "Two leaks, exch")
@@ -360,6 +362,7 @@ def test_a_page_says_which_part_of_a_model_another_one_reaches(tmp_path):
     assert said in matrix.read_text("utf-8")
 
 
+@pytest.mark.full
 def test_a_page_says_where_a_model_gives_more_than_its_twin(tmp_path):
     """Foster's form has one pole where both its parts have the same time constant, Cauer's none."""
     texts = ["p(R1,C1)-p(R2,C2)", "p(C1,R1-p(R2,C2))"]

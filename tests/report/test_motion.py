@@ -72,6 +72,7 @@ def wait_for(tab, selector: str, words: str) -> None:  # type: ignore[no-untyped
 # ---- what is computed
 
 
+@pytest.mark.full
 def test_frequency_responses_are_those_of_python(visit) -> None:  # type: ignore[no-untyped-def]
     rng, omega = np.random.default_rng(1), np.geomspace(0.5, 80, 12)
     models = [(chain, drawn(chain, rng)) for family in FAMILIES for chain in family.models]
@@ -106,6 +107,7 @@ def _exact(given: Chain, other: Chain, values: np.ndarray) -> np.ndarray | None:
     return np.array([float(Fraction(str(at[name]))) for name in other.parameters])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("masses", "expected"),
     [(2, [2, 2]), (3, [12, 6]), pytest.param(4, [18, 18], marks=pytest.mark.slow)],
@@ -133,6 +135,7 @@ def _renamed_or_dual(given: Chain) -> frozenset[Chain]:
     return frozenset(i.chain for i in images(given, dict.fromkeys(given.parameters, 1.0)))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("masses", [4, pytest.param(5, marks=pytest.mark.slow)])
 def test_mapped_values_give_the_same_response(visit, masses: int) -> None:  # type: ignore[no-untyped-def]
     tab, rng, omega = visit(SMALL), np.random.default_rng(3), np.geomspace(0.5, 60, 9)
@@ -185,6 +188,7 @@ def _state_space(chain: Chain, values: np.ndarray) -> tuple[np.ndarray, ...]:
     )
 
 
+@pytest.mark.full
 def test_the_motion_is_that_of_the_state_space(visit) -> None:  # type: ignore[no-untyped-def]
     tab, dt = visit(SMALL), 0.02
     force = np.sin(np.arange(400) ** 2 / 2000) + (np.arange(400) < 90)
@@ -203,6 +207,7 @@ def test_the_motion_is_that_of_the_state_space(visit) -> None:  # type: ignore[n
         assert np.abs(free @ mass).max() < 1e-9 * np.abs(free).max()  # its centre stays in place
 
 
+@pytest.mark.full
 def test_twins_show_the_same_over_time(visit) -> None:  # type: ignore[no-untyped-def]
     tab, family, force = visit(SMALL), Family(3, damped=True), [10.0] * 300 + [0.0] * 300
     rng = np.random.default_rng(6)
@@ -235,6 +240,7 @@ def _cost(found: dict[str, object], given: Chain) -> Cost:
     return Cost(FrequencyResponse(omega, response(given, start_values(given), omega)))
 
 
+@pytest.mark.full
 def test_the_cost_of_an_imitation_and_where_it_parts_most(visit) -> None:  # type: ignore[no-untyped-def]
     """The cost is (14) at the same frequencies; where both part most is looked for on a fine grid."""
     given, other = Family(3, True)[1], Family(3, True)[4]
@@ -258,6 +264,7 @@ def test_an_imitation_is_as_good_as_that_of_a_fit(visit, left: int, right: int) 
     assert found["cost"] <= 1.001 * estimates([other], Task(_cost(found, given)))[other].j
 
 
+@pytest.mark.full
 def test_no_resonance_is_hidden_between_two_lines(visit) -> None:  # type: ignore[no-untyped-def]
     """The least cost at 400 lines has a resonance without damping between two of them: 47 dB."""
     given, other = Family(5, True)[9], Family(5, True)[32]
@@ -332,6 +339,7 @@ def test_first_values_are_not_special() -> None:
     assert len(set(ratios)) == 4 and len({named[f"m{i}"] for i in range(1, 6)}) == 5
 
 
+@pytest.mark.full
 def test_a_catalogue_of_one_model_has_no_page(tmp_path: Path) -> None:
     names = {
         path.name
@@ -340,6 +348,7 @@ def test_a_catalogue_of_one_model_has_no_page(tmp_path: Path) -> None:
     assert "motion-2-undamped.html" in names and "motion-1-undamped.html" not in names
 
 
+@pytest.mark.full
 def test_twins_follow_by_formulas(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A1-A11")
     assert tab.text_content("#pair").startswith("A1 and A11")
@@ -359,6 +368,7 @@ def test_twins_follow_by_formulas(visit) -> None:  # type: ignore[no-untyped-def
     assert before != after and f"{float(Fraction(str(at['k01']))):.4g} N/m" in after
 
 
+@pytest.mark.full
 def test_the_mark_stands_where_the_curves_part_most(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A1-A4")
     wait_for(tab, "#how", "Best found in this page")
@@ -381,6 +391,7 @@ def test_the_mark_stands_where_the_curves_part_most(visit) -> None:  # type: ign
     assert "dB apart" in tab.text_content("#bode text.most")
 
 
+@pytest.mark.full
 def test_values_that_are_not_positive_are_said_at_once(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(LARGER + "#A2-A6")
     wait_for(tab, "#how", "do the same to within rounding")
@@ -403,6 +414,7 @@ def test_values_that_are_not_positive_are_said_at_once(visit) -> None:  # type: 
 # ---- how it is driven
 
 
+@pytest.mark.full
 def test_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("chains-3-damped.html#1-4")
     follow_link(tab, '#detail [data-slot="link"] a')
@@ -417,6 +429,7 @@ def test_links_lead_there(visit) -> None:  # type: ignore[no-untyped-def]
     assert tab.inner_text("h1").startswith("Model A1")
 
 
+@pytest.mark.full
 def test_wrong_addresses_show_the_first_pair_and_say_so(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A1-A99")
     for wrong in ("", "#A3-A3", "#x", "#A1", "#4:1-4:2"):
@@ -437,6 +450,7 @@ def test_wrong_addresses_show_the_first_pair_and_say_so(visit) -> None:  # type:
     assert tab.inner_text("#trouble") == ""
 
 
+@pytest.mark.full
 def test_keys_of_the_presentation(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A1-A11,present")
     assert tab.is_visible("#bode") and not tab.is_visible("h1") and not tab.is_visible("#values")
@@ -469,6 +483,7 @@ def test_keys_of_the_presentation(visit) -> None:  # type: ignore[no-untyped-def
     assert tab.is_visible("#bode")  # keys are those of the presentation
 
 
+@pytest.mark.full
 def test_it_moves_and_pauses(tab, visit) -> None:  # type: ignore[no-untyped-def]
     tab.emulate_media(reduced_motion="no-preference")
     visit(SMALL + "#A1-A11")
@@ -483,6 +498,7 @@ def test_it_moves_and_pauses(tab, visit) -> None:  # type: ignore[no-untyped-def
     assert tab.input_value("#time") == still and float(still) > 0
 
 
+@pytest.mark.full
 def test_less_motion_is_respected(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.evaluate(NEXT_FRAME)

@@ -39,6 +39,7 @@ def networks(pick: st.DrawFn) -> Network:
     return network_of(pick(st.sampled_from([*HARD, pick(st.sampled_from(texts))])))
 
 
+@pytest.mark.full
 @few
 @given(networks())
 def test_every_element_is_drawn_and_named_once(drawn: Network) -> None:
@@ -90,6 +91,7 @@ def _distance(p: tuple[float, float], piece) -> float:  # type: ignore[no-untype
     return float(((x0 + t * dx - p[0]) ** 2 + (y0 + t * dy - p[1]) ** 2) ** 0.5)
 
 
+@pytest.mark.full
 @few
 @given(descriptions().map(built).filter(lambda made: isinstance(made, Network)))
 def test_any_network_is_drawn_whole(drawn: Network) -> None:

@@ -73,6 +73,7 @@ def drawn(machine, values):
     return dict(zip(names, values, strict=True))
 
 
+@pytest.mark.full
 def test_frequency_responses_are_those_of_python(visit, found) -> None:
     rng, omega = np.random.default_rng(1), np.geomspace(0.5, 80, 9)
     every = [m for name in FAMILIES for m in family_of(name).networks[::7]]
@@ -123,6 +124,7 @@ MOVED = """([given, values, force, dt]) => {
 }"""
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", ["loop", "held", *GEARED])
 def test_the_motion_is_that_of_the_state_space(visit, name) -> None:
     machine = machine_of(of_network(network_of(TEXTS.get(name, name))))
@@ -152,6 +154,7 @@ def test_the_page_knows_every_verdict(found) -> None:
     assert [m["order"] for m in data["machines"]] == [Sensor.ACCELERATION.order] * 4
 
 
+@pytest.mark.full
 def test_all_machines_of_the_families_can_be_read() -> None:
     """No two masses at one place, none on a joint of others; trees without a joint that crosses."""
     for name in FAMILIES:
@@ -180,6 +183,7 @@ def crosses(one, other):
     return 1e-6 < t < 1 - 1e-6 and 1e-6 < u < 1 - 1e-6
 
 
+@pytest.mark.full
 def test_a_pair_moves_and_is_named(visit) -> None:
     tab = visit(PAGE + "#A1-A4")
     assert tab.text_content("#pair").startswith("tree and held")
@@ -225,11 +229,13 @@ def test_gears_move(tmp_path) -> None:
     assert data["values"][0][-1] == 2.0
 
 
+@pytest.mark.full
 def test_wrong_addresses_say_what_there_is(visit) -> None:
     tab = visit(PAGE + "#A1-A9")
     assert "names no pair here: there are the models A1 to A4" in tab.inner_text("#trouble")
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "texts",
     [

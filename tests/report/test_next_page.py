@@ -53,6 +53,7 @@ def test_a_catalogue_with_other_groups_says_nothing():
     assert found_for(catalog(1, damped=False)) is None
 
 
+@pytest.mark.full
 def test_the_panel_says_what_to_measure_next(visit):
     page = visit("chains-3-damped.html#2-5")
     line = page.locator('[data-slot="next"]')
@@ -61,6 +62,7 @@ def test_the_panel_says_what_to_measure_next(visit):
     assert page.locator('[data-slot="next"]').inner_text() == ""
 
 
+@pytest.mark.full
 def test_a_link_to_a_structure_opens_its_group_and_lands_there(visit):
     page = visit("next-3-damped.html#A10")
     assert page.evaluate("document.getElementById('A10').closest('details').open")
@@ -71,6 +73,7 @@ def test_a_link_to_a_structure_opens_its_group_and_lands_there(visit):
     assert page.locator("#A2").is_visible() and not page.locator("#A11").is_visible()
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("masses", [4, pytest.param(5, marks=pytest.mark.slow)])
 def test_the_page_of_a_large_catalogue_is_short_and_its_tables_fit(tab, tmp_path: Path, masses):
     page = next_page(catalog(masses, damped=False), next_catalog(masses, damped=False))

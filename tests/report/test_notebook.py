@@ -68,6 +68,7 @@ def text(html: str) -> str:
     return " ".join(" ".join(parsed(html).itertext()).split())
 
 
+@pytest.mark.full
 def test_everything_with_a_table_is_well_formed_and_short(found, tmp_path):
     file = tmp_path / "a & b.csv"
     write_csv(DATA, file)
@@ -112,6 +113,7 @@ def test_whatever_is_shown_as_a_table_has_one():
     assert [kind.__name__ for kind in tabled if table_of.dispatch(kind) is unknown] == []
 
 
+@pytest.mark.full
 def test_candidates_before_a_fit_and_networks_are_shown():
     cell, other = network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")
     found = gate([cell, other])
@@ -145,6 +147,7 @@ def test_a_verdict_says_domain_certainty_and_what_it_rests_on():
     assert "positive 3:2 always with a positive equivalent 3:5" in said
 
 
+@pytest.mark.full
 def test_a_large_catalogue_shows_its_first_models_and_where_the_rest_is():
     said = text(catalog(5, damped=False)._repr_html_())
     assert "A12" in said and "A13" not in said
@@ -181,6 +184,7 @@ def test_a_map_is_shown_as_a_formula():
     assert found._repr_latex_().startswith("\\begin{align}")
 
 
+@pytest.mark.full
 def test_bode_diagrams_lie_on_new_axes_or_on_given_ones():
     first = DATA.plot(label="one")
     again = DATA.sign_reversed().plot(first, label="two", color="red")
@@ -226,6 +230,7 @@ def test_a_matrix_has_a_field_a_pair_in_the_place_of_its_models():
     assert catalog(2, damped=False).plot(given) is given
 
 
+@pytest.mark.full
 def test_without_matplotlib_a_plot_names_the_remedy():
     code = (
         "import sys; sys.modules['matplotlib'] = None\n"

@@ -202,6 +202,7 @@ def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_
     assert said in text
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_groups_say_where_special_values_are_left_aside(damped: bool) -> None:
     """41 pairs of groups of the undamped models of 4 masses, none of the damped ones."""

@@ -12,6 +12,8 @@ from disting.report import write_report
 from disting.report.drawing import draw
 from disting.report.scene import Text
 
+pytestmark = pytest.mark.full
+
 PLACES = {
     "models/2-damped/3.html": ("main", "chains-2-damped-3", (3,)),
     "chains-2-damped.html#1-3": ("#detail", "pair", (1, 3)),

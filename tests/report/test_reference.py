@@ -23,6 +23,7 @@ def offered(name: str) -> dict[str, object]:
     }
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("name", MODULES)
 def test_every_public_name_is_there_with_its_arguments(name: str) -> None:
     found = {entry.name: entry for entry in entries(name)}
@@ -77,6 +78,7 @@ def test_every_name_has_one_place_and_every_link_leads_to_one() -> None:
         assert set(names(entry)) <= set(ids["python-disting.html"])
 
 
+@pytest.mark.full
 def test_two_runs_make_the_same_pages() -> None:
     assert python_pages() == python_pages.__wrapped__()  # made anew
     assert command_page(parser()) == command_page(parser())

@@ -143,6 +143,7 @@ def _fits(tab) -> bool:  # type: ignore[no-untyped-def]
     return bool(tab.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0)
 
 
+@pytest.mark.full
 def test_a_pair_is_explained_and_can_be_taken_away(visit, found: SizesCatalog) -> None:  # type: ignore[no-untyped-def]
     tab = visit(PAGE + "#3:4-2:1")
     verdict = found.verdict(2, 8)
@@ -166,6 +167,7 @@ def test_a_pair_is_explained_and_can_be_taken_away(visit, found: SizesCatalog) -
     assert tab.inner_text("h1").startswith("Model A4")
 
 
+@pytest.mark.full
 def test_every_spelling_in_an_address_leads_there(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(PAGE)
     for fragment, title in (
@@ -180,6 +182,7 @@ def test_every_spelling_in_an_address_leads_there(visit) -> None:  # type: ignor
         assert tab.inner_text("#trouble") == ""
 
 
+@pytest.mark.full
 def test_an_address_that_names_no_model_says_so(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(PAGE + "#2:1-3:4")
     for fragment, said in (
@@ -197,6 +200,7 @@ def test_an_address_that_names_no_model_says_so(visit) -> None:  # type: ignore[
     assert tab.inner_text("#trouble") == "" and not tab.is_visible("#detail")
 
 
+@pytest.mark.full
 def test_all_searches_lead_to_two_sizes_and_to_one(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(PAGE)
     for typed, title in (("2:1 3:4", "2:1 and 3:4"), ("3:1 4", "3:1 and 3:4"), ("3:4", "3:4")):
@@ -220,6 +224,7 @@ def test_all_searches_lead_to_two_sizes_and_to_one(visit) -> None:  # type: igno
     assert tab.inner_text("#detail h3") == "2:1 and 3:4"
 
 
+@pytest.mark.full
 def test_the_address_of_a_catalogue_leads_on_to_two_sizes(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("chains-3-undamped.html#3:4-2:1")
     tab.wait_for_url(f"**/{PAGE}*")
@@ -251,6 +256,7 @@ def test_hover_and_keyboard_tell_the_limit(visit) -> None:  # type: ignore[no-un
     assert tab.is_visible("#detail")
 
 
+@pytest.mark.full
 def test_two_sizes_alone_and_what_is_asked_of_limits(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("opened.html")
     tab.select_option("#only", "1-2")
@@ -265,6 +271,7 @@ def test_two_sizes_alone_and_what_is_asked_of_limits(visit) -> None:  # type: ig
     assert tab.get_attribute('[role="grid"]', "aria-rowcount") == "14"
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("width", "scheme"), [(320, "light"), (390, "dark"), (1280, "light")])
 def test_the_page_has_no_serious_barrier_and_fits(visit, width: int, scheme: str) -> None:  # type: ignore[no-untyped-def]
     tab = visit("opened.html#2:1-3:4", width, scheme)
@@ -286,6 +293,7 @@ SHEET = """() => Object.fromEntries(["limit", "open", "distinguishable", "indist
 }))"""
 
 
+@pytest.mark.full
 def test_limits_have_a_colour_of_their_own(visit, found: SizesCatalog) -> None:  # type: ignore[no-untyped-def]
     """What the page is about is seen: fields of two sizes by limit, of one size by relation."""
     tab = visit(PAGE)

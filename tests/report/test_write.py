@@ -4,6 +4,8 @@ import json
 import re
 from pathlib import Path
 
+import pytest
+
 from disting.catalogs import catalog
 from disting.catalogs.damper_family import damper_family
 from disting.report import write_report
@@ -12,6 +14,7 @@ from disting.report.write import PAGES
 ENDINGS = (".html", "-matrix.svg", "-matrix.png", ".csv", ".json")
 
 
+@pytest.mark.full
 def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
     catalogs = [catalog(1, damped=False), catalog(2, damped=True)]
     paths = write_report(catalogs, tmp_path / "new" / "folder")
@@ -35,6 +38,7 @@ def test_all_files_are_written_and_linked(tmp_path: Path) -> None:
     assert all(f'href="{catalogs[0].name}{ending}"' in text for ending in ENDINGS[1:])
 
 
+@pytest.mark.full
 def test_data_are_the_catalogues_own(tmp_path: Path) -> None:
     source = catalog(2, damped=False)
     write_report([source], tmp_path)
@@ -42,6 +46,7 @@ def test_data_are_the_catalogues_own(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "chains-2-undamped.json").read_text(encoding="utf-8"))["verdicts"]
 
 
+@pytest.mark.full
 def test_the_index_leads_to_pages_of_other_commands_where_they_are(tmp_path: Path) -> None:
     (tmp_path / "paper").mkdir()
     (tmp_path / "paper" / "index.html").write_text("", encoding="utf-8")
@@ -49,6 +54,7 @@ def test_the_index_leads_to_pages_of_other_commands_where_they_are(tmp_path: Pat
     assert 'href="paper/index.html"' in start and 'href="fit.html"' not in start
 
 
+@pytest.mark.full
 def test_families_with_ground_dampers_have_a_page_and_are_linked_both_ways(tmp_path: Path) -> None:
     found = [damper_family(2, damped=True), damper_family(1, damped=False)]
     paths = write_report([catalog(2, damped=True)], tmp_path, found)
@@ -68,6 +74,7 @@ def test_families_with_ground_dampers_have_a_page_and_are_linked_both_ways(tmp_p
             assert (tmp_path / target).is_file()
 
 
+@pytest.mark.full
 def test_the_index_keeps_pages_of_ground_dampers(tmp_path: Path) -> None:
     (tmp_path / "dampers-3-damped.html").write_text("", encoding="utf-8")
     texts = {
@@ -84,6 +91,7 @@ def test_the_index_keeps_pages_of_ground_dampers(tmp_path: Path) -> None:
     ).read_text(encoding="utf-8")
 
 
+@pytest.mark.full
 def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
     first, second = (write_report([catalog(2, damped=False)], tmp_path / name) for name in "ab")
     assert [p.read_bytes() for p in first] == [p.read_bytes() for p in second]

@@ -30,6 +30,7 @@ def test_a_later_value_replaces_the_earlier(path: Path) -> None:
         assert store.get_many([key(1), key(2)]) == {key(1): "3", key(2): "2"}
 
 
+@pytest.mark.full
 @settings(max_examples=40, deadline=None)
 @given(st.dictionaries(st.text(max_size=70), st.text(), max_size=6))
 def test_every_text_comes_back(texts: dict[str, str]) -> None:

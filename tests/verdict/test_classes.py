@@ -109,6 +109,7 @@ def four():
     return DamperFamily(family, DamperSets.SINGLE.of(4), classes(chains, ENGINE))
 
 
+@pytest.mark.full
 def test_four_masses_at_random_as_compare_says(four):
     random = Random(3)
     for _ in range(25):  # of three masses all are compared
@@ -122,6 +123,7 @@ def test_four_masses_at_random_as_compare_says(four):
             )
 
 
+@pytest.mark.full
 def test_names_and_places(four):
     assert [four.place(four.name(i)) for i in range(len(four))] == list(range(len(four)))
     assert four.text(four.place((3, (2,)))) == "4:3+b2"

@@ -100,6 +100,7 @@ def three_ways(words, folder):
     return without.stdout
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("words", COMPARED, ids=" ".join)
 def test_verdicts_on_chains(words, tmp_path):
     for domain in DOMAINS:
@@ -110,11 +111,13 @@ def test_verdicts_on_chains(words, tmp_path):
     three_ways(("verify", file), tmp_path)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("words", OTHERS, ids=" ".join)
 def test_lists_of_chains(words, tmp_path):
     three_ways(words, tmp_path)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("name", "domain"), [*product(("single", "matrices"), DOMAINS)])
 def test_files_of_models(name, domain, files, tmp_path):
     file = files[name]
@@ -147,6 +150,7 @@ def refuse_differences(verdicts):
         assert read_back(verdict) == verdict
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT, View.COMBINED])
 @pytest.mark.parametrize("damped", [False, True])
 def test_evidence_that_is_made_is_that_which_is_read(view, damped):
@@ -216,6 +220,7 @@ findings = st.builds(PositiveFinding, st.just(Share.UNKNOWN), reason=st.text()) 
 )
 
 
+@pytest.mark.thin(4)
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.kind)
 @settings(max_examples=15, phases=[Phase.generate])
 @given(st.data())

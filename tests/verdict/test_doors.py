@@ -88,11 +88,13 @@ def refuse_differences(chains):
             assert limits(verdict) == limits(first[pair]), (door, verdict)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_all_pairs_of_one_to_three_masses(damped):
     refuse_differences([chain for n in (1, 2, 3) for chain in Family(n, damped)])
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("numbers", [(1, 4, 6), pytest.param(range(1, 12), marks=pytest.mark.slow)])
 @pytest.mark.parametrize("damped", [False, True])
 def test_pages_tell_the_same(damped, numbers):
@@ -104,6 +106,7 @@ def test_pages_tell_the_same(damped, numbers):
         )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 def test_shipped_tables_tell_the_same(damped):
     for n in (2, 3):
@@ -113,6 +116,7 @@ def test_shipped_tables_tell_the_same(damped):
             assert told(shipped) == told(compare(family[i], family[j]))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("seed", range(3))
 def test_commands_tell_the_same(seed, tmp_path):
     random = Random(seed)

@@ -19,6 +19,7 @@ def decided(chains, view=View.EXACT):
     return engine.decisions(subjects, Query(view))
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("view", [View.EXACT, View.POSITIVE])
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_family_lies_between_its_worst_pair_and_the_sum_of_all(damped, view):

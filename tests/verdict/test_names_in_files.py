@@ -103,6 +103,7 @@ def believed(data: dict[str, Any]) -> bool:
         return False
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("case", CASES)
 def test_no_model_is_called_by_the_notation_of_another_one(case: str) -> None:
     data = stored(case)
@@ -135,6 +136,7 @@ def test_names_that_are_notations_cannot_change_places(case: str) -> None:
     assert not believed(names) and not believed(data | {"models": models[::-1]})
 
 
+@pytest.mark.thin(2)
 @pytest.mark.parametrize("case", ["chains", "circuits", "boukamp", "netlists", "machines"])
 def test_another_notation_of_the_same_network_is_harmless(case: str) -> None:
     data = stored(case)
@@ -143,6 +145,7 @@ def test_another_notation_of_the_same_network_is_harmless(case: str) -> None:
             assert verify(renamed(data, {name: other})).status is Status.HOLDS, other
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("case", ["chains", "circuits", "machines", "state space"])
 def test_free_names_are_harmless_as_the_answer_says_that_they_are_free(case: str) -> None:
     data = stored(case)
@@ -175,6 +178,7 @@ def is_harmless(path: tuple[Any, ...]) -> bool:
     return path[:1] == ("models",) and path[2:3] == ("elements",) and path[-1] == 0
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("case", ["netlists"])
 def test_no_text_can_be_replaced_by_another_one_of_the_file(case: str) -> None:
     assert [(p, x) for p, x, lie in texts(case) if believed(lie) and not is_harmless(p)] == []
@@ -289,6 +293,7 @@ def test_fit_files_of_networks_are_refused_likewise(tmp_path: Path) -> None:
         assert done.returncode == 2 and "does not denote" in done.stderr
 
 
+@pytest.mark.full
 def test_a_network_that_is_read_back_keeps_its_notation() -> None:
     """Names that commands give are those of the texts."""
     for text in (*NAMES[13:], "R0-p(R1,C1)-W1", "1=2*i, 2=3; F1; S3", "1>2, 2>0; in 1; out 1, 2"):

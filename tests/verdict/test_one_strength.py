@@ -115,6 +115,7 @@ def refuse_differences(random, family, folder):
     assert turned(compare(right, left)) == strength(first), (left.name, right.name, "turned")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("family", ["machines-2", "circuits-4", "cells-4", "compartments-2"])
 def test_drawn_networks(family, tmp_path):
     refuse_differences(Random(family), family, tmp_path)
@@ -136,6 +137,7 @@ def as_functions(random, model):
     return Model.from_transfer_function(*(side.subs(new, simultaneous=True) for side in sides))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("family", ["machines-2", "circuits-4", "compartments-2"])
 def test_a_bare_transfer_function_is_never_told_more(family):
     """Theorems speak of networks, so it may stay undecided, but it is told no other relation, and

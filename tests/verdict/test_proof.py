@@ -37,6 +37,7 @@ def decided(n, damped):
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("size", [(1, 3), (2, 2), (3, 2), (2, 3)])
 @pytest.mark.parametrize("rank_below", [0, 1])
 def test_rank_agrees_with_sympy(size, rank_below):
@@ -64,6 +65,7 @@ def test_rank_of_nothing_and_out_of_time():
         rank([[x, y], [y, x]], 0.0)
 
 
+@pytest.mark.thin(3)
 @pytest.mark.parametrize(("n", "damped"), [(2, True), (3, False), (3, True), (4, False)])
 def test_proven_ranks_are_the_sampled_ones(n, damped):
     for chain in Family(n, damped):

@@ -74,6 +74,7 @@ def test_the_model_of_smaller_rank_satisfies_more_equations():
     assert seen
 
 
+@pytest.mark.full
 def test_an_equation_in_numbers():
     """3:7 has 6 of 7, 3:8 all 7: the coefficients of a 3:7 fulfil an equation that those of a 3:8
     do not; seen by the rank of their derivatives at one point each.
@@ -139,6 +140,7 @@ OPEN = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("models", "asked", "remedy"), OPEN)
 def test_what_is_not_known_says_why_and_what_helps(models, asked, remedy):
     """Conditions that are silent, models that are too large, positive values alone that are open."""

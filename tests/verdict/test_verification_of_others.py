@@ -119,11 +119,13 @@ def told(name: str) -> dict[str, Any]:
     return plain(left, right, **said)
 
 
+@pytest.mark.thin(4)
 @pytest.mark.parametrize("name", CASES)
 def test_what_was_decided_holds_from_its_file_alone(name: str) -> None:
     assert verify(told(name)).sentence == "holds"
 
 
+@pytest.mark.full
 def test_every_kind_of_evidence_is_among_the_cases() -> None:
     kinds = {told(name)["evidence"]["kind"] for name in CASES}
     assert kinds >= {"counts", "forms", "ranks", "renaming", "free-choice", "constants"}
@@ -144,6 +146,7 @@ def lies(data: dict[str, Any]) -> list[dict[str, Any]]:
     return [*found, {"models": data["models"][::-1]}]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", CASES)
 def test_who_lies_and_writes_all_that_is_derived_anew_is_found_out(name: str) -> None:
     data = told(name)
@@ -160,6 +163,7 @@ def test_who_lies_and_writes_all_that_is_derived_anew_is_found_out(name: str) ->
 SYMMETRIC = ("measured: renaming", "measured: theorem", "general: free-choice", "general: theorem")
 
 
+@pytest.mark.thin(6)
 @pytest.mark.parametrize("name", [name for name in CASES if name not in SYMMETRIC])
 def test_models_that_change_places_with_their_names_are_found_out(name: str) -> None:
     data = told(name)
@@ -173,12 +177,14 @@ def test_models_that_change_places_with_their_names_are_found_out(name: str) -> 
     assert verify(told_again(data, **lie)).status is Status.FAILS
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", ["measured: fibre under experiments", "general: witnesses"])
 def test_every_altered_leaf_is_found(name: str) -> None:
     """Another model or experiment may be one of which the verdict is as true."""
     assert not missed(told(name), "num", "den", "G", "elements", "experiments", "rounded")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("name", "free"),
     [
@@ -197,6 +203,7 @@ def test_who_alters_evidence_and_writes_all_that_is_derived_anew_is_found_out(
     assert not believed(told(name), *free.split())
 
 
+@pytest.mark.thin(6)
 @pytest.mark.parametrize(
     "lie",
     [
@@ -266,6 +273,7 @@ def test_evidence_is_looked_at_wholly_without_the_rest_of_the_file(what: str) ->
     assert not sides.left.confirms(sides.right, altered(evidence), representation)
 
 
+@pytest.mark.full
 def test_another_processor_ends_at_another_equivalent_of_a_curve() -> None:
     """A search in rounded numbers does, where six unknowns have five equations."""
     pair = "1>0, 1>2, 1>3, 2>0, 2>3, 3>1; in 1; out 2", "1>0, 1>2, 1>3, 2>1, 2>3, 3>2; in 1; out 2"
@@ -303,6 +311,7 @@ def test_experiments_and_models_are_named_wholly() -> None:
     }
 
 
+@pytest.mark.full
 def test_every_place_is_a_verdict_of_its_own_and_none_may_be_left_away() -> None:
     data = json.loads(json.dumps(everywhere_file(A[1], A[4], ["sensor=3"], engine=ENGINE)))
     assert verify(data).sentence == "holds"
@@ -387,6 +396,7 @@ def test_large_numbers_in_evidence_end_soon() -> None:
         assert found_out(told_again(ranks, evidence=ranks["evidence"] | {"rows": labels}))
 
 
+@pytest.mark.full
 def test_the_command_checks_experiments_and_models_of_files(tmp_path: Path) -> None:
     models = tmp_path / "models.json"
     models.write_text(

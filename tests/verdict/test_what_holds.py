@@ -103,6 +103,7 @@ def test_damping_quantity_and_experiments_are_compared(name, lie):
     assert found_out(put(plain("3:1", "3:4"), ("left_premise", name), lie))
 
 
+@pytest.mark.full
 def test_every_way_to_place_experiments_is_said(tmp_path):
     path = tmp_path / "ways.json"
     assert called("compare", "2:1", "2:2", "--also", "sensor=2", "--json", path).returncode == 0

@@ -13,6 +13,8 @@ from disting.model.chain import Chain
 from disting.report.fit.left_figure import ellipse, left_figure
 from tests.fit.drives import response
 
+pytestmark = pytest.mark.full
+
 ROW = Chain(3, damped=True)
 VALUES = {"m1": 1.0, "m2": 0.6, "m3": 0.4, "k12": 3e4, "k23": 2e4, "d12": 8.0, "d23": 3.0}
 LAW = Controller(P=60.0)
@@ -24,7 +26,6 @@ def left():
     return train, select(train, [ROW], test=test, controller=LAW)
 
 
-@pytest.mark.full
 def test_every_structure_and_equivalent_is_named_in_the_files(left):
     train, found = left
     drawn = left_figure(found, train)
@@ -34,7 +35,6 @@ def test_every_structure_and_equivalent_is_named_in_the_files(left):
     assert "3:1" in drawn.title
 
 
-@pytest.mark.full
 def test_one_structure_without_equivalents_needs_no_figure(left):
     train, found = left
     alone = replace(found.members[0], twins=())
@@ -49,7 +49,6 @@ def test_one_structure_with_a_controller_has_a_figure(left):
     assert left_figure(replace(found, members=(alone,)), train) is not None
 
 
-@pytest.mark.full
 def test_the_load_of_a_row_is_its_last_mass():
     omega = np.array([3.0, 50.0])
     s2 = -(omega**2)
@@ -61,7 +60,6 @@ def test_the_load_of_a_row_is_its_last_mass():
     np.testing.assert_allclose(loop_gain(ROW, p, LAW, slow), 60 / (2.0 * 1e-2j), rtol=1e-6)
 
 
-@pytest.mark.full
 def test_an_ellipse_holds_95_percent_of_what_is_drawn():
     source, root = np.random.default_rng(5), complex(-3.0, 100.0)
     near = [root * np.exp(complex(0.02 * x, 0.01 * x + 0.005 * y))

@@ -37,6 +37,8 @@ from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE, response
 
+pytestmark = pytest.mark.full
+
 FIGURES = [
     "bode",
     "residuals",
@@ -72,7 +74,6 @@ def empty(nothing: Selection, train: FrequencyResponse, starts: FigureFiles) -> 
     return Outline(fit_page(nothing, physical(found, nothing.task), [starts], train))
 
 
-@pytest.mark.full
 def test_all_files_are_written_and_linked(written: list[Path], outline: Outline) -> None:
     figures = [f"{name}.{kind}" for name in FIGURES for kind in ("svg", "png", "pdf")]
     assert [p.name for p in written] == ["fit.html", *figures, "fit.json", "candidates.csv"]
@@ -81,7 +82,6 @@ def test_all_files_are_written_and_linked(written: list[Path], outline: Outline)
     assert {p.name for p in written[1:]} <= links
 
 
-@pytest.mark.full
 def test_the_same_figures_page_and_data_again(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path]
 ) -> None:
@@ -110,7 +110,6 @@ def test_two_runs_write_the_same_bytes(
     assert [p.read_bytes() for p in again] == [p.read_bytes() for p in written]
 
 
-@pytest.mark.full
 def test_nothing_is_fetched(written: list[Path], outline: Outline) -> None:
     text = written[0].read_text(encoding="utf-8")
     assert "http:" not in text and "https:" not in text
@@ -121,7 +120,6 @@ def test_nothing_is_fetched(written: list[Path], outline: Outline) -> None:
             assert target.startswith(("#", "data:image/svg+xml,")) or target in beside
 
 
-@pytest.mark.full
 def test_ids_are_unique_and_links_lead_somewhere(outline: Outline) -> None:
     ids = [a["id"] for _, a in outline.elements if "id" in a]
     assert len(ids) == len(set(ids))
@@ -131,14 +129,12 @@ def test_ids_are_unique_and_links_lead_somewhere(outline: Outline) -> None:
     assert inner and inner <= set(ids)
 
 
-@pytest.mark.full
 def test_hostile_text_stays_text(outline: Outline, empty: Outline) -> None:
     for page in (outline, empty):
         assert HOSTILE in page.text
         assert not any(t == "img" or "onerror" in a for t, a in page.elements)
 
 
-@pytest.mark.full
 def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     said = " ".join(outline.text.split())
     admissible = sum(c.admissible for c in selection.candidates)
@@ -165,13 +161,11 @@ def test_the_result_comes_first(selection: Selection, outline: Outline) -> None:
     )
 
 
-@pytest.mark.full
 def test_that_a_chain_explains_does_not_make_the_machine_one(written: list[Path]) -> None:
     page = written[0].read_text(encoding="utf-8")
     assert page.count("whether the machine is one cannot be seen") == 1
 
 
-@pytest.mark.full
 def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline: Outline) -> None:
     rows = [t for t, a in outline.elements if t == "th" and a.get("scope") == "row"]
     assert len(rows) >= len(selection.candidates)
@@ -180,7 +174,6 @@ def test_every_candidate_has_a_row_and_its_reasons(selection: Selection, outline
         assert all(reason in outline.text for reason in candidate.reasons)
 
 
-@pytest.mark.full
 def test_more_candidates_than_fit_are_behind_details(
     selection: Selection,
     train: FrequencyResponse,
@@ -195,7 +188,6 @@ def test_more_candidates_than_fit_are_behind_details(
     assert len(re.findall('class="chosen"', text)) in (1, 2)
 
 
-@pytest.mark.full
 def test_data_are_the_selection_s_own(selection: Selection, written: list[Path]) -> None:
     assert selection.selected is not None
     chain, values = read_model(written[-2])
@@ -210,7 +202,6 @@ def test_data_are_the_selection_s_own(selection: Selection, written: list[Path])
     assert all(bool(row["reasons"]) != (row["admissible"] == "true") for row in rows)
 
 
-@pytest.mark.full
 def test_nothing_admissible_is_said_with_the_nearest_and_why(
     nothing: Selection, empty: Outline
 ) -> None:
@@ -226,7 +217,6 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(
     assert "each line is predicted by a fit without it" in said
 
 
-@pytest.mark.full
 def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
     excess = [
         max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)
@@ -234,7 +224,6 @@ def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
     assert excess == sorted(excess) and excess[0] > 1
 
 
-@pytest.mark.full
 def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
     nothing: Selection, empty: Outline
 ) -> None:
@@ -244,7 +233,6 @@ def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
     assert f"the best one is {name_of(nothing.described.chain)}" in said
 
 
-@pytest.mark.full
 def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
     said = dict(reasons(selection))
     assert "1 candidate the data do not exclude (3 more contain it)" in said["Choice"]
@@ -260,14 +248,12 @@ def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
     }
 
 
-@pytest.mark.full
 def test_the_weakest_combination_names_its_largest_part_first(selection: Selection) -> None:
     terms = re.findall(r"ln (\w+)", weakest(selection.described))
     assert set(terms) == set(selection.described.practical.worst_direction)
     assert weakest(selection.described).startswith(f"ln {terms[0]}")
 
 
-@pytest.mark.full
 def test_an_unknown_parameter_has_no_profile(
     selection: Selection, train: FrequencyResponse, tmp_path: Path
 ) -> None:
@@ -279,7 +265,6 @@ def test_an_unknown_parameter_has_no_profile(
 FAR = replace(DRIVE, meas_plus=2)
 
 
-@pytest.mark.full
 def test_structures_that_no_data_can_tell_apart_are_named(starts: FigureFiles) -> None:
     train, test, loose = response(0, 2, 1, FAR), response(1, 3, 2, FAR), Thresholds(*3 * (1e12,))
     candidates = [c for c in chosen_ports([2], "1", "last") if not c.lag and not c.dead_time]
@@ -297,7 +282,6 @@ def test_structures_that_no_data_can_tell_apart_are_named(starts: FigureFiles) -
     assert "1 fit saved" in said and "None: each of" not in said
 
 
-@pytest.mark.full
 def test_no_alternatives_are_said_so(outline: Outline) -> None:
     assert (
         "None: for generic positive parameters none of the 7 other candidates with 2 masses has"
@@ -305,7 +289,6 @@ def test_no_alternatives_are_said_so(outline: Outline) -> None:
     )
 
 
-@pytest.mark.full
 def test_what_no_data_determine_is_said_in_words() -> None:
     free = replace(FAR, ground_dampers=())
     train = response(0, 2, 1, free)
