@@ -17,11 +17,12 @@ from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
 from disting.model.question import Domain
 from disting.network.notation import NOTATIONS, notations_of
+from disting.network.notation.member import FAMILY
 
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
-    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
-    " file.json:name, a model of your own"
+    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; trees-4:17,"
+    " number 17 of a family of networks; or file.json:name, a model of your own"
 )
 
 DOMAINS = tuple(domain.value for domain in Domain)
@@ -60,7 +61,6 @@ def sizes(text: str) -> range:
     return range(int(match[1]), int(match[2] or match[1]) + 1)
 
 
-FAMILY = re.compile(r"[a-z]+-\d+(-damped)?")
 Listed = Path | str
 """A list of models: a file, or the name of a family of networks."""
 
