@@ -49,13 +49,14 @@ if TYPE_CHECKING:
         read_models as read_models,
         write_models as write_models,
     )
-    from disting.model.chain import Chain as Chain, Sensor as Sensor
+    from disting.model.chain import Chain as Chain
     from disting.model.family import Family as Family
     from disting.model.question import Domain as Domain, Settings as Settings
     from disting.model.symmetry import Symmetry as Symmetry
     from disting.network.element import Element as Element, Port as Port
     from disting.network.network import Network as Network
     from disting.network.notation import network_of as network_of, values_in as values_in
+    from disting.quantities import Sensor as Sensor
     from disting.questions.identifiability.answer import Identifiability as Identifiability
     from disting.questions.identifiability.levels import (
         ParameterIdentifiability as ParameterIdentifiability,
@@ -97,13 +98,14 @@ _NAMES = {
     "disting.general.matrix_model": "MatrixModel",
     "disting.general.model": "Model",
     "disting.general.model_files": "ModelList read_models write_models",
-    "disting.model.chain": "Chain Sensor",
+    "disting.model.chain": "Chain",
     "disting.model.family": "Family",
     "disting.model.question": "Domain Settings",
     "disting.model.symmetry": "Symmetry",
     "disting.network.element": "Element Port",
     "disting.network.network": "Network",
     "disting.network.notation": "network_of values_in",
+    "disting.quantities": "Sensor",
     "disting.questions.identifiability.answer": "Identifiability",
     "disting.questions.identifiability.levels": "ParameterIdentifiability",
     "disting.questions.identifiability.parts": "Level",

@@ -11,13 +11,13 @@ from typing import Any
 from disting.cli.output import written_file, written_folder
 from disting.conditions.rule import RULES
 from disting.errors import InputError, short
-from disting.model.chain import Sensor, as_sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
 from disting.model.question import Domain
 from disting.network.notation import NOTATIONS, notations_of
 from disting.network.notation.member import FAMILY
+from disting.quantities import MODELLED, Sensor, as_sensor
 
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
@@ -191,7 +191,7 @@ def add_quantity(parser: argparse.ArgumentParser, default: Sensor = Sensor.ACCEL
     parser.add_argument(
         "--quantity",
         type=quantity_word,
-        choices=[s.value for s in Sensor],
+        choices=[s.value for s in MODELLED],
         default=default.value,
         help=f"what the sensor shows (default: {default})",
     )

@@ -15,10 +15,11 @@ from itertools import pairwise
 from disting.behaviour.transfer import touched_rows
 from disting.errors import ConstraintViolation, InputError, short
 from disting.experiments.changes import Change, changes_of, in_order
-from disting.model.chain import AS_IT_IS, Chain, Sensor
+from disting.model.chain import AS_IT_IS, Chain
 from disting.model.kinds import CHANGES, Kind
 from disting.model.presentation import summary
 from disting.model.structure import Element, Known, Ports, Structure
+from disting.quantities import Sensor, sensor_of_model
 
 Place = tuple[int, int]
 """Plus and minus mass of a port; 0 is the ground."""
@@ -292,9 +293,4 @@ def _place(what: str, place: object) -> Place | None:
 
 
 def _quantity(quantity: object) -> Sensor:
-    try:
-        return Sensor(str(quantity))
-    except ValueError:
-        raise InputError(
-            f"a sensor shows position, velocity or acceleration, not {short(quantity)}"
-        ) from None
+    return sensor_of_model(str(quantity))

@@ -1,5 +1,5 @@
 """A format of measured data is a module and a row of its table, a page of the site a module, a
-template and a row, a unit a row, a family of networks a module: written into a copy of the package,
+template and a row, a unit and a sensor quantity a row, a family of networks a module: written into a copy of the package,
 they are at work.
 """
 
@@ -183,3 +183,70 @@ def test_a_family_of_networks_is_a_file(tmp_path):
     assert all(name in told["models rings-3"][1] for name in told["names"])
     page = (folder / "site" / "list-rings-3.html").read_text(encoding="utf-8")
     assert "Rings of 3 masses" in page and told["names"][0] in page
+
+
+JERK = """
+import io, json
+from contextlib import redirect_stderr, redirect_stdout
+from disting import Chain, Experiment, Family, InputError, Network, network_of
+from disting.cli import main
+from disting.files import Format, schema
+from disting.measurement import from_arrays
+
+told = {}
+for command in COMMANDS:
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+        try:
+            status = main(command.split())
+        except SystemExit as end:
+            status = end.code or 0
+    told[command] = status, out.getvalue() + error.getvalue()
+mass = from_arrays(range(1, 9), [1.0] * 8, sensor="ruck")
+drive = network_of("1=2; F1; S2")
+doors = (
+    lambda: Chain(2, sensor="jerk"),
+    lambda: Family(2, sensor="jerk"),
+    lambda: network_of("1=2; F1; S2", quantity="jerk"),
+    lambda: network_of("1=2; F1; S2; jerk"),
+    lambda: network_of("machines-2:1", quantity="jerk"),
+    lambda: Network(drive.elements, drive.inputs, drive.outputs, 3),
+    lambda: Experiment(quantity="jerk"),
+)
+told["refused"] = []
+for door in doors:
+    try:
+        door()
+        told["refused"].append("")
+    except InputError as error:
+        told["refused"].append(str(error))
+told["gain"] = abs(mass.to_quantity("acceleration").G[0] * mass.omega[0])
+told["word"] = schema(Format.FIT)["$defs"]["quantity"]["enum"]
+print(json.dumps(told))
+"""
+SHOWN = {
+    "simulate 2:1 --set m1=1,m2=2,k12=50,d12=1 --samples 256 --periods 2 --response jerk": "# sensor: jerk",
+    "simulate --help": "{position,velocity,acceleration,jerk}",
+    "fit --help-all": "{position,velocity,acceleration,jerk}",
+}
+REFUSED = "a sensor of a machine shows position, velocity or acceleration, not jerk: beyond the"
+REFUSING = (
+    "compare 2:1 2:2 --quantity jerk",
+    "verdicts 2 --quantity jerk",
+    "draw 2:1 --quantity jerk --svg a.svg",
+)
+
+
+def test_a_quantity_is_a_row(tmp_path):
+    """Jerk: of data, in help and schemas; models, of which it would not be proper, refuse it."""
+    last = '"acc accel accelerance inertance beschleunigung",\n    )\n'
+    row = '    JERK = ("jerk", "m/s^3", "ruck")\n'
+    folder = copied(tmp_path, {"quantities.py": [(last, last + row)]})
+    told = json.loads(said(folder, "-c", JERK.replace("COMMANDS", repr([*SHOWN, *REFUSING]))))
+    for command, words in SHOWN.items():
+        status, text = told[command]
+        assert status == 0 and words in text, (command, text)
+    for command in REFUSING:
+        status, text = told[command]
+        assert status == 2 and "jerk" in text and "acceleration" in text, (command, text)
+    assert all(REFUSED in text for text in told["refused"]), told["refused"]
+    assert told["gain"] == 1.0 and told["word"][-1] == "jerk"

@@ -12,7 +12,11 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 from disting.errors import InputError, enumeration, short
-from disting.network.families.family import DAMPED, Kind, NetworkFamily
+from disting.network.families.family import (
+    DAMPED as DAMPED,
+    Kind as Kind,
+    NetworkFamily as NetworkFamily,
+)
 from disting.network.notation.member import FAMILY
 
 _MODULES = (import_module(f"{__name__}.{module.name}") for module in iter_modules(__path__))
