@@ -114,13 +114,14 @@ if TYPE_CHECKING:
         read_models as read_models,
         write_models as write_models,
     )
-    from disting.model.chain import Chain as Chain, Sensor as Sensor
+    from disting.model.chain import Chain as Chain
     from disting.model.family import Family as Family
     from disting.model.question import Domain as Domain, Settings as Settings
     from disting.model.symmetry import Symmetry as Symmetry
     from disting.network.element import Element as Element, Port as Port
     from disting.network.network import Network as Network
     from disting.network.notation import network_of as network_of, values_in as values_in
+    from disting.quantities import Sensor as Sensor
     from disting.questions.identifiability.answer import Identifiability as Identifiability
     from disting.questions.identifiability.levels import (
         ParameterIdentifiability as ParameterIdentifiability,

@@ -32,27 +32,14 @@ from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel, positive_question
 from disting.general.plain_maps import PLAIN_MAPS
 from disting.general.replacement import replaceable
-from disting.network.families import NetworkFamily, family_of
+from disting.network.families import FAMILIES, NetworkFamily, family_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, question_key, silent
 from disting.verdict.query import Query, View
 
 SCHEMA = 1
 COMMAND = "disting catalog families"
-SHIPPED = (
-    "machines-2",
-    "machines-2-damped",
-    "machines-3",
-    "machines-3-damped",
-    "trees-4",
-    "circuits-4",
-    "circuits-5",
-    "cells-4",
-    "cells-5",
-    "compartments-2",
-    "compartments-3",
-)
-IN_BRIEF = ("machines-3", "machines-3-damped", "trees-4", "compartments-3")  # large ones
+SHIPPED = tuple(name for name, family in FAMILIES.items() if family.is_shipped)
 COMPLEX, POSITIVE = Query(View.EXACT, inclusion=False), Query(View.POSITIVE, inclusion=False)
 
 
@@ -78,7 +65,7 @@ def build_networks(
     """
     sides = engine.general_subjects(family.networks)
     over_complex = engine.decisions(sides, COMPLEX, executor=executor, progress=progress)
-    if family.name in IN_BRIEF:
+    if family.in_brief:
         search_in_brief(engine, sides, over_complex, executor, progress)
     over_positive = engine.decisions(sides, POSITIVE, executor=executor, progress=progress)
     group = {i: g for g, members in enumerate(over_complex.classes(), 1) for i in members}
@@ -102,7 +89,7 @@ def build_networks(
         for number, (s, model) in enumerate(zip(sides, asked, strict=True), 1)
     ]
     pairs = _pairs(engine, sides, over_complex, over_positive)
-    if family.name in IN_BRIEF:
+    if family.in_brief:
         pairs = _short(list(pairs), sides)
     return lines([header, *models, *pairs])
 
@@ -215,10 +202,11 @@ def _known(
     """The networks of a family, and the lines of its file on them and on their pairs; none where
     there is none, or where it has other random points: what is known by these is not what is asked.
     """
-    sides = engine.general_subjects(family_of(family).networks)
     path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
-    records = read(path) if path.is_file() else []
-    is_asked = records and records[0]["settings"] == engine.settings.to_dict()
+    if not path.is_file():
+        return [], [], []
+    sides, records = engine.general_subjects(family_of(family).networks), read(path)
+    is_asked = records[0]["settings"] == engine.settings.to_dict()
     at = 1 + len(sides)
     return (sides, records[1:at], records[at:]) if is_asked else (sides, [], [])
 

@@ -11,17 +11,18 @@ from typing import Any
 from disting.cli.output import written_file, written_folder
 from disting.conditions.rule import RULES
 from disting.errors import InputError, short
-from disting.model.chain import Sensor, as_sensor
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
 from disting.model.names import DAMPED
 from disting.model.question import Domain
 from disting.network.notation import NOTATIONS, notations_of
+from disting.network.notation.member import FAMILY
+from disting.quantities import MODELLED, Sensor, as_sensor
 
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
-    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; or"
-    " file.json:name, a model of your own"
+    " ground; +lag; +delay; a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4'; trees-4:17,"
+    " number 17 of a family of networks; or file.json:name, a model of your own"
 )
 
 DOMAINS = tuple(domain.value for domain in Domain)
@@ -60,7 +61,6 @@ def sizes(text: str) -> range:
     return range(int(match[1]), int(match[2] or match[1]) + 1)
 
 
-FAMILY = re.compile(r"[a-z]+-\d+(-damped)?")
 Listed = Path | str
 """A list of models: a file, or the name of a family of networks."""
 
@@ -191,7 +191,7 @@ def add_quantity(parser: argparse.ArgumentParser, default: Sensor = Sensor.ACCEL
     parser.add_argument(
         "--quantity",
         type=quantity_word,
-        choices=[s.value for s in Sensor],
+        choices=[s.value for s in MODELLED],
         default=default.value,
         help=f"what the sensor shows (default: {default})",
     )

@@ -23,9 +23,9 @@ from disting.measurement.impedance import TURNED, as_impedance
 from disting.measurement.look_text import short_lines
 from disting.model.chain import Sensor
 from disting.model.structure import Sort
-from disting.network.families import FAMILIES
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
+from disting.network.notation.member import FAMILY
 from disting.report.fit.network_words import standing, value_lines
 
 UNKNOWN = {
@@ -106,7 +106,7 @@ def _without_data_files(texts: Sequence[str]) -> tuple[list[str], list[Path]]:
 
 def _is_models(text: str) -> bool:
     """Return True for a file of models and for a family."""
-    return text in FAMILIES or text.endswith(".json")
+    return text.endswith(".json") or bool(FAMILY.fullmatch(text) and not Path(text).is_file())
 
 
 def _networks(texts: Sequence[str], notation: str) -> list[Network]:

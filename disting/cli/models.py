@@ -35,6 +35,7 @@ from disting.model.kinds import EXAMPLES
 from disting.model.names import damping_option
 from disting.model.question import Domain
 from disting.network import Network, network_of
+from disting.network.families import DAMPED, KINDS, Kind
 from disting.questions.identifiability import Level, ParameterIdentifiability
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.identifiable import Identified, identify, identify_measured
@@ -71,6 +72,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_notation(parser)
     add_damped(parser)
     add_work(parser)
+    kinds = "; ".join(f"{k.name}-{_numbers(k)}: {k.text}" for k in KINDS.values())
+    parser.epilog = (
+        f"families of networks: {kinds}; of machines with {DAMPED} behind it a damper beside every"
+        " spring; trees-4:17 is number 17 of its family, for all commands"
+    )
+
+
+def _numbers(kind: Kind) -> str:
+    """The numbers that a name of the kind may have."""
+    return f"{kind.sizes[0]}..{kind.largest}" if kind.largest > kind.sizes[0] else f"{kind.largest}"
 
 
 def run(options: argparse.Namespace) -> int:

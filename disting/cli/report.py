@@ -16,12 +16,12 @@ from disting.cli.arguments import Listed, add_out, add_work, size_or_list
 from disting.cli.parser import parser
 from disting.cli.relations import relations_in_words
 from disting.cli.verdicts import LISTS, list_of
-from disting.cli.workers import announce, announce_family, engine_for, pairs_by_size, pairs_work
+from disting.cli.workers import announce, announce_pairs, engine_for, pairs_by_size, pairs_work
 from disting.errors import InputError
 from disting.files import write_whole
 from disting.general.model_files import ModelList
 from disting.verdict.engine import Engine, Progress
-from disting.verdict.query import View
+from disting.verdict.query import Query, View
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -78,11 +78,12 @@ def _model_list(options: argparse.Namespace, models: ModelList, file: Listed, na
     from disting.report.model_list import write_model_list
 
     title = models.title or Path(file).stem
-    if isinstance(file, str) and file not in SHIPPED:
-        announce_family(file, options.jobs)
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)
+        if file not in SHIPPED:
+            sides = engine.general_subjects(models.models)
+            announce_pairs(str(file), sides, Query(View.POSITIVE), engine, options.jobs)
         decided = judge(models, engine, executor=pool, progress=progress)
     shown = Listing(decided, title, name)
     site = bool(options.masses)

@@ -21,7 +21,14 @@ from disting.cli.arguments import (
 )
 from disting.cli.output import emit, keep_apart, written_file
 from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
-from disting.cli.workers import announce, announce_family, engine_for, pairs_by_size, pairs_work
+from disting.cli.workers import (
+    announce,
+    announce_pairs,
+    engine_for,
+    pairs_by_size,
+    pairs_work,
+    told_if_long,
+)
 from disting.conditions.inclusion import ONE_SIDED, Sense
 from disting.conditions.side import AnySide
 from disting.errors import InputError, in_row
@@ -41,7 +48,7 @@ from disting.verdict.result import Relation
 from disting.verdict.sides import refuse_ports
 
 MOST_TOLD = 20  # pairs that are told one by one
-LISTS = "a family of networks such as machines-3"
+LISTS = "a family of networks such as machines-3 (the end of 'disting models --help' lists them)"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -76,8 +83,6 @@ def run(options: argparse.Namespace) -> int:
     if file:
         refuse_chain_options(options)
     models = list_of(file) if file else None
-    if isinstance(file, str) and file not in SHIPPED:
-        announce_family(file, options.jobs)
     if not file:
         announce(pairs_work(is_damped(options)), pairs_by_size(options.masses), options.jobs)
     with engine_for(options) as (engine, pool, progress):
@@ -86,6 +91,8 @@ def run(options: argparse.Namespace) -> int:
         subjects: Sequence[AnySide] = (
             engine.general_subjects(models.models) if models else _of_sizes(options, engine)
         )
+        if file and file not in SHIPPED:
+            announce_pairs(str(file), subjects, asked, engine, options.jobs)
         decided = engine.decisions(subjects, asked, executor=pool, progress=progress)
         if options.prove:
             decided = prove_all(decided, progress=progress)
@@ -120,7 +127,8 @@ def listed_models(source: Listed) -> ModelList:
         models = read_models(source)
     else:
         family = family_of(source)
-        models = ModelList(tuple(map(of_network, family.networks)), family.title)
+        with told_if_long(f"listing the networks of {source}, which takes a while"):
+            models = ModelList(tuple(map(of_network, family.networks)), family.title)
     keep_apart(model.name for model in models)
     return models
 

@@ -8,19 +8,22 @@ more than the one before it. So it is an order of size, and is told as one.
 import argparse
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from enum import Enum
+from random import Random
 from threading import TIMEOUT_MAX, Event, Thread
 from time import monotonic, process_time
 
 from disting.cli.output import complain
+from disting.conditions.side import AnySide
 from disting.errors import InputError, short
 from disting.model.family import Family
 from disting.store import Store
 from disting.verdict.engine import Engine, Progress
+from disting.verdict.query import Query
 
 LONG = 60.0  # seconds that nobody needs to be told of
 PATIENCE = 5.0  # seconds that one pair may take without a word
@@ -68,19 +71,41 @@ class Work(Enum):
     FITS = Rate("candidates", 1, (0.1, 0.15, 0.3), "fewer masses, such as --masses 1-3")
 
 
-FAMILIES = {
-    "trees-4-damped": 7200.0,
-}
-"""Seconds of one core for all pairs of a family of networks, where they are decided anew."""
+SAMPLE = 3.0  # seconds of one core for a sample of the work
+SMALL = 200  # pairs or models of which nobody needs an estimate
 
 
-def announce_family(name: str, jobs: int = 1) -> None:
-    """Tell of the pairs of a family of networks, where they take long."""
-    seconds = FAMILIES.get(name, 0.0) / max(jobs, 1)
+def announce_pairs(
+    name: str, sides: Sequence[AnySide], query: Query, engine: Engine, jobs: int
+) -> None:
+    """Tell of all pairs of a family of networks or of a file, where a sample says that they take
+    long. Chance picks the sample: another one each time, since what was decided once is quick.
+    """
+    count, chance = len(sides) * (len(sides) - 1) // 2, Random()
+
+    def decide_one() -> None:
+        """One pair."""
+        engine.decisions(chance.sample(sides, 2), query)
+
+    text = f"pairs of {name}", "two networks alone (disting compare)"
+    announce_by_sample(count, *text, decide_one, jobs)
+
+
+def announce_by_sample(
+    count: int, things: str, smaller: str, try_one: Callable[[], object], jobs: int
+) -> None:
+    """Tell of so many things, where trying a few of them says that all take long."""
+    if count <= SMALL:
+        return
+    begun, tried = process_time(), 0
+    while process_time() - begun < SAMPLE and tried < SMALL:
+        try_one()
+        tried += 1
+    seconds = (process_time() - begun) / tried * count / max(jobs, 1)
     if seconds > LONG:
         complain(
-            f"all pairs of {name}, which may take {in_words(seconds)}; less to do: two networks"
-            " alone (disting compare); Ctrl-C stops it, and what is done stays in the cache"
+            f"{count} {things}, which may take {in_words(seconds)}, as a sample shows; less to do:"
+            f" {smaller}; Ctrl-C stops it, and what is done stays in the cache"
         )
 
 

@@ -15,11 +15,12 @@ from itertools import pairwise
 from disting.behaviour.transfer import touched_rows
 from disting.errors import ConstraintViolation, InputError, enumeration, short
 from disting.experiments.changes import Change, changes_of, in_order
-from disting.model.chain import AS_IT_IS, Chain, Sensor
+from disting.model.chain import AS_IT_IS, Chain
 from disting.model.kinds import CHANGES, Kind
 from disting.model.presentation import summary
 from disting.model.structure import Element, Known, Ports, Sort, Structure
 from disting.network.network import Network
+from disting.quantities import Sensor, sensor_of_model
 
 AnyStructure = Chain | Network
 Place = tuple[int, int]
@@ -318,9 +319,4 @@ def _place(what: str, place: object) -> Place | None:
 
 
 def _quantity(quantity: object) -> Sensor:
-    try:
-        return Sensor(str(quantity))
-    except ValueError:
-        raise InputError(
-            f"a sensor shows position, velocity or acceleration, not {short(quantity)}"
-        ) from None
+    return sensor_of_model(str(quantity))

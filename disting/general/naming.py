@@ -10,9 +10,10 @@ from disting.errors import InputError
 from disting.general.any_model import of_network
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain
 from disting.network.denotation import Naming, compare_name, naming_of, refuse_misnamed
 from disting.network.network import Network
+from disting.quantities import MODELLED
 
 LARGEST_CHAIN = 6  # masses: coefficients of some hundred terms
 
@@ -30,7 +31,7 @@ def naming_of_model(model: AnyModel) -> Naming:
         return naming_of(model.name, source)
     found = [
         compare_name(model.name, lambda denoted: _has_formulas(model, denoted), quantity)
-        for quantity in Sensor
+        for quantity in MODELLED
     ]
     return Naming.DENOTED if Naming.DENOTED in found else found[0]
 

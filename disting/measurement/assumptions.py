@@ -8,7 +8,7 @@ from disting.measurement.feedback import PERIODS
 from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse
 from disting.measurement.time_series import ASSUMED_POSITION
 from disting.measurement.understanding import ReadColumn
-from disting.model.chain import Sensor
+from disting.quantities import Sensor, other_options
 
 ASSUMED = {ASSUMED_ACCELERATION: Sensor.ACCELERATION, ASSUMED_POSITION: Sensor.POSITION}
 OTHER_UNITS = {"Hz": "rad/s", "rad/s": "Hz", "deg": "rad", "rad": "deg", "dB": "1", "1": "dB"}
@@ -67,8 +67,7 @@ def shows_impedance(columns: Sequence[ReadColumn], response: FrequencyResponse |
 
 
 def _of_quantity(quantity: Sensor) -> Assumption:
-    others = " or ".join(f"--quantity {other}" for other in Sensor if other is not quantity)
-    return Assumption(f"quantity {quantity}", others)
+    return Assumption(f"quantity {quantity}", other_options(quantity))
 
 
 def _of_columns(used: Sequence[ReadColumn]) -> Iterator[Assumption]:

@@ -28,14 +28,14 @@ from disting.measurement.method import Method
 from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import AMPERE, VOLT, agree, unit_as
 from disting.measurement.window import Window
-from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import NotebookTable, plural, summary
+from disting.quantities import Sensor, as_sensor, other_options
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ASSUMED_ACCELERATION = (
-    "sensor quantity taken as acceleration; if not, give --quantity position or --quantity velocity"
+    f"sensor quantity taken as acceleration; if not, give {other_options(Sensor.ACCELERATION)}"
 )
 OF_IMPEDANCE = "impedance"  # in place of a sensor quantity
 NO_MOTION = (

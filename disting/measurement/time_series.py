@@ -19,13 +19,11 @@ from disting.measurement.trend import (
 )
 from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import motion
-from disting.model.chain import Sensor, as_sensor
 from disting.model.presentation import plural, summary
+from disting.quantities import Sensor, as_sensor, other_options
 
 MOVING = 0.1  # share of the scatter of the speed from which on its mean is reported
-ASSUMED_POSITION = (
-    "output taken as a position; if not, give --quantity velocity or --quantity acceleration"
-)
+ASSUMED_POSITION = f"output taken as a position; if not, give {other_options(Sensor.POSITION)}"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -78,8 +78,11 @@ SPELLINGS = {
 POWER = re.compile(r"(?:10\s*(?:\^|\*\*)\s*|1e)([+-]?\d{1,2})\s*[*·x]?\s*(.+)")
 REFERRED = re.compile(r"(dB|Np|%)(?:\s+re[fl]?\.?:?)?(?:\s+1?\s*|(?=\())(.+)", re.IGNORECASE)
 BETWEEN = r"[\s.*·]"
-PER_TIME = {"*s^2": -2, "*s": -1, "": 0, "/s": 1, "/s^2": 2}
-SUFFIX = {steps: text for text, steps in PER_TIME.items()}
+SUFFIX = {
+    n: f"{'*/'[n > 0]}s{f'^{abs(n)}' if abs(n) > 1 else ''}" if n else ""
+    for n in range(1 - len(Sensor), len(Sensor))
+}
+PER_TIME = {text: steps for steps, text in SUFFIX.items()}
 _CLOSED = {name.replace(" ", ""): unit for name, unit in DRIVES.items()}
 
 

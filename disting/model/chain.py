@@ -8,10 +8,8 @@ the sensor shows x[meas_plus] - x[meas_minus].
 A chain in one line of text: for tables in a terminal.
 """
 
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import lru_cache
 from typing import Any
 
@@ -29,6 +27,7 @@ from disting.model.structure import (
     Structure,
     violations,
 )
+from disting.quantities import Sensor as Sensor, as_sensor as as_sensor, sensor_of_model
 
 AS_IT_IS = "as it is"  # an experiment that changes nothing, in words
 PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothing is said
@@ -36,47 +35,6 @@ LEGEND = (
     "# ground, ~ spring, = spring and damper, comma: ground damper,\n"
     "F and f: force and its reference, S and s: sensor and its reference"
 )
-
-
-OTHER_WORDS = {
-    "position": (
-        "pos", "angle", "displacement", "travel", "receptance", "compliance", "lage", "weg",
-        "winkel",
-    ),
-    "velocity": ("vel", "speed", "omega", "mobility", "geschwindigkeit", "drehzahl"),
-    "acceleration": ("acc", "accel", "accelerance", "inertance", "beschleunigung"),
-}  # fmt: skip
-# what drives a machine, and what is said of a response as a whole
-DRIVE = re.compile(
-    r"(torque|force|current|voltage|moment|iq|drehmoment|kraft|strom|spannung)\b", re.IGNORECASE
-)
-
-
-class Sensor(StrEnum):
-    """Measured quantity; its transfer function is s**order times the receptance.
-
-    Other words for them are understood too.
-
-    >>> Chain(2, sensor="velocity").sensor is Sensor.VELOCITY, Sensor.VELOCITY.order
-    (True, 1)
-    >>> [Sensor(word).value for word in ("speed", "Angle", "accel")]
-    ['velocity', 'position', 'acceleration']
-    """
-
-    POSITION = "position"
-    VELOCITY = "velocity"
-    ACCELERATION = "acceleration"
-
-    @property
-    def order(self) -> int:
-        """Number of differentiations of the position: 0, 1 or 2."""
-        return list(Sensor).index(self)
-
-    @classmethod
-    def _missing_(cls, value: object) -> "Sensor | None":
-        """The quantity of another word; None for a word that is none."""
-        word = value.strip().lower() if isinstance(value, str) else ""
-        return next((own for own in cls if word in (own.value, *OTHER_WORDS[own.value])), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +111,7 @@ class Chain(NotebookPicture):
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
         for broken in violations(self.indices, (36, 37)):
             raise ConstraintViolation(broken.refusal(self.indices))
-        object.__setattr__(self, "sensor", as_sensor(self.sensor))
+        object.__setattr__(self, "sensor", sensor_of_model(self.sensor))
         object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
 
     def __repr__(self) -> str:
@@ -273,20 +231,6 @@ def _structure(chain: Chain) -> Structure:
     return Structure(
         chain.n_masses, tuple(elements), ports, chain.sensor.order, chain.lag, chain.dead_time
     )
-
-
-def as_sensor(value: Sensor | str) -> Sensor:
-    """The sensor quantity of that name; raises InputError for another word."""
-    try:
-        return Sensor(value)
-    except ValueError:
-        *others, last = Sensor
-        known = f"{', '.join(others)} or {last}"
-        if isinstance(value, str) and DRIVE.match(value.strip()):
-            raise InputError(
-                f"{short(value)} drives the machine; the quantity is what the sensor shows: {known}"
-            ) from None
-        raise InputError(f"sensor is {known}, not {short(value)}") from None
 
 
 def _damper_set(masses: Iterable[int], n_masses: int) -> tuple[int, ...]:

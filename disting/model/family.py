@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 from disting.errors import InputError, short
-from disting.model.chain import Chain, Sensor, as_sensor
+from disting.model.chain import Chain
 from disting.model.presentation import NotebookTable
 from disting.model.structure import Indices, violations
+from disting.quantities import Sensor, sensor_of_model
 
 
 @cache  # asked for at every look-up of a pair
@@ -103,7 +104,7 @@ class Family(NotebookTable):
             raise InputError(f"a family has at least one mass, not {short(self.n_masses)}")
         if not isinstance(self.damped, bool):
             raise InputError(f"damped is True or False, not {short(self.damped)}")
-        object.__setattr__(self, "sensor", as_sensor(self.sensor))
+        object.__setattr__(self, "sensor", sensor_of_model(self.sensor))
 
     def __repr__(self) -> str:
         return f"Family({self.n_masses}, damped={self.damped}, sensor={self.sensor.value!r})"

@@ -8,7 +8,8 @@ transfer functions, ranks, places and symmetries are computed, so a new kind is 
 from dataclasses import dataclass
 
 from disting.errors import InputError
-from disting.model.structure import HIGHEST
+
+HIGHEST = 2  # power of s in A(s) = M s^2 + D s + K
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -21,9 +21,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
-from disting.errors import InputError
-
-HIGHEST = 2  # derivative that has Markov parameters and a state space whatever the ports
+from disting.quantities import refuse_improper
 
 
 class Sort(StrEnum):
@@ -238,11 +236,7 @@ class Structure:
     dead_time: bool = False
 
     def __post_init__(self) -> None:
-        if not 0 <= self.sensor_order <= HIGHEST:
-            raise InputError(
-                "a sensor shows the position or one of its first two derivatives, not derivative"
-                f" {self.sensor_order}: beyond, the transfer function of a mass is not proper"
-            )
+        refuse_improper(self.sensor_order)
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:

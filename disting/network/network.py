@@ -17,11 +17,11 @@ from disting.model.presentation import NotebookPicture, plural, summary
 from disting.model.structure import Sort
 from disting.network.element import Element, Port
 from disting.network.graph import edges, parts, renumber, seen_by_blocks, seen_by_flows
+from disting.quantities import refuse_improper
 
 MOST_NODES = 40
 MOST_ELEMENTS = 300
 MOST_PORTS = 10
-HIGHEST = 2  # differentiations of a sensor
 PORTS = {
     Sort.MACHINE: (("a force", "F1"), ("a sensor", "S2")),
     Sort.CIRCUIT: (("a port", "port 1 0"),) * 2,
@@ -267,8 +267,9 @@ def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]
         yield f"a network has {MOST_PORTS} inputs and outputs at most"
     for p in ports:
         yield from _problems_of_ends(network, p, entering if p in network.inputs else seeing)
-    if type(network.order) is not int or not 0 <= network.order <= HIGHEST:
-        yield "a sensor shows the position (0) or its first (1) or second (2) derivative"
+    if type(network.order) is not int:
+        yield f"the order of a network is a whole number, not {short(network.order)}"
+    refuse_improper(network.order)
     if network.order and network.sort is not Sort.MACHINE:
         yield "only what sensors of machines show is differentiated: leave the order 0"
     held = {e.nodes[0] for e in network.elements if e.letter == "v"}

@@ -15,6 +15,7 @@ from itertools import product
 from disting.catalogs import Catalog
 from disting.model.chain import Chain
 from disting.model.structure import Indices, violations
+from disting.network.families import family_with
 from disting.report.domains import one_sided_pairs, with_exceptions
 from disting.report.drawing import draw
 from disting.report.graph_drawing import hatching
@@ -108,6 +109,9 @@ def _machine(c: Catalog) -> dict[str, object]:
         "folder": folder_of(c),
         "masses": c.n_masses,
         "damped": c.damped,
+        "families": [
+            family_with(c.n_masses, damped=c.damped, loops=loops) for loops in (False, True)
+        ],
         "size": [scene.width, scene.height],
         "below": height_with_dampers(c.n_masses) - scene.height,
         "models": [chain.indices[1:] for chain in c.family],

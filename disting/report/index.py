@@ -11,6 +11,7 @@ from disting.catalogs import Catalog
 from disting.catalogs.damper_family import DamperFamily
 from disting.catalogs.files import damper_name
 from disting.catalogs.sizes_files import SizesCatalog
+from disting.quantities import MODELLED
 from disting.report.damper_page import family_title
 from disting.report.describe_machine import machines, parts
 from disting.report.environment import render
@@ -161,6 +162,7 @@ def index(
         machines=script_json(machines(catalogs)),
         held=share((shown.left, shown.right) if shown else (), parts(catalogs)),
         machine_sizes=masses,
+        quantities=[sensor.value for sensor in reversed(MODELLED)],
         machine_start=min(masses, key=lambda n: abs(n - 3), default=0),
         plural=plural,
     )

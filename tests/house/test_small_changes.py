@@ -1,6 +1,6 @@
 """A format of measured data is a module and a row of its table, a page of the site a module, a
-template and a row, a unit and a family of networks a row: written into a copy of the package, they
-are at work.
+template and a row, a unit and a sensor quantity a row, a family of networks a module: written into a copy of the package,
+they are at work.
 """
 
 import json
@@ -112,19 +112,144 @@ def test_a_unit_is_a_row(tmp_path):
     assert said(folder, "-c", script) == "acceleration (0.001-0.001j)\n"
 
 
-def test_a_family_of_networks_is_a_row(tmp_path):
-    """Two motors with one load each, the second through a gear: listed, judged, on pages."""
-    start = "def _families() -> Iterator[NetworkFamily]:\n"
-    row = """    texts = ("1=2; F1; S1", "1=2*i; F1; S1")
-    yield NetworkFamily("motors-2", "Motors with a load", lambda: texts)
+RINGS = """
+from disting.network.families.family import Kind
+from disting.network.families.machines import machines
+
+
+def rings(masses):
+    yield tuple(sorted(tuple(sorted((i, i % masses + 1))) for i in range(1, masses + 1)))
+
+
+KIND = Kind(
+    name="rings",
+    place=9,
+    sizes=(3,),
+    largest=6,
+    text="N masses in a ring",
+    title=lambda n: f"Rings of {n} masses",
+    texts=lambda n, joint: machines(n, joint, rings),
+    has_dampers=True,
+)
 """
-    folder = copied(tmp_path, {"network/families.py": [(start, start + row)]})
-    listed = said(folder, "-m", "disting", "models", "motors-2").splitlines()
-    assert [line.split(": ")[0] for line in listed] == ["1=2; F1; S1", "1=2*i; F1; S1"]
-    verdicts = said(folder, "-m", "disting", "verdicts", "motors-2")
-    assert verdicts.startswith(
-        "2 models, 1 pair, over positive parameters: 0 distinguishable, 1 ind"
-    )
-    said(folder, "-m", "disting", "report", "motors-2", "--out", "site")
-    page = (folder / "site" / "list-motors-2.html").read_text(encoding="utf-8")
-    assert "Motors with a load" in page and "1=2*i; F1; S1" in page
+RING = """
+import io, json
+from contextlib import redirect_stderr, redirect_stdout
+import disting
+from disting.cli import main
+from disting.network.families import family_of
+
+told = {}
+for command in COMMANDS:
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+        try:
+            status = main(command.split())
+        except SystemExit as end:
+            status = end.code or 0
+    told[command] = status, out.getvalue(), error.getvalue()
+told["names"] = [n.name for n in family_of("rings-3").networks]
+told["python"] = disting.compare("rings-3:1", "rings-3:2").relation
+told["sizes"] = [len(family_of(f"rings-{n}-damped").networks) for n in (3, 4)]
+print(json.dumps(told))
+"""
+VALUES = "m1=1,m2=2,m3=3,k12=40,k13=50,k23=60"
+ONE = {
+    "models rings-3:1": "F1",
+    "compare rings-3:1 rings-3:2": "DISTINGUISHABLE",
+    "verify rings-3:1 rings-3:2": "holds",
+    "next rings-3:1 rings-3:2": "",
+    "draw rings-3:1 --svg ring.svg": "ring.svg written",
+    f"equivalents rings-3:1 --family rings-3 --set {VALUES}": "of 1 other network",
+    f"equivalents rings-3:1 --to rings-3:2 --set {VALUES}": "of 1 other network",
+    f"simulate rings-3:1 --set {VALUES} --samples 256 --periods 2 --csv frf.csv": "frf.csv",
+}
+WHOLE = {
+    "models rings-3": "F1",
+    "models --help": "rings-3..6: N masses in a ring",
+    "verdicts rings-3": "2 models, 1 pair",
+    "report rings-3 --out site": "Rings of 3 masses, undamped",
+    "catalog families rings-3 --out .": "networks-rings-3.jsonl",
+    "catalog verify rings-3 --catalog .": "all is as it is computed now",
+}
+
+
+def test_a_family_of_networks_is_a_file(tmp_path):
+    """Masses in a ring: in all commands, on pages, in help, as a catalogue, each by its number."""
+    folder = copied(tmp_path, {}, {"network/families/rings.py": RINGS})
+    commands = {**ONE, **WHOLE}
+    told = json.loads(said(folder, "-c", RING.replace("COMMANDS", repr([*commands]))))
+    for command, words in commands.items():
+        status, out, error = told[command]
+        assert status == 0, (command, error)
+        assert words in " ".join(out.split()), (command, out)
+    assert told["python"] == "distinguishable" and told["sizes"] == [2, 3]
+    assert all(name in told["models rings-3"][1] for name in told["names"])
+    page = (folder / "site" / "list-rings-3.html").read_text(encoding="utf-8")
+    assert "Rings of 3 masses" in page and told["names"][0] in page
+
+
+JERK = """
+import io, json
+from contextlib import redirect_stderr, redirect_stdout
+from disting import Chain, Experiment, Family, InputError, Network, network_of
+from disting.cli import main
+from disting.files import Format, schema
+from disting.measurement import from_arrays
+
+told = {}
+for command in COMMANDS:
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as error:
+        try:
+            status = main(command.split())
+        except SystemExit as end:
+            status = end.code or 0
+    told[command] = status, out.getvalue() + error.getvalue()
+mass = from_arrays(range(1, 9), [1.0] * 8, sensor="ruck")
+drive = network_of("1=2; F1; S2")
+doors = (
+    lambda: Chain(2, sensor="jerk"),
+    lambda: Family(2, sensor="jerk"),
+    lambda: network_of("1=2; F1; S2", quantity="jerk"),
+    lambda: network_of("1=2; F1; S2; jerk"),
+    lambda: network_of("machines-2:1", quantity="jerk"),
+    lambda: Network(drive.elements, drive.inputs, drive.outputs, 3),
+    lambda: Experiment(quantity="jerk"),
+)
+told["refused"] = []
+for door in doors:
+    try:
+        door()
+        told["refused"].append("")
+    except InputError as error:
+        told["refused"].append(str(error))
+told["gain"] = abs(mass.to_quantity("acceleration").G[0] * mass.omega[0])
+told["word"] = schema(Format.FIT)["$defs"]["quantity"]["enum"]
+print(json.dumps(told))
+"""
+SHOWN = {
+    "simulate 2:1 --set m1=1,m2=2,k12=50,d12=1 --samples 256 --periods 2 --response jerk": "# sensor: jerk",
+    "simulate --help": "{position,velocity,acceleration,jerk}",
+    "fit --help-all": "{position,velocity,acceleration,jerk}",
+}
+REFUSED = "a sensor of a machine shows position, velocity or acceleration, not jerk: beyond the"
+REFUSING = (
+    "compare 2:1 2:2 --quantity jerk",
+    "verdicts 2 --quantity jerk",
+    "draw 2:1 --quantity jerk --svg a.svg",
+)
+
+
+def test_a_quantity_is_a_row(tmp_path):
+    """Jerk: of data, in help and schemas; models, of which it would not be proper, refuse it."""
+    last = '"acc accel accelerance inertance beschleunigung",\n    )\n'
+    row = '    JERK = ("jerk", "m/s^3", "ruck")\n'
+    folder = copied(tmp_path, {"quantities.py": [(last, last + row)]})
+    told = json.loads(said(folder, "-c", JERK.replace("COMMANDS", repr([*SHOWN, *REFUSING]))))
+    for command, words in SHOWN.items():
+        status, text = told[command]
+        assert status == 0 and words in text, (command, text)
+    for command in REFUSING:
+        status, text = told[command]
+        assert status == 2 and "jerk" in text and "acceleration" in text, (command, text)
+    assert all(REFUSED in text for text in told["refused"]), told["refused"]
+    assert told["gain"] == 1.0 and told["word"][-1] == "jerk"

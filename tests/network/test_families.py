@@ -10,10 +10,11 @@ import networkx as nx
 import pytest
 from sympy import Matrix, Rational
 
-from disting import local_identifiability
+from disting import compare, local_identifiability
+from disting.errors import InputError
 from disting.general.any_model import of_network
 from disting.network.families import FAMILIES, family_of
-from disting.network.notation import network_of
+from disting.network.notation import network_of, notations_of, values_in
 
 COUNTS = {
     "machines-2": 13,
@@ -328,3 +329,32 @@ def is_reduced(bases, letters):
         if letters[i - 1] == letters[j - 1] and (parallel or series):
             return False
     return True
+
+
+@pytest.mark.parametrize("name", ["circuits-4", "machines-2-damped", "compartments-2"])
+def test_a_number_names_a_network(name):
+    networks = family_of(name).networks
+    for number in (1, len(networks)):
+        text = f"{name}:{number}"
+        assert network_of(text) == networks[number - 1]
+        assert (notations_of(text), values_in(text)) == (["member"], {})
+    for number in (0, len(networks) + 1):
+        with pytest.raises(InputError, match=f"{name} has the networks 1 to {len(networks)}"):
+            network_of(f"{name}:{number}")
+
+
+def test_a_number_of_a_machine_takes_the_quantity():
+    assert network_of("machines-2:1", quantity="position").order == 0
+    assert compare("machines-2:1", "3:1", sensor="velocity").relation == "distinguishable"
+
+
+@pytest.mark.parametrize("name", ["trees-9", "trees-3", "cells-6", "circuits-4-damped", "nets-1"])
+def test_a_family_that_does_not_exist(name):
+    with pytest.raises(InputError, match="families of networks are machines-2, "):
+        network_of(f"{name}:1")
+
+
+def test_other_numbers_are_families_too():
+    whole = family_of("circuits-6")
+    assert (whole.is_shipped, whole.in_brief) == (False, False)
+    assert {n.name for n in family_of("circuits-5").networks} < {*whole.source()}

@@ -29,6 +29,7 @@ from disting.measurement import write_csv
 from disting.model.question import Domain
 from disting.network.families import FAMILIES, family_of
 from disting.network.notation import network_of
+from disting.quantities import Sensor
 from disting.schemas import Format, schema
 from disting.simulation import Bench, demo, simulate
 from disting.verdict import placement_verdicts
@@ -207,6 +208,7 @@ def test_words_of_the_schemas_are_those_of_the_program() -> None:
     defined = schema(Format.VERDICT)["$defs"] | schema(Format.PLAN)["$defs"]
     words = {
         "relation": [r.value for r in Relation],
+        "quantity": [s.value for s in Sensor],
         "domain": [d.value for d in Domain],
         "inclusion": [i.value for i in Inclusion],
         "certainty": ["", *(c.value for c in Certainty)],

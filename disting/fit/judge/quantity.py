@@ -27,6 +27,7 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import apply
 from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain, Sensor
+from disting.quantities import MODELLED
 from disting.store import Store
 
 SMALL = (1, 2)  # masses
@@ -92,8 +93,8 @@ def quantity_readings(
     before, most = _criterion(nearest, task), share_about(nearest, task)
     imitated = any(_integrates(fit, measured) for fit in (nearest, selected) if fit is not None)
     others = list[tuple[float, QuantityReading]]()
-    for quantity in (q for q in Sensor if q is not taken):
-        progress(f"read as {quantity.value}", len(others), len(Sensor) - 1)
+    for quantity in (q for q in MODELLED if q is not taken):
+        progress(f"read as {quantity.value}", len(others), len(MODELLED) - 1)
         shifted = _shifted(task.cost.measured, taken.order - quantity.order)
         seen = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
         chains = dict.fromkeys((*_small(own), *_with_and_without_lag(nearest.chain)))

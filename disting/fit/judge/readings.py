@@ -24,7 +24,8 @@ from disting.fit.search.joint import AnyCost, JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex
 from disting.measurement.tabular import ASSUMED_LINEAR
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain
+from disting.quantities import MODELLED
 from disting.store import Store
 
 PILOT = 3  # masses: fits that only tell what lines scatter by have no more
@@ -147,7 +148,7 @@ def _views(loose: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
     first, reversed_sensor = task.cost.parts[0], replace(task, sign=-task.sign)
     data = first.measured
     yield "with the sign reversed", loose, reversed_sensor
-    for quantity in Sensor:
+    for quantity in MODELLED:
         if quantity is not data.sensor:
             cost = replace(first, measured=replace(data, sensor=quantity))
             seen = replace(loose, sensor=quantity)

@@ -74,7 +74,7 @@ def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateS
         a, b, c, d = _lagged(a, b, c, d, values["T1"])
     units = {f"x{i}": "m" for i in range(1, n + 1)} | {f"v{i}": "m/s" for i in range(1, n + 1)}
     units |= {"F": "N"} if chain.lag else {}
-    ports = {"u": "N", "y": ("m", "m/s", "m/s^2")[chain.sensor.order]}
+    ports = {"u": "N", "y": chain.sensor.unit}
     return StateSpace(a, b, c, d, values.get("Td", 0.0), tuple(units), units | ports)
 
 

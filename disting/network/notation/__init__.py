@@ -20,6 +20,7 @@ from disting.network.notation.circuit import (
 )
 from disting.network.notation.compartments import CALL, compartments
 from disting.network.notation.machine import DRAWN, machine
+from disting.network.notation.member import is_member, text_of_member
 from disting.network.notation.values import values_of_braces
 
 DIALECTS = {d.name: d for d in (IMPEDANCE, AUTOEIS, BOUKAMP, FITTER)}
@@ -28,8 +29,9 @@ LONGEST = 5_000  # characters
 
 
 def notations_of(text: str) -> list[str]:
-    """The notations in which a text may be written, by its signs alone; none for what is no
-    network, such as the name 3:1 of a chain.
+    """The notations in which a text may be written, by its signs alone; "member" for the number of
+    a network in a family, such as trees-4:17; none for what is no network, such as the name 3:1 of
+    a chain.
 
     >>> notations_of("R0-[R1,C1]"), notations_of("1>2; in 1; out 2"), notations_of("3:1+b2")
     (['autoeis'], ['compartments'], [])
@@ -37,6 +39,8 @@ def notations_of(text: str) -> list[str]:
     text = VALUES.sub("", text) if len(text) <= LONGEST else text
     if len(text) > LONGEST or re.fullmatch(r"\s*(A|\d+:)\d+(\+\w+)*\s*", text):
         return []
+    if is_member(text):
+        return ["member"]
     if any(LINE.fullmatch(part.strip()) for part in re.split(r"[;\n]", text)):
         return ["spice"]
     if ">" in text or CALL.fullmatch(text):
@@ -56,10 +60,10 @@ def network_of(
     quantity: Sensor | str = Sensor.ACCELERATION,
 ) -> Network:
     """The network that a text describes, in the notation that is named or that its signs show:
-    "impedance", "autoeis", "boukamp", "impedancefitter", "spice", "machine", "compartments".
-    `quantity`: what the
-    sensors of a machine show unless the text says it. `name`: the text, unless another one is
-    given. Raises InputError with the place and what to write instead.
+    "impedance", "autoeis", "boukamp", "impedancefitter", "spice", "machine", "compartments"; or
+    that of a number in a family, such as trees-4:17. `quantity`: what the sensors of a machine show
+    unless the text says it. `name`: the text, unless another one is given. Raises InputError with
+    the place and what to write instead.
 
     >>> network_of("R(RC)").parameters, network_of("1=2, 2=3, 2=4; F1; S4").shape
     (('C1', 'R1', 'R2'), (1, 1))
@@ -69,6 +73,8 @@ def network_of(
         raise InputError(f"notations are {enumeration(NOTATIONS)}, not {short(notation)}")
     if len(text) > LONGEST:
         raise InputError(f"a network is written in {LONGEST} characters at most; use a file")
+    if is_member(text):
+        text, notation = text_of_member(text), ""
     texts = [notation] if notation else notations_of(text)
     if not texts:
         raise InputError(
@@ -116,6 +122,8 @@ def values_in(text: str, notation: str = "") -> dict[str, Fraction]:
     >>> {name: float(value) for name, value in values_in("Q{Y=25e-6,n=0.9}W{Y=0.1}").items()}
     {'P1': 2.5e-05, 'n1': 0.9, 'W1': 10.0}
     """
+    if is_member(text):
+        return {}
     network = network_of(text, notation)
     for each in [notation] if notation else notations_of(text):
         if each in DIALECTS and isinstance(

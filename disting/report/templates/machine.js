@@ -103,14 +103,13 @@
   };
   const valuesOf = (c, { friction, lag, delay }) => [...upTo(1, c.masses).map((k) => `m${k}`), ...upTo(0, c.masses - 1).filter((k) => k !== +gap.value).flatMap((k) => [`k${between(k)}`, ...(c.damped ? [`d${between(k)}`] : [])]), ...friction.map((k) => `b${k}`), ...(lag ? ["T1"] : []), ...(delay ? ["Td"] : [])].map((name) => `${name}=..`).join(",");
   const sayOther = (c, described, extras) => { // no chain, or one with two sensors: written as commands read it
-    const text = more.written(described, c.damped, extras), tree = c.masses === 4 && !extras.loop;
-    const family = c.masses > 1 && c.masses < 4 ? `machines-${c.masses}` : tree ? "trees-4" : "";
+    const text = more.written(described, c.damped, extras), family = c.families[+Boolean(extras.loop)];
     drawMachine(slot("drawing"), c.masses, described, c.damped, extras);
     slot("drawing").setAttribute("aria-label", `A machine: ${text}`);
     put("number", text);
     put("remark", extras.lag || extras.delay ? "A lag and a dead time are no part of such a machine: they are left away." : "");
     put("twins", NOTHING, "These commands tell it:");
-    put("commands", ...[`disting models "${text}"`, ...(family && !extras.second ? [`disting equivalents "${text}" --family ${family}${c.damped ? "-damped" : ""}`] : []), `disting draw "${text}" --svg machine.svg`].map(command));
+    put("commands", ...[`disting models "${text}"`, ...(family && !extras.second ? [`disting equivalents "${text}" --family ${family}`] : []), `disting draw "${text}" --svg machine.svg`].map(command));
     form.dataset.model = text;
     put("typed", "no chain with a number");
   };
