@@ -68,7 +68,16 @@ ModelPair = tuple["ComparedModel", "ComparedModel"]
 
 @dataclass(frozen=True)
 class ComparedModel(Side[AnyModel]):
-    """A model with one transfer function or with a matrix of them."""
+    """A model with one transfer function or with a matrix of them; `experiments`, in words: those
+    that the functions are of, where there are several.
+    """
+
+    experiments: tuple[str, ...] = ()
+
+    @property
+    def content(self) -> tuple[str, ...]:
+        """All that its verdicts depend on, as text."""
+        return (*super().content, *self.experiments)
 
     @property
     def model(self) -> GeneralModel | NetworkModel:
@@ -82,7 +91,9 @@ class ComparedModel(Side[AnyModel]):
 
     @property
     def premise(self) -> Premise | None:
-        """That of the chain that it is, if it is one."""
+        """That of the chain that it is, if it is one; else how it is measured."""
+        if self.experiments:
+            return Premise(None, None, self.experiments)
         return None if self.chain is None else self.chain.premise
 
     @property
