@@ -64,7 +64,9 @@ def premise_text(left: Premise | None, right: Premise | None) -> tuple[str, str]
     ('true/false', 'acceleration/position')
     """
     sides = [
-        ("", "") if side is None else (str(side.damped).lower(), side.quantity.value)
+        ("", "")
+        if side is None or side.quantity is None
+        else (str(side.damped).lower(), side.quantity.value)
         for side in (left, right)
     ]
     damped, quantity = (a if a == b else f"{a}/{b}" for a, b in zip(*sides, strict=True))

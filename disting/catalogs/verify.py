@@ -225,7 +225,7 @@ def settle_dampers(
     findings, count = read_findings({canonical(chain).chain for chain in chains}, folder), 0
     for low, high in _open(family, findings):
         side, other = (ComparedChain("", chains[place]) for place in (low, high))
-        first, second = side.in_order(other)
+        first, second = side.pair(other)
         finding = patient_finding(first, second, settings)
         decided = DECIDES.get(finding.outcome)
         announce(f"{family.pair_text(low, high)}: {decided or finding.note}")

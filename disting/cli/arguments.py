@@ -255,7 +255,7 @@ def add_deciding(parser: argparse.ArgumentParser) -> None:
 
 
 def add_also(parser: argparse.ArgumentParser) -> None:
-    """--also: further experiments on two chains."""
+    """--also: further experiments on two chains or networks of masses."""
     text = (
         f"measure also like this: {EXAMPLES}, one or several, at masses of the left model (3/2:"
         " mass 2 of the right one, else every one is tried); may be repeated"

@@ -22,7 +22,6 @@ from disting.general.matrix_model import AnyModel
 from disting.general.naming import has_free_name
 from disting.general.special_values import SpecialValues, special_values
 from disting.model.chain import Chain, text_drawing
-from disting.model.names import names_of
 from disting.model.question import Domain, Settings
 from disting.network.denotation import FREE_NAMES
 from disting.questions.positive import ranges, within_ranges
@@ -35,7 +34,7 @@ from disting.verdict.placement_verdicts import (
 )
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.sides import determinable
+from disting.verdict.sides import determinable, names_beside
 from disting.verdict.verdict_file import StoredVerdict, as_file, exact, has_more
 
 LONGER = "this pair takes longer than most; Ctrl-C stops it"
@@ -95,7 +94,7 @@ def verdict_file(texts: Sequence[str], options: argparse.Namespace) -> dict[str,
     asked = query(options.conditions, View.EXACT, options.domain)
     if not options.also:
         return file_of(judge(sides, asked, options), asked, options)
-    left, right = _chains(sides)
+    left, right = sides
     with engine_for(options) as (engine, _, _progress):
         return everywhere_file(left, right, options.also, query=asked, engine=engine)
 
@@ -170,8 +169,8 @@ def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
 def _under_experiments(
     sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace
 ) -> int:
-    """Explain what further experiments tell, the chains as they are included."""
-    left, right = chains = _chains(sides)
+    """Explain what further experiments tell, the models as they are included."""
+    left, right = sides
     with engine_for(options) as (engine, _, _progress):
         if options.json:
             whole = everywhere_file(left, right, options.also, query=asked, engine=engine)
@@ -182,21 +181,24 @@ def _under_experiments(
     asked_for = [parse_experiment(text).experiment for text in options.also]
     experiments = list(dict.fromkeys(experiment.text for experiment in asked_for))
     lines = [f"experiment {i}  {text}" for i, text in enumerate(["as it is", *experiments], 1)]
-    print("\n".join([*_every_way(placements, chains, asked_for), "", *lines]))
+    print("\n".join([*_every_way(placements, sides, asked_for), "", *lines]))
     return 0
 
 
 def _every_way(
-    placements: AllPlacements, chains: Sequence[Chain], experiments: Sequence[Experiment]
+    placements: AllPlacements,
+    models: Sequence[Chain | AnyModel],
+    experiments: Sequence[Experiment],
 ) -> Iterator[str]:
     """One way in full, several with what is common to them; one and the same chain is drawn with
     the experiments of each side.
     """
-    left, right = names_of(*chains)
+    left, right = names_beside(*models)
+    chains = _chains(models)
     if len(placements.verdicts) == 1:
         places, verdict = placements.verdicts[0]
-        drawings = list(map(text_drawing, chains))
-        if left == right:
+        drawings = list(map(in_letters, models))
+        if left == right and chains:
             sides = experiments, [move(e, places) for e in experiments]
             drawings = [_drawn(chains[0], side) for side in sides]
         yield explain(verdict, drawings)

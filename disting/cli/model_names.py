@@ -35,16 +35,14 @@ def is_network(text: str, notation: str = "") -> bool:
 
 def models_of(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
     """What is named by each text: a chain, a network in a notation, a model file.json:name."""
+    if options.also and (options.prove or getattr(options, "bound", ())):
+        raise InputError(
+            "with --also the verdict is on several experiments: leave --prove and --bound away"
+        )
     networks = {text: _network(text, options) for text in texts if FILE not in text}
     named = [text for text, network in networks.items() if network is None]
     if len(set(texts)) == len(set(named)):
-        if options.also and (options.prove or getattr(options, "bound", ())):
-            raise InputError(
-                "with --also the verdict is on several experiments: leave --prove and --bound away"
-            )
         return [*read_together(texts, damped=options.damped, sensor=options.quantity)]
-    if options.also:
-        raise InputError("--also belongs to numbered chains: leave it away")
     if getattr(options, "bound", ()):
         raise InputError("--bound belongs to numbered chains: leave it away")
     if all(FILE in text for text in texts):

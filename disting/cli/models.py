@@ -37,6 +37,7 @@ from disting.model.question import Domain
 from disting.network import Network, network_of
 from disting.network.families import DAMPED, KINDS, Kind
 from disting.questions.identifiability import Level, ParameterIdentifiability
+from disting.verdict.comparison import identifiability
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.identifiable import Identified, identify, identify_measured
 
@@ -156,19 +157,22 @@ def _of_list(source: Listed, options: argparse.Namespace) -> int:
 
 def _of_network(network: Network, options: argparse.Namespace) -> int:
     """Tell the transfer function of a network, what does not enter, what can be determined."""
-    if options.also:
-        raise InputError("--also belongs to numbered chains: leave it away")
     if options.damped is not None:
         raise InputError(
             f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
             " dampers itself"
         )
-    model = of_network(network)
+    model, also = of_network(network), map(_one_model, options.also)
+    experiments = [Experiment(), *also] if options.also else []
     with engine_for(options) as (engine, _, _progress):
-        (identified,) = identify([model], Domain(options.domain), engine)
+        identified = identifiability(
+            model, experiments=experiments, domain=options.domain, engine=engine
+        )
     print(f"{model.name}  {in_letters(model, MOST_TERMS, '')}")
     if network.unseen:
         print(f"what cannot be seen, as no way leads through it: {enumeration(network.unseen)}")
+    for number, experiment in enumerate(experiments, 1):
+        print(f"experiment {number}  {experiment.text}")
     print(identified.sentence)
     return 0
 

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Generic, Self, TypeVar
+from typing import Any, ClassVar, Generic, Self, TypeVar
 
 from disting.algebra.certainty import prime
 from disting.algebra.colouring import Colouring, colouring
@@ -36,6 +36,8 @@ class Side(ABC, Generic[S]):
     `source` yields profiles, `answerer` answers about pairs; a cache may stand in for both. What a
     family does not say of its models stays as it is here: not known, or not asked.
     """
+
+    exactly: ClassVar[Question[Finding]]  # the exact decision
 
     name: str
     subject: S
@@ -165,14 +167,37 @@ class Side(ABC, Generic[S]):
         return None
 
     @abstractmethod
-    def exact(self, other: Self) -> Finding:
-        """The exact decision, for equal ranks."""
+    def pair(self, other: Self) -> Models:
+        """Both, as `exactly` is asked of them."""
 
     @abstractmethod
+    def foreseen(self, other: Self) -> Finding | None:
+        """The exact decision where ranks, degrees or theorems tell it; None where it is asked."""
+
+    @abstractmethod
+    def grounded(self, other: Self, found: Finding) -> Finding:
+        """What is found of `pair`, of these two: as sure as the ranks that are seen equal."""
+
+    @abstractmethod
+    def found_again(self, other: Self, evidence: Evidence) -> Finding | None:
+        """What the settings find of `pair` with evidence of this kind, where it is asked."""
+
+    def exact(self, other: Self) -> Finding:
+        """The exact decision, for equal ranks."""
+        told = self.foreseen(other)
+        if told is not None:
+            return told
+        return self.grounded(other, self.answerer(self.exactly, self.pair(other), self.settings))
+
     def recheck(self, other: Self, evidence: Evidence) -> Finding | None:
         """What the settings find by the exact decision with evidence of this kind: evidence that is
         true can have been chosen, and then bounds nothing.
         """
+        told = self.foreseen(other)
+        if told is not None:
+            return told if type(told.evidence) is type(evidence) else None
+        again = self.found_again(other, evidence)
+        return None if again is None else self.grounded(other, again)
 
     @abstractmethod
     def confirms(self, other: Self, evidence: Evidence, representation: str) -> bool:
@@ -209,9 +234,9 @@ class Side(ABC, Generic[S]):
         """Which positive models of the one have a positive equivalent in the other."""
 
     @classmethod
-    @abstractmethod
     def prepare_exact(cls, pairs: Sequence[tuple[Self, Self]], ask: Ask) -> None:
         """Have all that `exact` needs for these pairs computed, many at a time."""
+        ask(cls.exactly, [a.pair(b) for a, b in pairs if a.foreseen(b) is None])
 
     @classmethod
     def prepare_positive(cls, ways: Sequence[tuple[Self, Self]], ask: Ask) -> None:

@@ -1,9 +1,9 @@
-"""Chains under several experiments with one parameter vector: what to measure next.
+"""Chains and networks under several experiments with one parameter vector: what to measure next.
 
 `changes` of a machine are of the kinds of one table, `experiment` says how is measured,
-`machine_model` what it reveals, `exact` decides what conditions leave open, `machine_side`
-makes a measured chain a side of a comparison, `places` tells which mass of one model is which of
-the other.
+`machine_model` what it reveals, `measured_network` the same of a network, `exact` decides what
+conditions leave open, `machine_side` makes a measured chain a side of a comparison, `places` tells
+which mass of one model is which of the other.
 
 >>> from disting import Chain
 >>> from disting.experiments import move, parse_experiment, ways

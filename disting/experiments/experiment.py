@@ -299,7 +299,7 @@ def range_of(masses: tuple[int, ...]) -> str:
     """Masses in words.
 
     >>> range_of((1, 2, 3)), range_of((1, 4))
-    ('masses 1 to 3', 'masses 1 and 4')
+    ('masses 1 to 3', 'masses 1, 4')
     """
     if masses == tuple(range(1, len(masses) + 1)):
         return f"masses 1 to {len(masses)}"

@@ -8,7 +8,6 @@ its third model, with the elements of both, is no chain of the class: it has no 
 differ, so it cannot be measured as chains are, and what it would say the exact decision finds.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import weakest
@@ -17,7 +16,7 @@ from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome, positive_ways
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
-from disting.conditions.side import Ask, Side
+from disting.conditions.side import Side
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
@@ -47,6 +46,8 @@ MachinePair = tuple["ComparedMachine", "ComparedMachine"]
 @dataclass(frozen=True)
 class ComparedMachine(Side[MeasuredChain]):
     """A chain under several experiments."""
+
+    exactly = EXACTLY
 
     @property
     def model(self) -> MachineModel:
@@ -83,12 +84,25 @@ class ComparedMachine(Side[MeasuredChain]):
         """Whether renaming the parameters turns all transfer functions into the others: exact."""
         return is_renaming(self.measured, other.measured, renaming)
 
-    def exact(self, other: "ComparedMachine") -> Finding:
-        """The exact decision, for equal ranks and degrees."""
-        if not comparable(self, other):
-            return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
-        finding = self.answerer(EXACTLY, (self.measured, other.measured), self.settings)
-        return resting_on_ranks(finding, self.transfer_profile, other.transfer_profile)
+    def pair(self, other: "ComparedMachine") -> tuple[MeasuredChain, MeasuredChain]:
+        """Both as they are."""
+        return self.measured, other.measured
+
+    def foreseen(self, other: "ComparedMachine") -> Finding | None:
+        """Not asked of unequal ranks, degrees or dead times."""
+        mine, theirs = self.transfer_profile, other.transfer_profile
+        alike = mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees
+        if alike and self.measured.chain.dead_time == other.measured.chain.dead_time:
+            return None
+        return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
+
+    def grounded(self, other: "ComparedMachine", found: Finding) -> Finding:
+        """As sure as the ranks."""
+        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
+
+    def found_again(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
+        """What is found with evidence of this kind."""
+        return recheck(evidence, *self.pair(other), self.settings)
 
     def confirms(self, other: "ComparedMachine", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both."""
@@ -97,14 +111,6 @@ class ComparedMachine(Side[MeasuredChain]):
     def includes(self, other: "ComparedMachine", evidence: InclusionEvidence) -> bool:
         """Whether evidence of an inclusion is true of both."""
         return confirms_inclusion(evidence, self.measured, other.measured)
-
-    def recheck(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
-        """What `exact` finds with evidence of this kind."""
-        if not comparable(self, other):
-            return None
-        finding = recheck(evidence, self.measured, other.measured, self.settings)
-        profiles = self.transfer_profile, other.transfer_profile
-        return None if finding is None else resting_on_ranks(finding, *profiles)
 
     def admissible(
         self, other: "ComparedMachine", domain: Domain, why: Evidence | None = None
@@ -137,15 +143,3 @@ class ComparedMachine(Side[MeasuredChain]):
         complex ones have equivalents.
         """
         return self.answerer(POSITIVELY, (self.measured, other.measured), self.settings)
-
-    @classmethod
-    def prepare_exact(cls, pairs: Sequence[MachinePair], ask: Ask) -> None:
-        """Have the exact decisions on pairs of equal rank and degrees computed."""
-        ask(EXACTLY, [(a.measured, b.measured) for a, b in pairs if comparable(a, b)])
-
-
-def comparable(left: ComparedMachine, right: ComparedMachine) -> bool:
-    """Whether the exact decision is asked: ranks, degrees and dead times are equal."""
-    mine, theirs = left.transfer_profile, right.transfer_profile
-    times = (side.measured.chain.dead_time for side in (left, right))
-    return mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees and len(set(times)) == 1

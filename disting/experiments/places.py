@@ -14,8 +14,7 @@ from typing import Any
 
 from disting.errors import InputError, enumeration, short
 from disting.experiments.changes import Change, read_changes
-from disting.experiments.experiment import Experiment
-from disting.model.chain import Chain
+from disting.experiments.experiment import AnyStructure, Experiment, places_of, range_of
 from disting.model.kinds import BY_NAME, EXAMPLES
 
 Places = tuple[tuple[int, int], ...]
@@ -72,9 +71,12 @@ def parse_experiment(text: str) -> PlacedExperiment:
 
 
 def ways(
-    left: Chain, right: Chain, asked: Sequence[PlacedExperiment], fixed_places: Places = ()
+    left: AnyStructure,
+    right: AnyStructure,
+    asked: Sequence[PlacedExperiment],
+    fixed_places: Places = (),
 ) -> list[Places]:
-    """Every way to say which masses of the right chain the named ones of the left chain are;
+    """Every way to say which masses of the right model the named ones of the left model are;
     raises InputError.
     """
     for item in asked:
@@ -82,16 +84,15 @@ def ways(
     fixed = dict(_agreed([*fixed_places, *(pair for item in asked for pair in item.places)]))
     used = sorted({i for item in asked for i in item.experiment.masses})
     open_ones = [i for i in used if i not in fixed]
-    wrong = [r for r in fixed.values() if r > right.n_masses]
+    masses = places_of(right)
+    wrong = [r for r in fixed.values() if r not in masses]
     if wrong:
-        raise InputError(
-            f"there is no mass {wrong[0]} in the right model with masses 1 to {right.n_masses}"
-        )
-    free = [r for r in range(1, right.n_masses + 1) if r not in fixed.values()]
+        raise InputError(f"there is no mass {wrong[0]} in the right model with {range_of(masses)}")
+    free = [r for r in masses if r not in fixed.values()]
     count = perm(len(free), len(open_ones))
     if not count:
         raise InputError(
-            f"the right model has {right.n_masses} masses, so masses {enumeration(map(str, used))}"
+            f"the right model has {len(masses)} masses, so masses {enumeration(map(str, used))}"
             " of the left one cannot all be different ones of it"
         )
     if count > MOST_WAYS:

@@ -19,7 +19,7 @@ from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import Constants, OverDomain
+from disting.evidence.general import OverDomain
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
@@ -69,7 +69,17 @@ ModelPair = tuple["ComparedModel", "ComparedModel"]
 
 @dataclass(frozen=True)
 class ComparedModel(Side[AnyModel]):
-    """A model with one transfer function or with a matrix of them."""
+    """A model with one transfer function or with a matrix of them; `experiments`, in words: those
+    that the functions are of, where there are several.
+    """
+
+    exactly = EXACTLY
+    experiments: tuple[str, ...] = ()
+
+    @property
+    def content(self) -> tuple[str, ...]:
+        """All that its verdicts depend on, as text."""
+        return (*super().content, *self.experiments)
 
     @property
     def model(self) -> GeneralModel | NetworkModel:
@@ -93,7 +103,9 @@ class ComparedModel(Side[AnyModel]):
 
     @property
     def premise(self) -> Premise | None:
-        """That of the chain that it is, if it is one."""
+        """That of the chain that it is, if it is one; else how it is measured."""
+        if self.experiments:
+            return Premise(None, None, self.experiments)
         return None if self.chain is None else self.chain.premise
 
     @property
@@ -167,23 +179,35 @@ class ComparedModel(Side[AnyModel]):
         except TooLargeError:
             return False
 
-    def exact(self, other: "ComparedModel") -> Finding:
-        """The exact decision, for equal ranks and degrees."""
-        own_profile, other_profile = self.transfer_profile, other.transfer_profile
-        if own_profile.rank != other_profile.rank or own_profile.degrees != other_profile.degrees:
+    def pair(self, other: "ComparedModel") -> tuple[AnyModel, AnyModel]:
+        """Both, whatever they are called."""
+        return without_names(self.subject), without_names(other.subject)
+
+    def foreseen(self, other: "ComparedModel") -> Finding | None:
+        """Not asked of unequal ranks or degrees, nor where a theorem tells it."""
+        mine, theirs = self.transfer_profile, other.transfer_profile
+        if mine.rank != theirs.rank or mine.degrees != theirs.degrees:
             return Finding(
                 EXACT,
                 Outcome.INAPPLICABLE,
                 note="the ranks or degrees differ (conditions 2 and 4)",
             )
-        if own_profile.rank == 0:
+        if mine.rank == 0:
             return constants_finding(self.subject, other.subject)
         if _applies(GEARS, self, other):
             return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(GEARS))
         if not (self.is_writable and other.is_writable):
             return Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        finding = self.answerer(EXACTLY, _models(self, other), self.settings)
-        return self._in_every_order(other, resting_on_ranks(finding, own_profile, other_profile))
+        return None
+
+    def grounded(self, other: "ComparedModel", found: Finding) -> Finding:
+        """In every order of the exponents."""
+        found = resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
+        return self._in_every_order(other, found)
+
+    def found_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
+        """What is found with evidence of this kind."""
+        return model_evidence.recheck(evidence, *self.pair(other), self.settings)
 
     def _in_every_order(self, other: "ComparedModel", finding: Finding) -> Finding:
         """What is found with the exponents in one order, of all of them: a difference is none where
@@ -212,20 +236,6 @@ class ComparedModel(Side[AnyModel]):
         if isinstance(evidence, OverDomain):
             pair = _unnamed(self, other)
         return model_evidence.confirms_models(evidence, *pair, representation)
-
-    def recheck(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
-        """What `exact` finds with evidence of this kind."""
-        if isinstance(evidence, Constants):
-            return self.exact(other) if self.transfer_profile.rank == 0 else None
-        if evidence == Theorem(GEARS):
-            return self.exact(other) if _applies(GEARS, self, other) else None
-        if not comparable(self, other):
-            return None
-        finding = model_evidence.recheck(evidence, *_models(self, other), self.settings)
-        if finding is None:
-            return None
-        profiles = self.transfer_profile, other.transfer_profile
-        return self._in_every_order(other, resting_on_ranks(finding, *profiles))
 
     def admissible(
         self, other: "ComparedModel", domain: Domain, why: Evidence | None = None
@@ -261,11 +271,6 @@ class ComparedModel(Side[AnyModel]):
         return PositiveFinding(Share.UNKNOWN, reason=NO_SHARES)
 
     @classmethod
-    def prepare_exact(cls, pairs: Sequence[ModelPair], ask: Ask) -> None:
-        """Have the exact decisions on pairs of equal rank and degrees computed."""
-        ask(EXACTLY, [_models(a, b) for a, b in pairs if comparable(a, b)])
-
-    @classmethod
     def prepare_admissible(cls, pairs: Sequence[ModelPair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
         asked = [_question(a, b, domain) for a, b in pairs if _is_asked(a, b, domain)]
@@ -292,21 +297,9 @@ def _by_theorem(name: str) -> Finding:
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
 
 
-def _models(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
-    return without_names(left.subject), without_names(right.subject)
-
-
 def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
     """Both as they are asked about over real and positive parameters."""
     return left.asked_about[0], right.asked_about[1]
-
-
-def comparable(left: ComparedModel, right: ComparedModel) -> bool:
-    """Whether the exact decision is computed: it is not known from ranks, degrees or theorems."""
-    profile, other = left.transfer_profile, right.transfer_profile
-    alike = profile.rank == other.rank > 0 and profile.degrees == other.degrees
-    written = alike and left.is_writable and right.is_writable
-    return written and not _applies(GEARS, left, right)
 
 
 def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> str:

@@ -40,32 +40,39 @@ LEGEND = (
 @dataclass(frozen=True, slots=True)
 class Premise:
     """What a name such as 3:4 leaves to be said: dampers beside the springs, the sensor quantity,
-    and how else the machine is measured.
+    and how else the machine is measured. A network says its dampers and its quantity itself: of it
+    both are None.
 
     >>> str(Premise(True, Sensor.ACCELERATION, ("as it is", "sensor 3, mass 2 locked")))
     'damped, acceleration, measured as it is and with sensor 3, mass 2 locked'
     """
 
-    damped: bool
-    quantity: Sensor
+    damped: bool | None
+    quantity: Sensor | None
     experiments: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        plain = f"{'damped' if self.damped else 'undamped'}, {self.quantity.value}"
         ways = " and ".join(t if t == AS_IT_IS else f"with {t}" for t in self.experiments)
-        return f"{plain}, measured {ways}" if ways else plain
+        how = [f"measured {ways}"] if ways else []
+        if self.quantity is None:
+            return "".join(how)
+        return ", ".join(["damped" if self.damped else "undamped", self.quantity.value, *how])
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""
-        plain: dict[str, object] = {"damped": self.damped, "quantity": self.quantity.value}
+        plain: dict[str, object] = {}
+        if self.quantity is not None:
+            plain = {"damped": self.damped, "quantity": self.quantity.value}
         return plain | ({"experiments": list(self.experiments)} if self.experiments else {})
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> "Premise":
         """Inverse of `to_dict`; raises KeyError, TypeError or ValueError for what is none."""
+        experiments = tuple(map(str, data.get("experiments", ())))
+        if data.keys() == {"experiments"}:
+            return Premise(None, None, experiments)
         if type(data["damped"]) is not bool:
             raise TypeError("whether a chain is damped is true or false")
-        experiments = tuple(map(str, data.get("experiments", ())))
         return Premise(data["damped"], Sensor(data["quantity"]), experiments)
 
 

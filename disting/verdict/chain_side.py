@@ -71,6 +71,8 @@ class ComparedChain(Side[Chain]):
         """All that its verdicts depend on, as text."""
         return (self.name, full_text(self.subject), *self.notes)
 
+    exactly = EXACTLY
+
     @property
     def model(self) -> ChainModel:
         """The chain as it is."""
@@ -119,16 +121,35 @@ class ComparedChain(Side[Chain]):
         """Whether renaming the parameters turns this transfer function into the other: exact."""
         return is_renaming(self.chain.structure, other.chain.structure, renaming)
 
-    def exact(self, other: "ComparedChain") -> Finding:
-        """The exact decision on the canonical forms of both, for equal ranks; the pair's order
-        does not matter.
+    def pair(self, other: "ComparedChain") -> tuple[Chain, Chain]:
+        """The canonical forms of both, in an order of their own, so that a pair is asked about
+        once.
         """
-        if self.rank != other.rank:
-            return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
-        first, second = self.in_order(other)
-        decided = self.answerer(EXACTLY, (first, second), self.settings)
-        decided = decided if first == self.canonical.chain else decided.turned
-        return resting_on_ranks(decided, self.transfer_profile, other.transfer_profile)
+        low, high = sorted(
+            (self.canonical.chain, other.canonical.chain),
+            key=lambda c: (c.indices, c.ground_dampers, c.lag),
+        )
+        return low, high
+
+    def foreseen(self, other: "ComparedChain") -> Finding | None:
+        """Not asked of unequal ranks."""
+        if self.rank == other.rank:
+            return None
+        return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
+
+    def grounded(self, other: "ComparedChain", found: Finding) -> Finding:
+        """In the order of both."""
+        found = found.turned if self._is_turned(other) else found
+        return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
+
+    def found_again(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
+        """What is found with evidence of this kind."""
+        evidence = evidence.turned if self._is_turned(other) else evidence
+        return recheck(evidence, *self.pair(other), self.settings)
+
+    def _is_turned(self, other: "ComparedChain") -> bool:
+        """Whether `pair` has the other one first."""
+        return self.pair(other)[0] != self.canonical.chain
 
     def confirms(self, other: "ComparedChain", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both chains."""
@@ -141,18 +162,6 @@ class ComparedChain(Side[Chain]):
     def proves(self, other: "ComparedChain", share: PositiveFinding) -> bool:
         """Whether evidence on positive equivalents in the other is true."""
         return proves(share, *_canonical(self, other))
-
-    def recheck(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
-        """What `exact` finds with evidence of this kind."""
-        if self.rank != other.rank:
-            return None
-        first, second = self.in_order(other)
-        turned = first != self.canonical.chain
-        again = recheck(evidence.turned if turned else evidence, first, second, self.settings)
-        if again is None:
-            return None
-        again = again.turned if turned else again
-        return resting_on_ranks(again, self.transfer_profile, other.transfer_profile)
 
     def admissible(
         self, other: "ComparedChain", domain: Domain, why: Evidence | None = None
@@ -182,21 +191,6 @@ class ComparedChain(Side[Chain]):
         that is known.
         """
         return self.positive(other).share is other.positive(self).share is Share.ALWAYS
-
-    def in_order(self, other: "ComparedChain") -> tuple[Chain, Chain]:
-        """The canonical forms of both, in an order of their own, so that a pair is asked about
-        once.
-        """
-        low, high = sorted(
-            (self.canonical.chain, other.canonical.chain),
-            key=lambda c: (c.indices, c.ground_dampers, c.lag),
-        )
-        return low, high
-
-    @classmethod
-    def prepare_exact(cls, pairs: Sequence[ChainPair], ask: Ask) -> None:
-        """Have the exact decisions on pairs of equal rank computed."""
-        ask(EXACTLY, [a.in_order(b) for a, b in pairs if a.rank == b.rank])
 
     @classmethod
     def prepare_positive(cls, ways: Sequence[ChainPair], ask: Ask) -> None:

@@ -238,7 +238,7 @@ def _decide(
 ) -> None:
     """Ask about all open pairs of representatives, and take over what is decided."""
     pairs = work.open_pairs()
-    asked = [work.subjects[i].in_order(work.subjects[j]) for i, j in pairs]
+    asked = [work.subjects[i].pair(work.subjects[j]) for i, j in pairs]
     work.engine.answer_all(question, asked, executor=executor, progress=progress)
     for (i, j), chains in zip(pairs, asked, strict=True):
         work.take(i, j, work.engine.answer(question, chains, work.engine.settings))

@@ -20,7 +20,8 @@ from disting.conditions.rule import DEPENDENCES, RANK
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, short
 from disting.evidence.conditions import Ranks
-from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.experiments.experiment import Experiment
+from disting.experiments.measured_network import measure
 from disting.general import AnyModel, MatrixModel, Model
 from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain, Sensor, as_sensor
@@ -37,7 +38,6 @@ from disting.verdict.identifiable import identify, identify_measured
 from disting.verdict.query import Query
 from disting.verdict.result import Step, Verdict
 from disting.verdict.sides import (
-    NOT_CHAINS,
     Given,
     both_places,
     model_of,
@@ -158,9 +158,9 @@ def compare(
     representation and raises ContradictionError where two decide differently; `engine` brings
     settings and a store (default: none). Raises InputError for what names no model.
 
-    `experiments`: all ways in which both machines are measured, with one parameter vector for all;
-    `Experiment()` is that of the chains as they are. A pair of experiments names the places of the
-    left and of the right chain; a single one means the same places in both.
+    `experiments`: all ways in which both machines, chains or networks, are measured, with one
+    parameter vector for all; `Experiment()` is that of both as they are. A pair of experiments
+    names the places of the left and of the right model; a single one means the same places in both.
 
     >>> from disting import Experiment, Family
     >>> a = Family(3, damped=True)
@@ -222,8 +222,9 @@ def identifiability(
     vectors that fit (`least`, `most`).
 
     `domain`: "complex", "real" or "positive" parameters, the last ones being those of a machine.
-    `experiments`: all ways in which the chain is measured, with one parameter vector for all;
-    `Experiment()` is that of the chain as it is. Without them more is told of the chain as it is:
+    `experiments`: all ways in which the chain, or the network of masses, is measured, with one
+    parameter vector for all; `Experiment()` is that of it as it is. Without them more is told of
+    the chain as it is:
     which combinations are determined, and all parameter vectors at a random point. A chain can be
     named, such as "3:1+b2": `damped` and `sensor` say then how it is meant; a network that is a
     chain in the chain's own parameters is that chain. `engine` brings settings and a store. Raises
@@ -242,13 +243,9 @@ def identifiability(
     """
     engine, over = engine or Engine(), as_domain(domain)
     model = model_of(model, Sensor.ACCELERATION if sensor is None else as_sensor(sensor))
-    if isinstance(model, Model | MatrixModel):
-        if experiments:
-            raise InputError(NOT_CHAINS)
-        return identify([model], over, engine)[0]
     if isinstance(model, str):
         (model,) = read_together([model], damped=damped, sensor=sensor)
-    if not isinstance(model, Chain):
+    if not isinstance(model, Chain | Model | MatrixModel):
         raise InputError(
             "identifiability is asked of a chain, such as Family(3)[4], a Model or a Network"
         )
@@ -256,9 +253,8 @@ def identifiability(
         return identify([model], over, engine)[0]
     wrong = [e for e in experiments if not isinstance(e, Experiment)]
     if wrong:
-        raise InputError("of one chain each experiment is one, such as Experiment(sensor=2)")
-    measured = MeasuredChain(model, tuple(dict.fromkeys(experiments)))
-    return identify_measured(measured, over, engine)
+        raise InputError("of one model each experiment is one, such as Experiment(sensor=2)")
+    return identify_measured(measure(model, tuple(dict.fromkeys(experiments))), over, engine)
 
 
 def as_domain(domain: Domain | str) -> Domain:

@@ -87,10 +87,13 @@ class Engine:
         return ComparedChain(name, chain, self.settings, self.profile, self.answer, note)
 
     def general_subjects(
-        self, models: Sequence[AnyModel | Network], names: Sequence[str] = ()
+        self,
+        models: Sequence[AnyModel | Network],
+        names: Sequence[str] = (),
+        experiments: Sequence[tuple[str, ...]] = (),
     ) -> list[ComparedModel]:
         """The same for general models and networks that are compared with each other, all in one
-        variable.
+        variable; `experiments` in words that each is the transfer functions of, none: as it is.
         """
         from disting.general.any_model import as_model, on_one_variable
         from disting.general.model_side import ComparedModel
@@ -103,10 +106,11 @@ class Engine:
 
         plain = list(map(as_model, models))
         matched = [normalise(model, profile_of) for model in on_one_variable(plain)]
-        named = zip(names or [m.name for m in models], matched, strict=True)
+        ways = experiments or [()] * len(matched)
+        named = zip(names or [m.name for m in models], matched, ways, strict=True)
         return [
-            ComparedModel(name, model, self.settings, self.profile, self.answer)
-            for name, model in named
+            ComparedModel(name, model, self.settings, self.profile, self.answer, way)
+            for name, model, way in named
         ]
 
     def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:

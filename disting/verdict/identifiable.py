@@ -11,6 +11,7 @@ from disting.experiments.experiment import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.experiments.listing import without_dead_time
 from disting.experiments.machine_model import expand, shape
+from disting.experiments.measured_network import MeasuredNetwork
 from disting.general import Model, as_chain, without_names
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel, MatrixModel, of_ratios
@@ -79,9 +80,13 @@ def identify_chain(chain: Chain, domain: Domain, engine: Engine) -> Identifiabil
 
 
 def identify_measured(
-    measured: MeasuredChain, domain: Domain, engine: Engine
+    measured: MeasuredChain | MeasuredNetwork, domain: Domain, engine: Engine
 ) -> ParameterIdentifiability:
-    """Identifiability of a chain's parameters over a domain by several experiments together."""
+    """Identifiability of the parameters of a chain or a network over a domain by several
+    experiments together; raises InputError for transfer functions that are too large.
+    """
+    if isinstance(measured, MeasuredNetwork):
+        return _of_model(without_names(measured.model), domain, engine)
     found = engine.answer(IDENTIFIABLE, (measured,), engine.settings)
     small = len(measured.chain.parameters) <= CHEAP_UP_TO
     model = matrix_of(measured) if _is_open(found) and small else None

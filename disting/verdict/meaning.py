@@ -34,7 +34,7 @@ def meaning_sentence(verdict: Verdict, what: str = RESPONSE, everywhere: bool = 
     variety of smaller dimension, so a generic behaviour of the other one is not there; the number
     of equations is the difference of the ranks.
     """
-    left, right, machines = verdict.left, verdict.right, all(verdict.premises)
+    left, right, machines = verdict.left, verdict.right, _are_chains(verdict)
     if verdict.relation is Relation.INDISTINGUISHABLE:
         return _the_same(verdict, what, everywhere)
     if verdict.relation is Relation.SOMETIMES:
@@ -92,6 +92,10 @@ def undetermined_sentence(name: str, rank: int, parameters: int) -> str:
         f"Not all of {name} can be determined: what is measured fixes {fixed} of its"
         f" {parameters} parameters."
     )
+
+
+def _are_chains(verdict: Verdict) -> bool:
+    return all(p is not None and p.quantity is not None for p in verdict.premises)
 
 
 def _the_same(verdict: Verdict, what: str, everywhere: bool) -> str:

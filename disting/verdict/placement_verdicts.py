@@ -1,6 +1,6 @@
-"""Whether further experiments tell two chains apart, where it is not known which mass of the one is
-which of the other: every way to place them is asked. A file of it holds a verdict for every way,
-each a whole file of its own.
+"""Whether further experiments tell two machines apart, chains or networks, where it is not known
+which mass of the one is which of the other: every way to place them is asked. A file of it holds a
+verdict for every way, each a whole file of its own.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -10,16 +10,16 @@ from typing import Any
 
 from disting.errors import DistingError, InputError, of_type, short
 from disting.experiments import Experiment, PlacedExperiment, Places, move, parse_experiment, ways
+from disting.experiments.measured_network import structure_of
 from disting.files import Format, __version__
-from disting.general import MatrixModel, Model
+from disting.general import AnyModel
 from disting.model.chain import Chain, Sensor
-from disting.model.names import read_together
 from disting.model.presentation import plural, summary
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.sides import NOT_CHAINS, both_places
+from disting.verdict.sides import Given, both_places, models_of_names
 from disting.verdict.verdict_file import (
     DAMAGED,
     MOST_EXPERIMENTS,
@@ -33,7 +33,7 @@ from disting.verdict.verdict_file import (
 )
 
 Pairs = tuple[tuple[Experiment, Experiment], ...]
-"""All experiments, on the left and on the right chain."""
+"""All experiments, on the left and on the right model."""
 
 
 class Answer(StrEnum):
@@ -49,7 +49,7 @@ class Answer(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class AllPlacements:
-    """The verdict of every way to place the experiments, the chains as they are included."""
+    """The verdict of every way to place the experiments, the models as they are included."""
 
     verdicts: tuple[tuple[Places, Verdict], ...]
 
@@ -70,8 +70,8 @@ class AllPlacements:
 
 
 def compare_everywhere(
-    left: Chain | str,
-    right: Chain | str,
+    left: Given,
+    right: Given,
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
@@ -80,26 +80,26 @@ def compare_everywhere(
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> AllPlacements:
-    """Verdicts on two chains as they are and under the experiments `also`, for every way to place
-    those on the right.
+    """Verdicts on two machines, chains or networks, as they are and under the experiments `also`,
+    for every way to place those on the right.
 
-    Experiments name masses of the left chain, as `Experiment` or as text such as "sensor=3/2,
-    lock=1", where 3/2 is mass 3 of the left chain and 2 of the right one; `places` names more such
-    pairs. Masses of the right chain that are not named are tried, each in every place that is
-    left over. Chains are named as for `compare`. Raises InputError.
+    Experiments name masses of the left model, as `Experiment` or as text such as "sensor=3/2,
+    lock=1", where 3/2 is mass 3 of the left model and 2 of the right one; `places` names more such
+    pairs. Masses of the right model that are not named are tried, each in every place that is
+    left over. Models are named as for `compare`. Raises InputError.
 
     >>> from disting import Family
     >>> a = Family(3, damped=True)
     >>> compare_everywhere(a[1], a[11], ["sensor=2"]).answer.value
     'surely'
+    >>> compare_everywhere("1~2,2~3; F1; S1", "1~2,1~3; F1; S1", ["lock=2"]).answer.value
+    'surely'
     """
-    if isinstance(left, Model | MatrixModel) or isinstance(right, Model | MatrixModel):
-        raise InputError(NOT_CHAINS)
-    left, right = read_together([left, right], damped=damped, sensor=sensor)
+    a, b = models_of_names(left, right, damped, sensor)
     engine = engine or Engine()
     verdicts = []
-    for way, pairs in placements(left, right, named_all(also), places):
-        verdict = compare(left, right, experiments=pairs, query=query, engine=engine)
+    for way, pairs in placements(a, b, named_all(also), places):
+        verdict = compare(a, b, experiments=pairs, query=query, engine=engine)
         verdicts.append((way, verdict))
     return AllPlacements(tuple(verdicts))
 
@@ -111,12 +111,15 @@ def named_all(also: Sequence[str | Experiment]) -> tuple[PlacedExperiment, ...]:
 
 
 def placements(
-    left: Chain, right: Chain, asked: Sequence[PlacedExperiment], places: Places = ()
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
+    asked: Sequence[PlacedExperiment],
+    places: Places = (),
 ) -> Iterator[tuple[Places, Pairs]]:
-    """Yield every way to place experiments on the right chain, with all that is measured then, the
-    chains as they are first; raises InputError.
+    """Yield every way to place experiments on the right model, with all that is measured then, the
+    models as they are first; raises InputError.
     """
-    for way in ways(left, right, asked, places):
+    for way in ways(structure_of(left), structure_of(right), asked, places):
         further = [(pair.experiment, move(pair.experiment, way)) for pair in asked]
         yield way, both_places([Experiment(), *further])
 
@@ -126,8 +129,8 @@ COMMON = ("models", "query", "settings")
 
 
 def everywhere_file(
-    left: Chain | str,
-    right: Chain | str,
+    left: Given,
+    right: Given,
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
@@ -142,7 +145,7 @@ def everywhere_file(
     >>> data["answer"], [one["places"] for one in data["verdicts"]]
     ('surely', [{'2': 1}, {'2': 2}, {'2': 3}])
     """
-    a, b = read_together([left, right], damped=damped, sensor=sensor)
+    a, b = models_of_names(left, right, damped, sensor)
     asked, engine = named_all(also), engine or Engine()
     files = [
         {"places": {str(left_place): right_place for left_place, right_place in way}}
@@ -163,13 +166,13 @@ def read_everywhere(data: Mapping[str, Any]) -> tuple[StoredVerdict, ...]:
 def difference_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdict]) -> str:
     """What such a file tells otherwise than what it tells follows from; "" if nothing.
 
-    All verdicts are on the same chains, asked in the same way, and there is one for every way to
+    All verdicts are on the same models, asked in the same way, and there is one for every way to
     place the experiments.
     """
     try:
         asked = [_named(each) for each in data["also"][: MOST_EXPERIMENTS + 1]]
         a, b = stored[0].models
-        if len(asked) > MOST_EXPERIMENTS or not (isinstance(a, Chain) and isinstance(b, Chain)):
+        if len(asked) > MOST_EXPERIMENTS:
             return "also"
         ways = list(placements(a, b, asked))
     except (*DAMAGED, DistingError) as reason:

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, short
 from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.experiments.measured_network import MeasuredNetwork, structure_of
 from disting.general.any_model import as_model, of_network, renamed_chain
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import name_of, names_of, read_together
 from disting.network import Network, network_of
+from disting.network.chains import of_chain
 from disting.network.notation import notations_of
 from disting.verdict.engine import Engine
 
@@ -20,7 +22,6 @@ NAMED = "experiments are a list of Experiment, or of pairs of them, left and rig
 SIDES = 2
 Given = Chain | AnyModel | Network | str
 """What can be compared: a text is the name of a chain, or a network in a notation."""
-NOT_CHAINS = "experiments are on chains: a general model has no masses to measure at"
 
 
 def models_of_names(
@@ -66,26 +67,48 @@ def sides_of(
     experiments: Sequence[tuple[Experiment, Experiment]],
     engine: Engine,
 ) -> Sides:
-    """Two models as they are, or two chains under all experiments, each named for the left and for
-    the right one; raises InputError.
+    """Two models as they are, or under all experiments, each named for the left and for the right
+    one; raises InputError.
     """
-    if not experiments:
-        return Sides(*plain_sides(left, right, engine))
-    if not (isinstance(left, Chain) and isinstance(right, Chain)):
-        raise InputError(NOT_CHAINS)
-    chains = zip((left, right), zip(*experiments, strict=True), strict=True)
-    a, b = (MeasuredChain(chain, side) for chain, side in chains)
     plain = plain_sides(left, right, engine)
+    if not experiments:
+        return Sides(*plain)
+    a, b = measured = _measured(left, right, experiments)
     silent = [i for i in a.silent if i in b.silent]
     telling = [i for i in range(len(experiments)) if i not in silent]
     notes = [f"nothing is learned from experiment {i + 1}: its sensor never moves" for i in silent]
-    # as they are: what a verdict's evidence says is then of the chains that were given
-    if len(telling) == 1 and all(m.alone(telling[0]) == m.chain for m in (a, b)):
+    # as they are: what a verdict's evidence says is then of the models that were given
+    if len(telling) == 1 and all(m.is_plain(telling[0]) for m in measured):
         return Sides(*plain, tuple(notes))
-    left_name, right_name = names_under(plain[0].name, plain[1].name, experiments)
-    return Sides(
-        engine.measured_subject(left_name, a), engine.measured_subject(right_name, b), tuple(notes)
-    )
+    names = names_under(plain[0].name, plain[1].name, experiments)
+    first, second = _sides_under(measured, names, engine)
+    return Sides(first, second, tuple(notes))
+
+
+def _sides_under(
+    measured: Sequence[MeasuredChain | MeasuredNetwork], names: Sequence[str], engine: Engine
+) -> Sequence[AnySide]:
+    chains = [m for m in measured if isinstance(m, MeasuredChain)]
+    if chains:
+        return [engine.measured_subject(n, m) for n, m in zip(names, chains, strict=True)]
+    models = [m.model for m in measured if isinstance(m, MeasuredNetwork)]
+    refuse_ports(models)
+    return engine.general_subjects(models, names, [m.text for m in measured])
+
+
+def _measured(
+    left: Chain | AnyModel,
+    right: Chain | AnyModel,
+    experiments: Sequence[tuple[Experiment, Experiment]],
+) -> tuple[MeasuredChain | MeasuredNetwork, ...]:
+    """Both under their experiments: as chains if both are chains, else as networks."""
+    both = [(structure_of(model), name_of_model(model)) for model in (left, right)]
+    chains = [structure for structure, _ in both if isinstance(structure, Chain)]
+    ways = tuple(zip(*experiments, strict=True))
+    if len(chains) == SIDES:
+        return tuple(map(MeasuredChain, chains, ways))
+    networks = (of_chain(s, name) if isinstance(s, Chain) else s for s, name in both)
+    return tuple(map(MeasuredNetwork, networks, ways))
 
 
 def determinable(
@@ -143,12 +166,17 @@ def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, 
     """What two models are called beside each other."""
     if isinstance(left, Chain) and isinstance(right, Chain):
         return names_of(left, right)
-    left_name, right_name = (name_of(m) if isinstance(m, Chain) else m.name for m in (left, right))
+    left_name, right_name = map(name_of_model, (left, right))
     return (
         (f"{left_name} 1", f"{right_name} 2")
         if left_name == right_name
         else (left_name, right_name)
     )
+
+
+def name_of_model(model: Chain | AnyModel) -> str:
+    """What a model is called alone."""
+    return name_of(model) if isinstance(model, Chain) else model.name
 
 
 def names_under(

@@ -322,7 +322,7 @@ def test_models_tells_of_a_network_what_enters_and_what_is_determined():
     for arguments, wanted in (
         (["R0-p(R1,C1"], "it ends too early"),
         (["R1-C1", "--damped"], "--damped belongs to numbered chains"),
-        (["R1-C1", "--also", "lock=1"], "--also belongs to numbered chains"),
+        (["R1-C1", "--also", "lock=1"], "experiments are on machines"),
     ):
         refused = called("models", *arguments)
         assert refused.returncode == 2 and wanted in refused.stderr

@@ -7,6 +7,7 @@ from disting import (
     Experiment,
     Family,
     InputError,
+    Model,
     Query,
     View,
     compare,
@@ -84,13 +85,18 @@ def test_what_the_chain_does_not_have_is_refused(experiment, said):
         compare(A[1], A[11], experiments=[Experiment(), experiment])
 
 
-def test_general_models_have_no_places():
-    from disting import Model
+def test_models_given_by_formulas_have_no_places():
+    formula = Model.from_transfer_function("b/(s + a)")
+    with pytest.raises(InputError, match="no masses to measure at"):
+        compare_everywhere(formula, A[2], ["sensor=1"])
+    with pytest.raises(InputError, match="no masses to measure at"):
+        compare(formula, A[2], experiments=[Experiment(sensor=1)])
 
-    with pytest.raises(InputError, match="no masses to measure at"):
-        compare_everywhere(Model.from_chain(A[1]), A[2], ["sensor=1"])
-    with pytest.raises(InputError, match="no masses to measure at"):
-        compare(Model.from_chain(A[1]), A[2], experiments=[Experiment(sensor=1)])
+
+def test_a_chain_that_is_given_as_a_model_is_measured_as_the_chain():
+    given = compare_everywhere(Model.from_chain(A[1]), A[11], ["sensor=2/3"])
+    plain = compare_everywhere(A[1], A[11], ["sensor=2/3"])
+    assert [v.relation for _, v in given.verdicts] == [v.relation for _, v in plain.verdicts]
 
 
 def test_a_number_is_exact_and_a_generic_one_the_same_for_all():

@@ -293,7 +293,7 @@ BAD = {
     "the same outputs and inputs: one has 2 x 1": lambda: compare(
         ONE, MatrixModel.from_transfer_functions([["a/s", "b/s"]])
     ),
-    "experiments are on chains": lambda: identifiability(ONE, experiments=[Experiment()]),
+    "they have no masses to measure at": lambda: identifiability(ONE, experiments=[Experiment()]),
     "1 outputs and 2 inputs": lambda: Model.from_state_space([["a"]], [[1, 1]], [1]),
 }
 

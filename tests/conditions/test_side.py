@@ -1,0 +1,50 @@
+"""What all sides of a comparison keep, whatever they are sides of."""
+
+import pytest
+
+from disting import Engine, Experiment, Family, network_of
+from disting.conditions.finding import Outcome
+from disting.experiments.experiment import MeasuredChain
+
+A = Family(3, damped=True)
+TWICE = (Experiment(), Experiment(locked=2))
+
+
+def chains(engine, numbers):
+    return [engine.subject(str(m), A[m]) for m in numbers]
+
+
+def machines(engine, numbers):
+    return [engine.measured_subject(str(m), MeasuredChain(A[m], TWICE)) for m in numbers]
+
+
+def models(engine, numbers):
+    texts = {1: "R0-p(R1,C1)-p(R2,C2)", 11: "R0-p(C1,R1-p(R2,C2))", 3: "R0-p(R1,C1)"}
+    return engine.general_subjects([network_of(texts[m]) for m in numbers])
+
+
+@pytest.mark.parametrize("sides", [chains, machines, models])
+def test_the_exact_decision_is_not_asked_of_unequal_ranks(sides):
+    left, right = sides(Engine(), (1, 3))
+    assert left.exact(right).outcome is Outcome.INAPPLICABLE
+    evidence = left.exact(left).evidence
+    assert evidence is not None and left.recheck(right, evidence) is None
+
+
+@pytest.mark.parametrize("sides", [chains, models])
+def test_a_decision_is_found_again_from_both_sides(sides):
+    left, right = sides(Engine(), (1, 11))
+    for a, b in ((left, right), (right, left)):
+        found = a.exact(b)
+        assert found.outcome is Outcome.HOLDS
+        again = a.recheck(b, found.evidence)
+        assert again is None or (again.outcome, again.evidence) == (found.outcome, found.evidence)
+
+
+@pytest.mark.parametrize("sides", [chains, machines, models])
+def test_what_is_prepared_is_what_is_asked(sides):
+    group, asked = sides(Engine(), (1, 11, 3)), []
+    pairs = [(a, b) for a in group for b in group if a is not b]
+    type(group[0]).prepare_exact(pairs, lambda question, models: asked.append((question, models)))
+    wanted = [a.pair(b) for a, b in pairs if a.exact(b).outcome is not Outcome.INAPPLICABLE]
+    assert asked == [(type(group[0]).exactly, wanted)]
