@@ -153,7 +153,7 @@ def test_modules_are_found_below_the_package_and_other_names_are_not():
         "disting.errors",
     ]
     for name in ("nonsense", "_nonsense"):
-        with pytest.raises(AttributeError, match=r"dir\(disting\) lists its names"):
+        with pytest.raises(AttributeError, match=r"dir\(disting\) lists what it has"):
             getattr(disting, name)
 
 

@@ -15,7 +15,9 @@ from disting.general import MatrixModel, Model
 from disting.model.chain import Chain, Sensor
 from disting.model.names import read_together
 from disting.model.presentation import plural, summary
-from disting.verdict.comparison import compare
+from disting.model.question import Domain
+from disting.renamed import renamed
+from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
@@ -69,14 +71,16 @@ class AllPlacements:
         return Answer.UNKNOWN if Relation.UNDECIDED in relations else Answer.NEVER
 
 
+@renamed(sensor="quantity")
 def compare_everywhere(
     left: Chain | str,
     right: Chain | str,
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     places: Places = (),
+    domain: Domain | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> AllPlacements:
@@ -95,8 +99,8 @@ def compare_everywhere(
     """
     if isinstance(left, Model | MatrixModel) or isinstance(right, Model | MatrixModel):
         raise InputError(NOT_CHAINS)
-    left, right = read_together([left, right], damped=damped, sensor=sensor)
-    engine = engine or Engine()
+    left, right = read_together([left, right], damped=damped, sensor=quantity)
+    query, engine = asked_of(query, engine, domain)
     verdicts = []
     for way, pairs in placements(left, right, named_all(also), places):
         verdict = compare(left, right, experiments=pairs, query=query, engine=engine)
@@ -125,16 +129,18 @@ FORMAT = Format.EVERYWHERE.value
 COMMON = ("models", "query", "settings")
 
 
+@renamed(sensor="quantity")
 def everywhere_file(
     left: Chain | str,
     right: Chain | str,
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
+    domain: Domain | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """The verdicts of `compare_everywhere` as plain data, ready for JSON, which `verify` checks
     alone. Raises InputError as that does.
 
@@ -142,8 +148,8 @@ def everywhere_file(
     >>> data["answer"], [one["places"] for one in data["verdicts"]]
     ('surely', [{'2': 1}, {'2': 2}, {'2': 3}])
     """
-    a, b = read_together([left, right], damped=damped, sensor=sensor)
-    asked, engine = named_all(also), engine or Engine()
+    a, b = read_together([left, right], damped=damped, sensor=quantity)
+    asked, (query, engine) = named_all(also), asked_of(query, engine, domain)
     files = [
         {"places": {str(left_place): right_place for left_place, right_place in way}}
         | verdict_file(a, b, experiments=pairs, query=query, engine=engine)

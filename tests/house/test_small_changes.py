@@ -33,7 +33,7 @@ USE = """
 from disting import InputError
 from disting.measurement import read
 
-found = read("response.json", sensor="velocity")
+found = read("response.json", quantity="velocity")
 print(found.sensor, found.G[0], len(found))
 for options in ({"column": 2}, {"input": "u", "output": "y"}):
     try:
