@@ -58,12 +58,10 @@ class _Room(ModuleType):
             value: object = getattr(import_module(module), name)
             setattr(self, name, value)
             return value
-        module = f"{self.__name__}.{name}"
-        if name.startswith("_") or find_spec(module) is None:
-            raise AttributeError(
-                f"{self.__name__} has no {name}; dir({self.__name__}) lists its names"
-            )
-        return import_module(module)
+        here = self.__name__
+        if name.startswith("_") or find_spec(f"{here}.{name}") is None:
+            raise AttributeError(f"{here} has no {name}; dir({here}) lists what it has")
+        return import_module(f"{here}.{name}")
 
     def __setattr__(self, name: str, value: object) -> None:
         """Keep a public name where a module is called the same, such as `disting.fit.select`:

@@ -8,6 +8,7 @@ import sys
 from importlib import import_module
 from pathlib import Path
 from types import FunctionType, ModuleType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -153,7 +154,7 @@ def test_modules_are_found_below_the_package_and_other_names_are_not():
         "disting.errors",
     ]
     for name in ("nonsense", "_nonsense"):
-        with pytest.raises(AttributeError, match=r"dir\(disting\) lists its names"):
+        with pytest.raises(AttributeError, match=r"dir\(disting\) lists what it has"):
             getattr(disting, name)
 
 
@@ -256,6 +257,28 @@ def test_every_public_name_has_an_example(room):
         if ">>> " not in (x.__doc__ or "") and not re.search(rf"\b{name}\b", shown)
     ]
     assert without == []
+
+
+def methods(kind):
+    """Public functions, properties and methods that a class defines itself."""
+    for name, member in vars(kind).items():
+        function = getattr(member, "fget", None) or getattr(member, "__func__", member)
+        if name[0] != "_" and isinstance(function, FunctionType):
+            yield f"{kind.__name__}.{name}", function
+
+
+@pytest.mark.parametrize("room", HELPFUL)
+def test_no_public_function_returns_just_anything(room):
+    found = callables(room)
+    every = [(n, x) for n, x in found.items() if isinstance(x, FunctionType)]
+    every += [pair for x in found.values() if isinstance(x, type) for pair in methods(x)]
+    results = {name: f.__annotations__.get("return", Any) for name, f in every if not is_foreign(f)}
+    assert [name for name, result in results.items() if result in (Any, "Any")] == []
+
+
+def is_foreign(function):
+    """Return True for what Python adds to classes."""
+    return not (function.__module__ or "").startswith("disting")
 
 
 TOTAL = {

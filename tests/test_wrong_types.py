@@ -37,7 +37,7 @@ def test_of_every_argument_that_is_needed(name, wrong):
 
 
 @pytest.mark.parametrize("function", [compare, findings, file_of_verdict])
-@pytest.mark.parametrize("name", ["query", "engine", "experiments", "sensor"])
+@pytest.mark.parametrize("name", ["query", "engine", "experiments", "quantity", "domain"])
 def test_of_what_may_be_left_out(function, name):
     if name in inspect.signature(function).parameters:
         for wrong in (3, "all", object()):

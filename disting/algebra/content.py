@@ -21,8 +21,8 @@ def full_text(value: Any) -> str:
     Raises ValueError for a whole number of more digits than Python writes in decimal.
 
     >>> from disting import Chain
-    >>> full_text((Chain(1),))[:42], repr((Chain(1),))[:21]
-    ('(Chain(n_masses=1, gap=0, act_minus=0, act', '(Chain(1, damped=True')
+    >>> full_text((Chain(1),))[:42], repr((Chain(1),))[:18]
+    ('(Chain(n_masses=1, gap=0, act_minus=0, act', '(<Chain: 1:1 [1FS]')
     """
     kind = type(value)
     if kind in PLAIN or isinstance(value, str):

@@ -25,6 +25,7 @@ from disting.behaviour.transfer import plain_receptance
 from disting.model.chain import Chain, Sensor
 from disting.model.names import read_together
 from disting.model.structure import Structure
+from disting.renamed import renamed
 
 Quotient = tuple[fmpz_mpoly, fmpz_mpoly]
 
@@ -56,14 +57,15 @@ def numerator_and_denominator(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mp
     return num * ring["s"] ** structure.sensor_order, den
 
 
+@renamed(sensor="quantity")
 def transfer_function(
-    chain: Chain | str, *, damped: bool | None = None, sensor: Sensor | str | None = None
+    chain: Chain | str, *, damped: bool | None = None, quantity: Sensor | str | None = None
 ) -> Expr:
     """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the
     parameters.
 
     The quotient of two polynomials in s, a lag among its poles, times exp(-s Td) where there is a
-    dead time. A chain can be named, such as "3:1+b2": `damped` and `sensor` say then how it is
+    dead time. A chain can be named, such as "3:1+b2": `damped` and `quantity` say then how it is
     meant. Raises InputError for a text that names no chain.
 
     >>> transfer_function("2:1", damped=False)
@@ -71,7 +73,7 @@ def transfer_function(
     """
     from sympy import exp
 
-    (chain,) = read_together([chain], damped=damped, sensor=sensor)
+    (chain,) = read_together([chain], damped=damped, sensor=quantity)
     num, den = expand(chain.structure)
     rational = quotient(coefficients(num, "s"), coefficients(den, "s"))
     return rational * exp(-symbol("s") * symbol("Td")) if chain.dead_time else rational

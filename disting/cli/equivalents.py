@@ -19,9 +19,9 @@ from disting.equivalence import (
     among,
     assignments,
     chains_of,
-    equivalents as find,
     explicit_map,
 )
+from disting.equivalence.search import chain_equivalents
 from disting.errors import InputError
 from disting.files import json_text
 from disting.model.chain import Chain, text_drawing
@@ -120,7 +120,9 @@ def run(options: argparse.Namespace) -> int:
         example = "--set m1=1,m2=2,.. (or --formulas for formulas)"
         raise InputError(f"values of the given model are needed: {example}")
     values = assignments(options.values)
-    equivalents = find(options.model, values, options.to, damped=options.damped, also=options.also)
+    equivalents = chain_equivalents(
+        options.model, values, options.to, damped=options.damped, also=options.also
+    )
     if options.json:
         emit(options.json, json_text(equivalents.to_dict(), indent=1) + "\n")
     else:

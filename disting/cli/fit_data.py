@@ -19,7 +19,7 @@ from disting.model.kinds import CHANGES
 from disting.model.presentation import plural
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
-OF_EACH = ("column", "output", "response", "record", "sensor", "sign", "to")
+OF_EACH = ("column", "output", "response", "record", "quantity", "sign", "to")
 OF_READER = ("frequency", "phase", "magnitude")  # units that a reader takes
 EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
 CHANGED = {kind.name: kind for kind in CHANGES}
@@ -221,7 +221,7 @@ def reader_settings(options: argparse.Namespace) -> dict[str, Any]:
     settings = dict(options.read) | ({"column": options.column} if options.column else {})
     settings |= {f"{name}_unit": units[name] for name in OF_READER if name in units}
     settings |= {"hold": options.hold} if options.hold else {}
-    return settings | ({"sensor": options.quantity} if options.quantity else {})
+    return settings | ({"quantity": options.quantity} if options.quantity else {})
 
 
 def in_units(response: FrequencyResponse, options: argparse.Namespace) -> FrequencyResponse:

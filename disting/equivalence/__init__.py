@@ -20,6 +20,7 @@ The names:
 
     equivalents            all parameters of other models with the same transfer function
     Equivalents, Listing   its answer; the part on one structure, `among` says which were searched
+    ModelEquivalent        its answer on a network or a model with formulas
     Equivalent             one set of parameters
     Signs, Origin, NONE    signs of its values; where it comes from; the text for an empty listing
     chains_of              the structures that a text such as "3:11" or "3" means
@@ -31,6 +32,7 @@ The names:
 from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
+    from disting.equivalence.any_model import equivalents as equivalents
     from disting.equivalence.duplicates import Gate as Gate, gate as gate
     from disting.equivalence.inputs import assignments as assignments, chains_of as chains_of
     from disting.equivalence.listing import (
@@ -43,6 +45,6 @@ if TYPE_CHECKING:
         among as among,
     )
     from disting.equivalence.maps import Map as Map, explicit_map as explicit_map
-    from disting.equivalence.search import equivalents as equivalents
+    from disting.verdict.model_equivalents import ModelEquivalent as ModelEquivalent
 
 offer(__name__)

@@ -32,7 +32,7 @@ from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import AnyMenu, to_dict
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.sides import Given, refuse_ports
+from disting.verdict.sides import Named, refuse_ports
 
 
 class Assignment(NamedTuple):
@@ -159,7 +159,7 @@ class Gate(NotebookTable):
 
 
 def gate(
-    models: Sequence[Given],
+    models: Sequence[Named],
     *,
     query: Query | None = None,
     costs: Costs | None = None,
@@ -205,7 +205,7 @@ def gate(
     )
 
 
-def model_of(model: Given) -> AnyModel:
+def model_of(model: Named) -> AnyModel:
     """The model that a chain, a network or a text for them is, or the model itself; raises
     InputError.
     """

@@ -44,7 +44,7 @@ from disting.model.names import name_of, read_together
 from disting.model.question import Answer
 
 
-def equivalents(
+def chain_equivalents(
     model: Chain | str,
     values: Mapping[str, Value],
     to: Chain | Family | str,
@@ -52,26 +52,8 @@ def equivalents(
     damped: bool | None = None,
     also: Sequence[str | Experiment] = (),
 ) -> Equivalents:
-    """All models of the structure `to`, or of all structures of a family, with the transfer
-    function of the given model.
-
-    `model` and `to` are chains (or a family), or text: 3:11 is model 11 of the 3-mass family, 3
-    the family; `damped` says how `model` is meant if it is text (else it is as the chains of `to`),
-    and `to` follows it, a lag and a dead time included; 3:11+b1+lag has a damper from mass 1 to the
-    ground and a lag, 3+b* are all structures with any such dampers. `values` by parameter name,
-    numbers or text such as 3/4, positive, any consistent units; they are taken exactly, floats by
-    their decimal text. Raises InputError for wrong names and values.
-
-    `also`: further experiments, as `Experiment` or as text such as "sensor=3", at masses of the
-    given model; of the equivalents those are listed that keep all responses. Masses of another
-    structure that are not named, as in "sensor=3/2", are tried in every place, a listing for each.
-
-    >>> given = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": "0.3"}
-    >>> found = equivalents("3:1", given, "3:11", damped=True)
-    >>> [(e.signs.value, e.exact["m1"], e.text["k12"]) for e in found]
-    [('positive', Fraction(24, 5), '144')]
-    >>> found.listings[0].sentence
-    'all there are'
+    """Equivalents of a chain among chains; arguments as those of `any_model.equivalents`. Raises
+    InputError.
     """
     beside = [] if isinstance(to, str) else [to[1] if isinstance(to, Family) else to]
     chain = read_together([model, *beside], damped=damped)[0]

@@ -42,7 +42,8 @@ from disting.fit.search.exchange import SEARCHED, body, estimates, polish
 from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.model.chain import Chain
+from disting.measurement.assumptions import as_shown
+from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.question import Settings
 from disting.store import Store
 from disting.verdict.engine import Engine, Progress, silent
@@ -57,6 +58,7 @@ def select(
     candidates: Sequence[Chain],
     *,
     test: FrequencyResponse | None = None,
+    quantity: Sensor | str | None = None,
     further: Sequence[FurtherResponse] = (),
     home: Chain | None = None,
     alike: bool = False,
@@ -91,6 +93,8 @@ def select(
     `estimates`. An engine with a store resumes interrupted work. Raises InputError, also for an
     impedance, to which no chain is fitted.
 
+    `quantity` of the sensor, "position", "velocity" or "acceleration": what `train` and `test`
+    show, whatever they were read as, and what the candidates answer with (default: as they are).
     Where the sensor quantity of `train` is assumed and another one explains the data as well,
     nothing is selected: `question` of the result asks for it, `quantities` are the readings.
 
@@ -101,6 +105,10 @@ def select(
     springs or ports every choice of places is fitted, and the best is taken
     (`joint_verdicts.locate`).
     """
+    if quantity is not None:
+        shown = as_sensor(quantity)
+        train, test = as_shown(train, shown), test and as_shown(test, shown)
+        candidates = [replace(c, sensor=shown) for c in candidates]
     train, test, further = check(train, test, further, candidates, most_lines)
     candidates, further, zero = informative(candidates, further, home)
     work = Work(engine or Engine(store=Store.none()), executor, progress)

@@ -19,7 +19,7 @@ from disting.general.entries import (
     rows_of,
 )
 from disting.general.expansion import Expansion
-from disting.general.model import Model, entry_of, unwritten
+from disting.general.model import NO_PARAMETER, Model, entry_of, unwritten
 from disting.general.powers import PLAIN, Powers
 from disting.general.response import fraction, network_powers, network_ratios, transfer_functions
 from disting.model.presentation import NotebookTable, plural, summary
@@ -56,7 +56,7 @@ class MatrixModel(NotebookTable):
     def __post_init__(self) -> None:
         refuse_name(self.name)
         if not self.parameters:
-            raise InputError("a parametric model has at least one parameter")
+            raise InputError(NO_PARAMETER)
         if self.shape[0] * self.shape[1] > MOST_ENTRIES:
             raise InputError(f"a matrix of transfer functions has {MOST_ENTRIES} entries at most")
         if not self.entries:

@@ -38,6 +38,10 @@ from disting.network.forests import Counts, counts_of
 from disting.network.network import Network
 
 TERMS = ("numerator_terms", "denominator_terms")
+NO_PARAMETER = (
+    "a parametric model has at least one parameter, and this one holds numbers only: write a name"
+    " such as 'k' for each value that is not known"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,7 +267,7 @@ def _model(
             " the numerator, or leave the model away"
         )
     if not parameters:
-        raise InputError("a parametric model has at least one parameter")
+        raise InputError(NO_PARAMETER)
     return entry_of(ratio, parameters, name, powers)
 
 

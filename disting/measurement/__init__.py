@@ -4,7 +4,7 @@ units.
 >>> import numpy as np
 >>> from disting.measurement import from_arrays
 >>> frequency = np.arange(1.0, 11.0)  # Hz
->>> position = from_arrays(frequency, -1 / (2 * np.pi * frequency) ** 2 / 0.01, sensor="position")
+>>> position = from_arrays(frequency, -1 / (2 * np.pi * frequency) ** 2 / 0.01, quantity="position")
 >>> bool(abs(position.to_quantity("acceleration").G - 100).max() < 1e-9)
 True
 

@@ -1,7 +1,7 @@
 """What a reader assumed because neither the file nor the caller states it, and what changes it."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from disting.measurement.column_words import Role, Why
 from disting.measurement.feedback import PERIODS
@@ -33,6 +33,12 @@ def assumed_quantity(measured: FrequencyResponse) -> Sensor | None:
     said it.
     """
     return next((quantity for note, quantity in ASSUMED.items() if note in measured.notes), None)
+
+
+def as_shown(measured: FrequencyResponse, quantity: Sensor) -> FrequencyResponse:
+    """Return the same numbers as a response of this quantity, which somebody states."""
+    notes = tuple(note for note in measured.notes if note not in ASSUMED)
+    return replace(measured, sensor=quantity, notes=notes)
 
 
 def assumptions(columns: Sequence[ReadColumn], quantity: Sensor | None) -> tuple[Assumption, ...]:

@@ -8,16 +8,18 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack, cast
 
 from disting.errors import InputError, enumeration
 from disting.files import write_whole
 from disting.measurement.formats import FORMATS, Format, Options, Records, format_of
+from disting.measurement.options import ReadOptions, RecordOptions
 from disting.measurement.response import FrequencyResponse, Signal
 from disting.measurement.source import Source, source
 from disting.measurement.tabular import ESCAPED, MARK
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.understanding import by_name
+from disting.renamed import renamed
 
 FORMULA = re.compile(
     rf"(?<=[,;])[=+@-]|(?<=[,;] )[=+@-]|{ESCAPED.pattern[:2]}(?={ESCAPED.pattern[2:]})"
@@ -30,7 +32,7 @@ def csv_text(response: FrequencyResponse) -> str:
     """Comment lines with sensor, signals and origin; a header; one line a frequency.
 
     >>> from disting.measurement import from_arrays
-    >>> csv_text(from_arrays(range(1, 9), [1j, 2j] * 4, sensor="velocity")).splitlines()[1]
+    >>> csv_text(from_arrays(range(1, 9), [1j, 2j] * 4, quantity="velocity")).splitlines()[1]
     '# sensor: velocity'
     """
     return "\n".join([*_head(response), *_rows(response), ""])
@@ -87,37 +89,39 @@ def _line(text: str) -> str:
     return FORMULA.sub(lambda sign: f"\\u{ord(sign[0]):04x}", " ".join(text.split()))
 
 
-def read(path: str | Path, **options: Any) -> FrequencyResponse:
+@renamed(sensor="quantity")
+def read(path: str | Path, **options: Unpack[ReadOptions]) -> FrequencyResponse:
     """Frequency response from a file; `suspicions` and `notes` of the result say what should be
     looked at.
 
-    - text (CSV and the like): `column`, `columns`, `sensor`, `sign`, `phase_unit`,
+    - text (CSV and the like): `column`, `columns`, `quantity`, `sign`, `phase_unit`,
       `frequency_unit`, `magnitude_unit` (`tabular.frequency_response`);
     - MATLAB `.mat`: `frequency`, `response`, `deviation`, `coherence`, `frequency_unit`, `index`,
-      `sensor`, `sign` (`variables.from_variables`); `response` may name an object frd or idfrd
+      `quantity`, `sign` (`variables.from_variables`); `response` may name an object frd or idfrd
       (`matlab_models.from_object`), in a struct as `frf.Pv`, with the number of output and input as
       `frf.Pv[2,1]`;
-    - universal file `.uff`, `.unv`: `record`, `sensor`, `sign` (`uff.read_uff`).
+    - universal file `.uff`, `.unv`: `record`, `quantity`, `sign` (`uff.read_uff`).
 
     With `input` and `output` the file is read as a time series (`read_time_series`), likewise a
     file of a clock without frequencies, whose input and output are then told by their names. Its
     options and those of `TimeSeries.response` (`period`, `transient`, `lines`, `band`, `segment`,
-    `least_coherence`, `trend`) are then accepted; `sensor` is the quantity of the recorded output,
-    `to` the quantity wanted. `hold`, of every file: the time for which a digital drive holds its
-    input [s] (`FrequencyResponse.held`), of a time series also "record". Raises InputError for a
-    file or an option that cannot be understood.
+    `least_coherence`, `trend`) are then accepted; `quantity` is that of the recorded output, `to`
+    the one wanted. `hold`, of every file: the time for which a digital drive holds its input [s]
+    (`FrequencyResponse.held`), of a time series also "record". Raises InputError for a file or an
+    option that cannot be understood.
 
     >>> from tempfile import TemporaryDirectory
     >>> lines = ["frequency [Hz],re,im", *(f"{f},1,{f}" for f in range(1, 20))]
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder, "frf.csv")
     ...     _ = file.write_text("\\n".join(lines))
-    ...     len(read(file)), read(file, sensor="velocity", sign=-1).G[0]
+    ...     len(read(file)), read(file, quantity="velocity", sign=-1).G[0]
     (19, np.complex128(-1-1j))
     """
     file = source(path)
-    record = open_record(file, options)
-    return record[1]() if record else read_response(file, options)
+    named = cast("Options", options)
+    record = open_record(file, named)
+    return record[1]() if record else read_response(file, named)
 
 
 def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[int, ...] | None:
@@ -141,14 +145,15 @@ def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[
     return file_format.begin(file, columns)
 
 
+@renamed(sensor="quantity")
 def read_time_series(
-    path: str | Path, input: str | int, output: str | int, **options: Any
+    path: str | Path, input: str | int, output: str | int, **options: Unpack[RecordOptions]
 ) -> TimeSeries:
     """Samples of `input` and `output` (headers of a text file, names of MATLAB variables) from a
     file.
 
     Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable [s]);
-    `sensor` = quantity of the output, default position; `sign`; `reference` = the signal that a
+    `quantity` of the output, default position; `sign`; `reference` = the signal that a
     controller was asked for, of a record in closed loop. Raises InputError, with the remedy, for a
     file that is not there or not read, and for signals that it does not hold.
 
@@ -161,7 +166,7 @@ def read_time_series(
     100.0
     """
     file = source(path)
-    return _records(file, format_of(file)).read(file, input, output, options)
+    return _records(file, format_of(file)).read(file, input, output, cast("Options", options))
 
 
 def _records(file: Source, file_format: Format) -> Records:
@@ -210,7 +215,7 @@ def open_record(
 def _through_time(
     file: Source, records: Records, options: Options
 ) -> tuple[TimeSeries, Callable[[], FrequencyResponse]]:
-    ours = {"to", *_keywords(TimeSeries.response)} - {"sensor"}
+    ours = {"to", *_keywords(TimeSeries.response)} - {"quantity"}
     estimate = {name: value for name, value in options.items() if name in ours}
     rest, notes = _signals(
         file, records, {name: value for name, value in options.items() if name not in ours}

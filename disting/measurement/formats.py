@@ -163,7 +163,7 @@ def _from_universal(file: Source, options: Options) -> FrequencyResponse:
     return check(read_uff, options, file)(file, **options)
 
 
-def _from_impedance(file: Source, *, sensor: str = "") -> FrequencyResponse:
+def _from_impedance(file: Source, *, quantity: str = "") -> FrequencyResponse:
     """An impedance has no other quantity."""
     return read_impedance(file)
 

@@ -7,7 +7,7 @@ and the reason of the refusal among the doubts.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack, cast
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from disting.measurement.formats import Options, UnknownOption, format_of
 from disting.measurement.impedance import as_impedance
 from disting.measurement.linearity import describe_nonlinearity
 from disting.measurement.look_text import look_lines
+from disting.measurement.options import LookOptions
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import FrequencyResponse
 from disting.measurement.source import Source, source
@@ -38,6 +39,7 @@ from disting.measurement.understanding import ReadColumn, with_unit
 from disting.measurement.units import drive
 from disting.model.chain import Sensor
 from disting.model.presentation import NotebookTable
+from disting.renamed import renamed
 
 INPUTS = {"Nm": "torque", "N": "force", "A": "current", "V": "voltage"}
 IMPEDANCE = (
@@ -223,13 +225,14 @@ class Look(NotebookTable):
         }
 
 
+@renamed(sensor="quantity")
 def look(
     path: str | Path,
     *,
     repeat: Sequence[str | Path] = (),
     outliers: str = "keep",
     changes: Sequence[Change] = (),
-    **options: Any,
+    **options: Unpack[LookOptions],
 ) -> Look:
     """Return a measured file as it is read, with what is assumed and what is in doubt.
 
@@ -251,18 +254,19 @@ def look(
     'quantity acceleration; if not, give --quantity position or --quantity velocity'
     """
     file, refusals = source(path), list[str]()
-    options |= {"outliers": outliers} if outliers != "keep" and not repeat else {}
-    record, response = _attempt(file, options, refusals)
+    named = cast("Options", options)
+    named |= {"outliers": outliers} if outliers != "keep" and not repeat else {}
+    record, response = _attempt(file, named, refusals)
     if response is not None and repeat:
-        response = _mean([response, *_others(repeat, options, refusals)], outliers, refusals)
-    columns = response.columns if response is not None else _columns(file, options, record)
+        response = _mean([response, *_others(repeat, named, refusals)], outliers, refusals)
+    columns = response.columns if response is not None else _columns(file, named, record)
     if response is not None and shows_impedance(columns, response):
         refusals.append(IMPEDANCE)
         response = as_impedance(response)
     if response is not None:
         response = _changed(response, changes, refusals)
     seen = Look(file.name, columns, response, record, refusals=tuple(refusals))
-    return _with_statistics(seen, options, bool(repeat))
+    return _with_statistics(seen, named, bool(repeat))
 
 
 def look_at(

@@ -91,7 +91,7 @@ def from_object(
     *,
     index: int | Sequence[int] | None = None,
     frequency_unit: str | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from a stored one; options as in `variables.from_variables`."""
@@ -111,14 +111,14 @@ def from_object(
         omega,
         response,
         deviation,
-        sensor=as_sensor(sensor or Sensor.ACCELERATION),
+        sensor=as_sensor(quantity or Sensor.ACCELERATION),
         input=stored_response.inputs[input],
         output=stored_response.outputs[output],
         origin=f"{origin}, {name}",
     )
     unit = taken_unit(omega, stored_response.frequency)
     words = f"frequency in {unit}, complex response of the object {name}"
-    assumed = None if sensor else ASSUMED_ACCELERATION
+    assumed = None if quantity else ASSUMED_ACCELERATION
     parts = [(f"{name}.Frequency", Role.FREQUENCY, unit), (f"{name}.Response", Role.RESPONSE, "")]
     parts += [] if deviation is None else [(f"{name}.Covariance", Role.DEVIATION, "")]
     read = chosen.noted(assumed).doubted(*([noted] if noted else []))

@@ -2,12 +2,13 @@
 response data of python-control.
 """
 
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
+from disting.measurement.options import SeriesOptions, TableOptions
 from disting.measurement.response import FrequencyResponse, Signal, as_sign
 from disting.measurement.scaling import factor
 from disting.measurement.table import Table, time_series
@@ -15,8 +16,10 @@ from disting.measurement.tabular import frequency_response
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.variables import row
 from disting.model.chain import Sensor, as_sensor
+from disting.renamed import renamed
 
 
+@renamed(sensor="quantity")
 def from_arrays(
     frequency: Any,
     response: Any,
@@ -24,14 +27,14 @@ def from_arrays(
     frequency_unit: str = "Hz",
     deviation: Any = None,
     coherence: Any = None,
-    sensor: Sensor | str = Sensor.ACCELERATION,
+    quantity: Sensor | str = Sensor.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from arrays of shape (n_f,): `frequency` in a unit of `units.FREQUENCIES`, complex
-    `response`. Raises InputError for arrays that do not fit each other, an unknown unit, or fewer
-    lines than a response has.
+    `response`, `quantity` of the sensor. Raises InputError for arrays that do not fit each other,
+    an unknown unit, or fewer lines than a response has.
 
-    >>> data = from_arrays(range(1, 9), [1 + 1j, 2 - 1j] * 4, sensor="position")
+    >>> data = from_arrays(range(1, 9), [1 + 1j, 2 - 1j] * 4, quantity="position")
     >>> data.omega.round(2).tolist()[:2], data.sensor.value
     ([6.28, 12.57], 'position')
     """
@@ -42,12 +45,13 @@ def from_arrays(
         G=values,
         deviation=deviation,
         coherence=coherence,
-        sensor=as_sensor(sensor),
+        sensor=as_sensor(quantity),
         origin="arrays",
     )
 
 
-def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
+@renamed(sensor="quantity")
+def from_frame(frame: Any, **options: Unpack[TableOptions]) -> FrequencyResponse:
     """Response from a pandas data frame whose columns are headed like those of a text file
     (`read`); same options.
 
@@ -61,8 +65,9 @@ def from_frame(frame: Any, **options: Any) -> FrequencyResponse:
     return frequency_response(_table(frame), **options)
 
 
+@renamed(sensor="quantity")
 def series_from_frame(
-    frame: Any, input: str | int, output: str | int, **options: Any
+    frame: Any, input: str | int, output: str | int, **options: Unpack[SeriesOptions]
 ) -> TimeSeries:
     """Samples from two columns of a pandas data frame; options of `read_time_series`. Raises
     InputError for another object, and as that does.
@@ -75,12 +80,13 @@ def series_from_frame(
     return time_series(_table(frame), input, output, **options)
 
 
+@renamed(sensor="quantity")
 def from_control(
     system: Any,
     *,
     output: int = 0,
     input: int = 0,
-    sensor: Sensor | str = Sensor.ACCELERATION,
+    quantity: Sensor | str = Sensor.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from a python-control FRD object: channel from `input` to `output` (from 0). Raises
@@ -88,7 +94,7 @@ def from_control(
 
     >>> import control
     >>> system = control.frd([1j * k for k in range(1, 9)], [1.0 * k for k in range(1, 9)])
-    >>> from_control(system, sensor="velocity").omega.tolist()[:3]
+    >>> from_control(system, quantity="velocity").omega.tolist()[:3]
     [1.0, 2.0, 3.0]
     """
     data = getattr(system, "frdata", None)
@@ -109,7 +115,7 @@ def from_control(
     return FrequencyResponse(
         omega,
         values * as_sign(sign),
-        sensor=as_sensor(sensor),
+        sensor=as_sensor(quantity),
         input=names[0],
         output=names[1],
         origin="python-control FRD",

@@ -30,6 +30,7 @@ from disting.measurement.units import AMPERE, VOLT, agree, unit_as
 from disting.measurement.window import Window
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.quantities import Sensor, as_sensor, other_options
+from disting.renamed import renamed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -282,14 +283,15 @@ class FrequencyResponse(NotebookTable):
         reading = "; ".join(filter(None, [self.reading, some]))
         return self.subset(spread(np.log(self.omega), count)).read_as(reading)
 
-    def to_quantity(self, sensor: Sensor | str) -> "FrequencyResponse":
+    @renamed(sensor="quantity")
+    def to_quantity(self, quantity: Sensor | str) -> "FrequencyResponse":
         """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =
         difference of the orders.
 
         Raises InputError where the unit of the output is that of another quantity than it was read
         as, and for an impedance.
         """
-        wanted = as_sensor(sensor)
+        wanted = as_sensor(quantity)
         if self.is_impedance:
             raise InputError(f"{self.origin or 'data'}: {NO_MOTION}")
         steps = wanted.order - self.sensor.order

@@ -107,7 +107,7 @@ def in_si(
     contradicts the quantity.
 
     >>> from disting.measurement import from_arrays
-    >>> degrees = from_arrays(range(1, 9), [180, 360] * 4, sensor="position")
+    >>> degrees = from_arrays(range(1, 9), [180, 360] * 4, quantity="position")
     >>> in_si(degrees, output="deg", input="Nm").G.real[:2].round(4).tolist()
     [3.1416, 6.2832]
     """

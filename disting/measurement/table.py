@@ -88,7 +88,7 @@ def time_series(
     reference: str | int | None = None,
     sampling_rate: float | None = None,
     time: str | int | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
     """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate`
@@ -115,7 +115,7 @@ def time_series(
     u, y = table.at(input), table.at(output)
     labels = split_header(table.headers[u]), split_header(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
-    quantity, notes = said(sensor, labels[1].unit)
+    shown, notes = said(quantity, labels[1].unit)
     wanted = None if reference is None else table.column(table.at(reference))
     samples = table.column(u), table.column(y) * as_sign(sign)
     uses |= {u: Use(Role.INPUT), y: Use(Role.OUTPUT)}
@@ -124,7 +124,7 @@ def time_series(
     return TimeSeries(
         *samples,
         sampling_rate,
-        quantity,
+        shown,
         *labels,
         origin,
         notes,

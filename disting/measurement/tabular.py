@@ -74,7 +74,7 @@ def frequency_response(
     *,
     column: str | int | None = None,
     columns: Sequence[str] | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     sign: int = 1,
     phase_unit: str | None = None,
     frequency_unit: str | None = None,
@@ -85,7 +85,7 @@ def frequency_response(
     mean of all.
 
     `columns` = what every column is ("re", "im", "magnitude", "phase", "coherence", "std", "-" for
-    none, or a unit of frequency, gain or phase) instead of its header; `sensor`, `phase_unit`
+    none, or a unit of frequency, gain or phase) instead of its header; `quantity`, `phase_unit`
     ("deg", "rad", "gon", ..), `frequency_unit` ("Hz", "rad/s", ..), `magnitude_unit` ("dB", "%",
     "Np", "1") where the file does not say them, or says them wrongly; `sign` = -1 for a reversed
     sensor; `outliers` as in `mean_of`. Raises InputError where columns are missing, with the
@@ -100,9 +100,9 @@ def frequency_response(
     whole = column == "all" and "all" not in table.headers
     used = the_groups if whole else [choose(table, roles, the_groups, column)]
     said = _units(table, roles, used[0], ours)
-    impedance = _is_impedance(table, used[0], sensor, magnitude_unit, ours, notes)
+    impedance = _is_impedance(table, used[0], quantity, magnitude_unit, ours, notes)
     own = Sensor.POSITION if impedance else ours.get("sensor")
-    quantity = quantity_of(table, own if impedance else sensor or own, said[0], notes)
+    shown = quantity_of(table, own if impedance else quantity or own, said[0], notes)
     said = (VOLT, AMPERE) if impedance and not ours else said
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
     responses = [
@@ -111,7 +111,7 @@ def frequency_response(
             reading.numbers(group) * as_sign(sign),
             reading.beside(group, Role.DEVIATION),
             reading.beside(group, Role.COHERENCE),
-            sensor=quantity,
+            sensor=shown,
             input=_signal(ours, "input", Signal("", said[1])),
             output=_signal(ours, "output", Signal(table.headers[group.first], said[0])),
             origin=f"{table.origin}, {table.named(group.first)}",

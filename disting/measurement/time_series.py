@@ -21,6 +21,7 @@ from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import motion
 from disting.model.presentation import plural, summary
 from disting.quantities import Sensor, as_sensor, other_options
+from disting.renamed import renamed
 
 MOVING = 0.1  # share of the scatter of the speed from which on its mean is reported
 ASSUMED_POSITION = f"output taken as a position; if not, give {other_options(Sensor.POSITION)}"
@@ -99,9 +100,10 @@ class TimeSeries:
         """The record of a sensor that counts the other way round."""
         return replace(self, y=-self.y)
 
+    @renamed(sensor="quantity")
     def response(
         self,
-        sensor: Sensor | str | None = None,
+        quantity: Sensor | str | None = None,
         *,
         period: int | None = None,
         transient: int = 1,
@@ -113,7 +115,7 @@ class TimeSeries:
         trend: str = "remove",
         hold: float | str | None = None,
     ) -> FrequencyResponse:
-        """Measured frequency response, converted to the quantity `sensor` by (j omega)^n (default:
+        """Measured frequency response, converted to `quantity` by (j omega)^n (default:
         that of the record).
 
         Periodic excitation (module `periodic`): `period` [samples], detected where not given;
@@ -158,11 +160,16 @@ class TimeSeries:
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold
             response = response.held(held, self.sensor.order)
-        return response if sensor is None else response.to_quantity(sensor)
+        return response if quantity is None else response.to_quantity(quantity)
 
     def _completed(self, method: Method) -> Method:
-        sampled = {"rate": self.sampling_rate, "order": self.sensor.order}
-        return replace(method, level=float(np.std(self.u)), unit=self.input.unit, **sampled)
+        return replace(
+            method,
+            level=float(np.std(self.u)),
+            unit=self.input.unit,
+            rate=self.sampling_rate,
+            order=self.sensor.order,
+        )
 
     def _by_welch(
         self,

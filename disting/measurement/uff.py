@@ -43,12 +43,12 @@ Record = Mapping[str, Any]
 
 
 def read_uff(
-    file: Source, *, record: int | None = None, sensor: Sensor | str | None = None, sign: int = 1
+    file: Source, *, record: int | None = None, quantity: Sensor | str | None = None, sign: int = 1
 ) -> FrequencyResponse:
     """Frequency response number `record` (from 1, default 1) of a file; its coherence is taken
     from the file where it is there.
 
-    `sensor` where the file does not say it; `sign` = -1 for a reversed sensor. Raises InputError,
+    `quantity` where the file does not say it; `sign` = -1 for a reversed sensor. Raises InputError,
     listing the responses.
     """
     records = _records(file)
@@ -62,7 +62,7 @@ def read_uff(
             f"{file.name} has no frequency response number {number}; there are: {offered}"
         )
     chosen = responses[number - 1]
-    quantity, note = _quantity(chosen, sensor)
+    shown, note = _quantity(chosen, quantity)
     try:
         data = np.asarray(chosen["data"], dtype=complex)
         if len(data) != chosen["num_pts"]:
@@ -72,7 +72,7 @@ def read_uff(
                 2 * np.pi * np.asarray(chosen["x"], dtype=float),
                 data if as_sign(sign) > 0 else -data,
                 coherence=_coherence(records, chosen),
-                sensor=quantity,
+                sensor=shown,
                 input=Signal(_node(chosen, "ref"), _unit(chosen, "orddenom_axis_units_lab")),
                 output=Signal(_node(chosen, "rsp"), _unit(chosen, "ordinate_axis_units_lab")),
                 origin=f"{file.name}, {_place(chosen)}",

@@ -53,14 +53,14 @@ def from_variables(
     coherence: str | None = None,
     frequency_unit: str | None = None,
     index: int | Sequence[int] | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from variables of these names; without names, usual ones (f, freq, w, omega; G, H,
     FRF, ...) are looked for.
 
     `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not tell; `index` = which
-    response (from 0, one number for every other axis) of an array of several; `sensor`, `sign` as
+    response (from 0, one number for every other axis) of an array of several; `quantity`, `sign` as
     for a text file.
     """
     name = _name(arrays, frequency, (*HERTZ_NAMES, *OMEGA_NAMES), "frequency", origin)
@@ -70,7 +70,7 @@ def from_variables(
     response, chosen_index = split_index(response)
     index = index if chosen_index is None else chosen_index
     chosen = _name(arrays, response, RESPONSE_NAMES, "response", origin)
-    impedance = sensor is None and (chosen == "Z" or is_called_impedance(chosen))
+    impedance = quantity is None and (chosen == "Z" or is_called_impedance(chosen))
     scatter = _optional(arrays, deviation, DEVIATION_NAMES, len(values), index, origin)
     shared = _optional(arrays, coherence, COHERENCE_NAMES, len(values), index, origin)
     the_response = FrequencyResponse(
@@ -78,7 +78,7 @@ def from_variables(
         row(_numeric(arrays, chosen, origin), len(values), index, chosen) * as_sign(sign),
         scatter[1],
         shared[1],
-        sensor=as_sensor(sensor or (Sensor.POSITION if impedance else Sensor.ACCELERATION)),
+        sensor=as_sensor(quantity or (Sensor.POSITION if impedance else Sensor.ACCELERATION)),
         output=Signal(chosen),
         origin=f"{origin}, {chosen}",
         is_impedance=impedance,
@@ -94,7 +94,7 @@ def from_variables(
     asked = (frequency, response, deviation, coherence)
     read = record_variables(arrays, {n: use for n, use in uses.items() if n}, asked)
     assumed = ASSUMED_IMPEDANCE if impedance else ASSUMED_ACCELERATION
-    noted = the_response.noted(None if sensor else assumed, taken)
+    noted = the_response.noted(None if quantity else assumed, taken)
     return noted.read_as(sentence(read), read)
 
 
@@ -117,7 +117,7 @@ def series_from_variables(
     reference: str | None = None,
     sampling_rate: float | str | None = None,
     time: str | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
     """Samples of the variables `input` and `output`; `sampling_rate` [Hz] = a number or a
@@ -129,7 +129,7 @@ def series_from_variables(
     rate, clock = _rate(arrays, sampling_rate, time, origin)
     signals = Signal(input), Signal(output)
     samples = _signal(arrays, input, origin), _signal(arrays, output, origin) * as_sign(sign)
-    quantity, notes = said(sensor)
+    shown, notes = said(quantity)
     wanted = None if reference is None else _signal(arrays, reference, origin)
     uses = {
         clock: Use(Role.CLOCK),
@@ -141,7 +141,7 @@ def series_from_variables(
     asked |= {sampling_rate} if isinstance(sampling_rate, str) else set()
     read = record_variables(arrays, {n: use for n, use in uses.items() if n}, asked)
     title = f"{origin}, {output} per {input}"
-    return TimeSeries(*samples, rate, quantity, *signals, title, notes, wanted, columns=read)
+    return TimeSeries(*samples, rate, shown, *signals, title, notes, wanted, columns=read)
 
 
 def split_index(asked: str | None) -> tuple[str | None, tuple[int, ...] | None]:

@@ -11,10 +11,10 @@ A chain in one line of text: for tables in a terminal.
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from disting.errors import ConstraintViolation, InputError, enumeration, short
-from disting.model.presentation import NotebookPicture
+from disting.model.presentation import LONGEST, NotebookPicture
 from disting.model.structure import (
     Damper,
     Element,
@@ -28,6 +28,14 @@ from disting.model.structure import (
     violations,
 )
 from disting.quantities import Sensor as Sensor, as_sensor as as_sensor, sensor_of_model
+
+if TYPE_CHECKING:
+    import control
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from disting.algebra.notation import Expr
+    from disting.model.state_space import StateSpace
 
 AS_IT_IS = "as it is"  # an experiment that changes nothing, in words
 PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothing is said
@@ -122,15 +130,12 @@ class Chain(NotebookPicture):
         object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
 
     def __repr__(self) -> str:
-        ports = self.indices[1:] if self.indices[1:] != PORTS else ()
-        arguments = [repr(i) for i in (self.n_masses, *ports)]
-        arguments += [f"damped={self.damped}", f"sensor={self.sensor.value!r}"]
-        arguments += [f"ground_dampers={self.ground_dampers}"] if self.ground_dampers else []
-        arguments += ["lag=True"] if self.lag else []
-        arguments += ["dead_time=True"] if self.dead_time else []
-        return f"Chain({', '.join(arguments)})"
+        from disting.model.names import name_of  # names are made of chains
 
-    def transfer_function(self) -> Any:
+        line = f"<Chain: {name_of(self)} {text_drawing(self)}, {self.premise}>"
+        return line if len(line) <= LONGEST else f"{line[: LONGEST - 2]}…>"
+
+    def transfer_function(self) -> "Expr":
         """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the
         parameters [kg, N/m, N s/m, s]; equation (24), with lag and dead time.
 
@@ -139,7 +144,9 @@ class Chain(NotebookPicture):
         """
         return self._presenter.transfer_function(self)
 
-    def frequency_response(self, values: Mapping[str, float], omega: Any) -> Any:
+    def frequency_response(
+        self, values: Mapping[str, float], omega: "ArrayLike"
+    ) -> "NDArray[np.complex128]":
         """G(j omega) with numbers: complex array of the shape of `omega` [rad/s], shape (n_f,).
 
         `values`: one for each of `parameters`, in SI units [kg, N/m, N s/m, s] or, of rotation,
@@ -150,9 +157,10 @@ class Chain(NotebookPicture):
         >>> abs(Chain(1, damped=False, sensor="velocity").frequency_response({"m1": 2.0}, [1, 10]))
         array([0.5 , 0.05])
         """
-        return self._presenter.frequency_response(self, values, omega)
+        response: NDArray[np.complex128] = self._presenter.frequency_response(self, values, omega)
+        return response
 
-    def state_space(self, values: Mapping[str, float]) -> Any:
+    def state_space(self, values: Mapping[str, float]) -> "StateSpace":
         """x' = A x + B u, y = C x + D u with numbers, equations (20) to (23), and the `delay` of
         the input [s], which is in no matrix.
 
@@ -164,9 +172,10 @@ class Chain(NotebookPicture):
         >>> space.states, space.B.tolist(), space.units["y"]
         (('x1', 'v1'), [[0.0], [0.5]], 'm')
         """
-        return self._presenter.state_space(self, values)
+        space: StateSpace = self._presenter.state_space(self, values)
+        return space
 
-    def to_control(self, values: Mapping[str, float]) -> Any:
+    def to_control(self, values: Mapping[str, float]) -> "control.StateSpace":
         """A `control.StateSpace` of python-control, its states, input u and output y named, without
         the dead time; `values` and errors as in `frequency_response`. Raises InputError where
         python-control is not installed (`pip install "disting[control]"`).

@@ -28,7 +28,7 @@ from disting.report.words import SAID, VIEW_TITLES
 from disting.verdict.engine import Engine
 from disting.verdict.query import View
 from disting.verdict.result import Verdict
-from disting.verdict.sides import Given, refuse_ports
+from disting.verdict.sides import Named, refuse_ports
 
 HEADING = re.compile(r"<h1>(.*?)</h1>", re.DOTALL)
 LISTED_PAIRS = 1000  # told one by one below the matrix
@@ -65,7 +65,7 @@ def _files(shown: Listing, site: bool, guide: bool) -> Iterator[tuple[str, str]]
 
 
 def write_family(
-    models: Iterable[Given], title: str, out: Path | str, *, engine: Engine | None = None
+    models: Iterable[Named], title: str, out: Path | str, *, engine: Engine | None = None
 ) -> list[Path]:
     """Decide all pairs of some models over positive and complex parameters, and write their pages
     into a folder: chains, networks or texts for them, general models; a function of one's own that

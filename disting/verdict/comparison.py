@@ -30,12 +30,13 @@ from disting.model.question import Domain
 from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import Identifiability, ParameterIdentifiability
+from disting.renamed import renamed
 from disting.verdict.cascade import steps
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.identifiable import identify, identify_measured
-from disting.verdict.query import Query
+from disting.verdict.query import Query, View
 from disting.verdict.result import Step, Verdict
 from disting.verdict.sides import (
     Given,
@@ -47,10 +48,16 @@ from disting.verdict.sides import (
 )
 
 SECONDS = 10.0  # for one proof
+VIEWS = {
+    Domain.COMPLEX: View.EXACT,
+    Domain.REAL: View.REAL,
+    Domain.POSITIVE: View.POSITIVE,
+}  # everything that may decide over a domain
 # these invariants of this model have this rank at most
 Claim = tuple[Structure | AnyModel, tuple[str, ...], int]
 
 
+@renamed(sensor="quantity")
 def prove(
     verdict: Verdict,
     left: Given,
@@ -58,7 +65,7 @@ def prove(
     seconds: float = SECONDS,
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
 ) -> Verdict:
     """The verdict with certainty PROVEN if it rests on a rank that can be proven in time, else as
     it is; the models as `compare` takes them. Raises InputError for texts that name no models.
@@ -68,7 +75,7 @@ def prove(
     >>> compare(a[1], a[7]).certainty.value, prove(compare(a[1], a[7]), a[1], a[7]).certainty.value
     ('bounded', 'proven')
     """
-    sides = sides_of(*models_of_names(left, right, damped, sensor), (), Engine())
+    sides = sides_of(*models_of_names(left, right, damped, quantity), (), Engine())
     return prove_again(verdict, sides.left, sides.right, seconds)
 
 
@@ -134,13 +141,15 @@ def _holds(claim: Claim, seconds: float) -> bool:
         return False
 
 
+@renamed(sensor="quantity")
 def compare(
     left: Given,
     right: Given,
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]] = (),
+    domain: Domain | str | None = None,
     query: Query | None = None,
     audit: bool = False,
     engine: Engine | None = None,
@@ -149,14 +158,17 @@ def compare(
     once it is there).
 
     Chains are also named: "3:1+b2", "A4" of as many masses as the other one has; `damped` and
-    `sensor` say how names are meant, else they are taken from the chain beside them (see
-    `model.names`). General models (`Model`, `MatrixModel`) and networks (`Network`, or a text such
-    as "R0-p(R1,C1)" or "1=2, 2=3, 2=4; F1; S4") are compared likewise, with each other or with
-    chains.
+    `quantity` (of the sensor: "position", "velocity", "acceleration") say how names are meant, else
+    they are taken from the chain beside them (see `model.names`). General models (`Model`,
+    `MatrixModel`) and networks (`Network`, or a text such as "R0-p(R1,C1)" or
+    "1=2, 2=3, 2=4; F1; S4") are compared likewise, with each other or with chains; so are the
+    matrices (A, B, C) or (A, B, C, D) of a state space, with entries as for
+    `Model.from_state_space`.
 
-    `query` limits views, conditions and Markov parameters; `audit` runs every condition in every
-    representation and raises ContradictionError where two decide differently; `engine` brings
-    settings and a store (default: none). Raises InputError for what names no model.
+    `domain`: "complex", "real" or "positive" parameters (default), those of a machine; `query`
+    limits views, conditions and Markov parameters, and has a domain of its own; `audit` runs every
+    condition in every representation and raises ContradictionError where two decide differently;
+    `engine` brings settings and a store (default: none). Raises InputError for what names no model.
 
     `experiments`: all ways in which both machines, chains or networks, are measured, with one
     parameter vector for all; `Experiment()` is that of both as they are. A pair of experiments
@@ -170,22 +182,25 @@ def compare(
     'indistinguishable'
     >>> compare("3:1", "A11").sentence[:52]
     '3:1 and 3:11, damped, acceleration, are indistinguis'
+    >>> compare(([["-a"]], [1], ["b"]), ([["-c"]], ["d"], [1]), domain="complex").relation.value
+    'indistinguishable'
     >>> compare(a[1], a[11], experiments=[Experiment(), Experiment(sensor=3)]).relation.value
     'distinguishable'
     """
-    query, engine = asked_of(query, engine)
-    a, b = models_of_names(left, right, damped, sensor)
+    query, engine = asked_of(query, engine, domain)
+    a, b = models_of_names(left, right, damped, quantity)
     sides = sides_of(a, b, both_places(experiments), engine)
     verdict = engine.verdict(sides.left, sides.right, query, audited=audit)
     return replace(verdict, notes=(*verdict.notes, *sides.notes))
 
 
+@renamed(sensor="quantity")
 def findings(
     left: Given,
     right: Given,
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> tuple[Step, ...]:
@@ -196,22 +211,33 @@ def findings(
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
     [('tf', '1', 'fails'), ('tf', '2', 'fails'), ('tf', '3', 'fails')]
     """
-    a, b = models_of_names(left, right, damped, sensor)
+    a, b = models_of_names(left, right, damped, quantity)
     query, engine = asked_of(query, engine)
     return tuple(steps(*plain_sides(a, b, engine), query))
 
 
-def asked_of(query: Query | None, engine: Engine | None) -> tuple[Query, Engine]:
-    """Both, the usual ones where nothing is said; raises InputError for anything else."""
-    query = Query() if query is None else of_type(query, Query, "query is a Query")
+def asked_of(
+    query: Query | None, engine: Engine | None, domain: Domain | str | None = None
+) -> tuple[Query, Engine]:
+    """Return a query over the domain and an engine, the usual ones where nothing is said; raises
+    InputError for anything else, and for a query over another domain.
+    """
+    over = None if domain is None else as_domain(domain)
+    if query is None:
+        query = Query() if over is None else Query(VIEWS[over])
+    elif of_type(query, Query, "query is a Query") and over not in (None, query.view.domain):
+        raise InputError(
+            f"the query is over {query.view.domain} parameters, domain is {over}; give one of them"
+        )
     return query, Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
 
 
+@renamed(sensor="quantity")
 def identifiability(
     model: Given,
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     experiments: Sequence[Experiment] = (),
     domain: Domain | str = Domain.POSITIVE,
     engine: Engine | None = None,
@@ -226,7 +252,7 @@ def identifiability(
     parameter vector for all; `Experiment()` is that of it as it is. Without them more is told of
     the chain as it is:
     which combinations are determined, and all parameter vectors at a random point. A chain can be
-    named, such as "3:1+b2": `damped` and `sensor` say then how it is meant; a network that is a
+    named, such as "3:1+b2": `damped` and `quantity` say then how it is meant; a network that is a
     chain in the chain's own parameters is that chain. `engine` brings settings and a store. Raises
     InputError.
 
@@ -242,9 +268,9 @@ def identifiability(
     (1, 'global')
     """
     engine, over = engine or Engine(), as_domain(domain)
-    model = model_of(model, Sensor.ACCELERATION if sensor is None else as_sensor(sensor))
+    model = model_of(model, Sensor.ACCELERATION if quantity is None else as_sensor(quantity))
     if isinstance(model, str):
-        (model,) = read_together([model], damped=damped, sensor=sensor)
+        (model,) = read_together([model], damped=damped, sensor=quantity)
     if not isinstance(model, Chain | Model | MatrixModel):
         raise InputError(
             "identifiability is asked of a chain, such as Family(3)[4], a Model or a Network"

@@ -15,7 +15,9 @@ from disting.files import Format, __version__
 from disting.general import AnyModel
 from disting.model.chain import Chain, Sensor
 from disting.model.presentation import plural, summary
-from disting.verdict.comparison import compare
+from disting.model.question import Domain
+from disting.renamed import renamed
+from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query
 from disting.verdict.result import Relation, Verdict
@@ -69,14 +71,16 @@ class AllPlacements:
         return Answer.UNKNOWN if Relation.UNDECIDED in relations else Answer.NEVER
 
 
+@renamed(sensor="quantity")
 def compare_everywhere(
     left: Given,
     right: Given,
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     places: Places = (),
+    domain: Domain | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> AllPlacements:
@@ -95,8 +99,8 @@ def compare_everywhere(
     >>> compare_everywhere("1~2,2~3; F1; S1", "1~2,1~3; F1; S1", ["lock=2"]).answer.value
     'surely'
     """
-    a, b = models_of_names(left, right, damped, sensor)
-    engine = engine or Engine()
+    a, b = models_of_names(left, right, damped, quantity)
+    query, engine = asked_of(query, engine, domain)
     verdicts = []
     for way, pairs in placements(a, b, named_all(also), places):
         verdict = compare(a, b, experiments=pairs, query=query, engine=engine)
@@ -128,16 +132,18 @@ FORMAT = Format.EVERYWHERE.value
 COMMON = ("models", "query", "settings")
 
 
+@renamed(sensor="quantity")
 def everywhere_file(
     left: Given,
     right: Given,
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
+    domain: Domain | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """The verdicts of `compare_everywhere` as plain data, ready for JSON, which `verify` checks
     alone. Raises InputError as that does.
 
@@ -145,8 +151,8 @@ def everywhere_file(
     >>> data["answer"], [one["places"] for one in data["verdicts"]]
     ('surely', [{'2': 1}, {'2': 2}, {'2': 3}])
     """
-    a, b = models_of_names(left, right, damped, sensor)
-    asked, engine = named_all(also), engine or Engine()
+    a, b = models_of_names(left, right, damped, quantity)
+    asked, (query, engine) = named_all(also), asked_of(query, engine, domain)
     files = [
         {"places": {str(left_place): right_place for left_place, right_place in way}}
         | verdict_file(a, b, experiments=pairs, query=query, engine=engine)

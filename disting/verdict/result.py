@@ -116,6 +116,9 @@ class Verdict(NotebookTable):
         models = _models(left, right, self.premises).removesuffix(",")
         return summary(self, f"{models}: {self.in_words} over {self.domain} parameters{how}")
 
+    def __str__(self) -> str:
+        return self.sentence
+
     def __bool__(self) -> bool:
         raise TypeError("a verdict is not true or false; look at its relation")
 

@@ -27,11 +27,12 @@ from disting.model.kinds import CHANGES
 from disting.model.names import name_of
 from disting.model.question import Domain, Settings
 from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
+from disting.renamed import renamed
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation, Verdict
-from disting.verdict.sides import Sides, both_places, models_of_names, sides_of
+from disting.verdict.sides import Given, Sides, both_places, models_of_names, sides_of
 
 FORMAT = Format.VERDICT.value
 UNPRIMED = "disting verdict 1"  # explicit maps named the parameters of both models alike
@@ -62,16 +63,18 @@ class StoredVerdict:
         return sides_of(*self.models, self.experiments, engine)
 
 
+@renamed(sensor="quantity")
 def verdict_file(
-    left: Chain | AnyModel | str,
-    right: Chain | AnyModel | str,
+    left: Given,
+    right: Given,
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
     experiments: Places = (),
+    domain: Domain | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """The verdict on two models as plain data, ready for JSON, which `verify` checks alone; the
     arguments are those of `compare`. Raises InputError as that does, and for a name that denotes
     another model.
@@ -80,9 +83,9 @@ def verdict_file(
     >>> data["left"], data["models"][1]["name"], data["relation"], data["settings"]["seed"]
     ('3:1', '3:4', 'distinguishable', 'disting')
     """
-    models = models_of_names(left, right, damped, sensor)
+    models = models_of_names(left, right, damped, quantity)
     refuse_misnamed_models(model for model in models if not isinstance(model, Chain))
-    (query, engine), both = asked_of(query, engine), both_places(experiments)
+    (query, engine), both = asked_of(query, engine, domain), both_places(experiments)
     verdict = compare(*models, experiments=both, query=query, engine=engine)
     beside = (
         compare(*models, experiments=both, query=exact(query), engine=engine)

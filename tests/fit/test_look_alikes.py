@@ -202,7 +202,7 @@ def fitted(tmp_path, response, candidates, s=S):
     columns = np.c_[s.imag / (2 * np.pi), measured.real, measured.imag]
     head = "Frequency [Hz],Re [rad/s^2/Nm],Im [rad/s^2/Nm]"
     np.savetxt(file, columns, header=head, delimiter=",", comments="")
-    train = read(file, sensor=Sensor.ACCELERATION)
+    train = read(file, quantity=Sensor.ACCELERATION)
     selection = select(train, candidates)
     return "\n".join(fit_text(selection, train)), selection_to_dict(selection)
 

@@ -20,10 +20,10 @@ import numpy as np
 from disting.measurement.response import FrequencyResponse
 
 
-def read_json(file, *, sensor="acceleration"):
+def read_json(file, *, quantity="acceleration"):
     data = json.loads(file.content)
     G = np.array(data["re"]) + 1j * np.array(data["im"])
-    return FrequencyResponse(np.array(data["omega"]), G, sensor=sensor, origin=file.name)
+    return FrequencyResponse(np.array(data["omega"]), G, sensor=quantity, origin=file.name)
 """
 ROW = """FORMATS = (
     Format(
@@ -36,7 +36,7 @@ USE = """
 from disting import InputError
 from disting.measurement import read
 
-found = read("response.json", sensor="velocity")
+found = read("response.json", quantity="velocity")
 print(found.sensor, found.G[0], len(found))
 for options in ({"column": 2}, {"input": "u", "output": "y"}):
     try:
@@ -59,7 +59,7 @@ def test_a_format_is_a_module_and_a_row(tmp_path):
     (folder / "response.json").write_text(json.dumps(data), encoding="utf-8")
     assert said(folder, "-c", USE).splitlines() == [
         "velocity (1-1j) 30",
-        "response.json: unknown option column; known for this format: sensor",
+        "response.json: unknown option column; known for this format: quantity",
         "response.json: time series are read from MATLAB and text files",
     ]
 

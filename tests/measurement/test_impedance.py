@@ -90,9 +90,9 @@ def test_a_stated_unit_that_is_not_known_is_refused(tmp_path, header, unit):
 
 def test_a_quantity_that_the_user_names_makes_a_tachometer_of_volts_per_ampere(tmp_path):
     path = written(tmp_path / "a.csv", "f [Hz],Re [V/A],Im [V/A]", PARTS)
-    assert read(path).is_impedance and not read(path, sensor="velocity").is_impedance
+    assert read(path).is_impedance and not read(path, quantity="velocity").is_impedance
     ohm = written(tmp_path / "b.csv", "f [Hz],Re [ohm],Im [ohm]", PARTS)
-    assert read(ohm, sensor="velocity").is_impedance
+    assert read(ohm, quantity="velocity").is_impedance
 
 
 def test_ohm_may_be_said_by_the_user(tmp_path):

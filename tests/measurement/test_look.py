@@ -72,14 +72,14 @@ def test_what_no_header_states_is_assumed_with_the_option_that_states_it(tmp_pat
 def test_options_are_no_assumptions(tmp_path):
     path = write(tmp_path / "a.csv", "frequency,magnitude,phase", bode_rows())
     options = {"frequency_unit": "rad/s", "phase_unit": "deg", "magnitude_unit": "dB"}
-    seen = look(path, sensor="velocity", **options)
+    seen = look(path, quantity="velocity", **options)
     assert [(c.unit, c.unit_why) for c in seen.columns] == [
         ("rad/s", Why.OPTION),
         ("dB", Why.OPTION),
         ("deg", Why.OPTION),
     ]
     assert seen.assumed == () and seen.quantity.value == "velocity"
-    named = look(path, sensor="velocity", columns=["Hz", "dB", "deg"])
+    named = look(path, quantity="velocity", columns=["Hz", "dB", "deg"])
     assert {c.why for c in named.columns} == {Why.OPTION} and named.assumed == ()
 
 

@@ -44,7 +44,7 @@ def stored(tmp_path, objects, **variables):
 
 def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
     path = measured_data("fditools_stage_frd.mat")
-    found = read(path, response="frf.Pp[1]", sensor="position")
+    found = read(path, response="frf.Pp[1]", quantity="position")
     assert len(found) == 423 and np.allclose(found.frequency[[0, -1]], [0.1, 1000])
     peak = found.masked(20, 60)
     assert peak.omega[np.argmax(np.abs(peak.to_quantity("velocity").G))] == pytest.approx(
@@ -52,11 +52,11 @@ def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
     )  # pole of its model: 191
     assert any("taken as rad/s although Hz is said" in said for said in found.suspicions)
     assert (
-        read(path, response="frf.Pp[1,1]", sensor="position")
+        read(path, response="frf.Pp[1,1]", quantity="position")
         == found
-        != read(path, response="frf.Pp[2]", sensor="position")
+        != read(path, response="frf.Pp[2]", quantity="position")
     )
-    told = read(path, response="frf.Pv[1]", frequency_unit="Hz", sensor="velocity")
+    told = read(path, response="frf.Pv[1]", frequency_unit="Hz", quantity="velocity")
     assert told.notes == () and told.frequency[0] == pytest.approx(0.2 * np.pi)
     with pytest.raises(
         InputError,
@@ -75,7 +75,7 @@ def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
 )
 def test_units_of_the_grid_are_those_of_the_object(tmp_path, unit, omega):
     path = stored(tmp_path, frd(HERTZ / 7, FrequencyUnit_=unit))
-    found = read(path, response="frf[2]", sensor="velocity")
+    found = read(path, response="frf[2]", quantity="velocity")
     assert (
         np.allclose(found.omega, HERTZ / 7 * omega)
         and np.array_equal(found.G, G[1])
@@ -119,7 +119,7 @@ def test_names_units_delays_and_covariances(tmp_path):
         CovarianceData=covariance,
         **words,
     )
-    found = read(stored(tmp_path, objects), response="frf[2]", sensor="position", sign=-1)
+    found = read(stored(tmp_path, objects), response="frf[2]", quantity="position", sign=-1)
     np.testing.assert_allclose(found.G, -G[1] * np.exp(-0.05j * HERTZ), rtol=1e-14)
     assert np.array_equal(found.deviation, np.full(12, 5.0)) and found.sensor is Sensor.POSITION
     assert (found.input, found.output) == (Signal("torque", "Nm"), Signal("b", "rad"))

@@ -34,7 +34,7 @@ def universal(pyuff, kind, data, node, quantity):
 
 
 def test_arrays():
-    found = from_arrays(FREQUENCY, G, deviation=COHERENCE, sensor="velocity", sign=-1)
+    found = from_arrays(FREQUENCY, G, deviation=COHERENCE, quantity="velocity", sign=-1)
     assert (
         np.array_equal(found.G, -G)
         and np.array_equal(found.deviation, COHERENCE)
@@ -69,7 +69,7 @@ def test_matlab_files_of_scipy(tmp_path, format, compressed):
         "sensor quantity taken as acceleration; if not, give --quantity position or --quantity velocity",
         "frequencies of 'f' taken as Hz",
     )
-    assert read(path, sensor="position", frequency_unit="Hz").notes == ()
+    assert read(path, quantity="position", frequency_unit="Hz").notes == ()
     assert np.array_equal(read(path, frequency_unit="rad/s").omega, FREQUENCY)
     with pytest.raises(InputError, match="no variable 'H'; variables: C, G, coh, f"):
         read(path, response="H")
@@ -111,7 +111,7 @@ def test_time_series_of_a_matlab_file(tmp_path):
     signals = {"u": np.sin(TIME)[:, None], "y": np.cos(TIME)[None, :], "two": np.ones((100, 2))}
     for rate in ({"fs": 100}, {"Ts": 0.01}, {"t": TIME}):
         scipy.io.savemat(path, signals | rate)
-        found = read_time_series(path, "u", "y", sensor="velocity")
+        found = read_time_series(path, "u", "y", quantity="velocity")
         assert found.sampling_rate == pytest.approx(100) and np.array_equal(found.y, np.cos(TIME))
         assert (found.input, found.output, found.sensor) == (
             Signal("u"),
@@ -153,7 +153,7 @@ def test_matlab_7_3_files_of_h5py(tmp_path):
         file.create_group("#refs#")
     with path.open("r+b") as stream:
         stream.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64")
-    assert np.array_equal(read(path, index=1, sensor="position").G, 2 * G)
+    assert np.array_equal(read(path, index=1, quantity="position").G, 2 * G)
     assert read_time_series(path, "u", "y").sampling_rate == 100.0
     with pytest.raises(InputError, match="variables: G, f, fs, u, y"):
         read(path, response="settings")
@@ -229,7 +229,7 @@ def test_frequency_response_data_of_python_control():
     control = pytest.importorskip("control")
     data = np.stack([[G, 2 * G]])
     system = control.frd(data, FREQUENCY, inputs=["torque", "force"], outputs=["angle"])
-    found = from_control(system, input=1, sensor="position")
+    found = from_control(system, input=1, quantity="position")
     assert np.array_equal(found.G, 2 * G) and np.array_equal(found.omega, FREQUENCY)
     assert (found.input.label, found.output.label) == ("force", "angle")
     assert np.array_equal(from_control(control.frd(G, FREQUENCY)).G, G)

@@ -49,7 +49,7 @@ def test_the_load_angle_of_the_bench_is_seen_to_be_reversed():
 
 def test_an_object_that_cannot_be_read_does_not_hide_the_rest():
     path = measured_data("fditools_motorbench_A.mat")
-    series = read_time_series(path, "iq_adx", "omega_may", sensor="velocity")
+    series = read_time_series(path, "iq_adx", "omega_may", quantity="velocity")
     assert (len(series), series.sampling_rate, series.sensor) == (50000, 2500.0, Sensor.VELOCITY)
     with pytest.raises(InputError, match=r"ms .*no array of numbers"):
         read_time_series(path, "iq_adx", "ms")

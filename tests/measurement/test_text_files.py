@@ -49,7 +49,7 @@ def test_dialects_of_three_columns(tmp_path, delimiter, decimal, head):
     if delimiter.strip() == "" and delimiter != "\t":
         head = [h.replace("f [Hz]", "f[Hz]").replace(" G", "G") for h in head]
     text = [*(h.format(d=delimiter) for h in head), *lines(ROWS, delimiter, decimal)]
-    found = read(written(tmp_path / "a.csv", text), sensor="velocity")
+    found = read(written(tmp_path / "a.csv", text), quantity="velocity")
     assert np.array_equal(found.omega, FREQUENCY * 2 * np.pi)
     assert np.array_equal(found.G, G) and found.sensor is Sensor.VELOCITY
 
@@ -258,7 +258,7 @@ def test_options_that_a_format_does_not_know_are_refused(tmp_path):
 def test_data_frames(tmp_path):
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame({"f [Hz]": FREQUENCY, "Re": G.real, "Im": G.imag, "coherence": 0.5})
-    assert np.array_equal(from_frame(frame, sensor="position").G, G)
+    assert np.array_equal(from_frame(frame, quantity="position").G, G)
     assert from_frame(frame.set_index("f [Hz]")) == from_frame(frame)
     assert len(series_from_frame(frame, "Re", "Im", sampling_rate=10)) == 12
     for wrong in (

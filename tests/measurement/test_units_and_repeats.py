@@ -64,7 +64,7 @@ def test_units_of_comments_are_taken_to_si(tmp_path, comment, output, input, sen
 
 def test_what_is_no_unit_is_left_alone(tmp_path):
     for comment in ("", "# a mass of 3 kg, and m per s\n", "# rad/A or rad/s per A\n"):
-        found = in_si(read(parts(tmp_path, comment), sensor="position"))
+        found = in_si(read(parts(tmp_path, comment), quantity="position"))
         assert (found.output.unit, found.input.unit) == ("", "") and np.array_equal(found.G, G)
 
 
@@ -93,7 +93,7 @@ def test_a_record_in_turns_is_one_in_radians(tmp_path):
         path = written(
             tmp_path / "a.csv", f"T [Nm],y [{unit}]", zip(torque, angle * size, strict=True)
         )
-        found.append(in_si(read(path, output=f"y [{unit}]", sensor="position", **options)))
+        found.append(in_si(read(path, output=f"y [{unit}]", quantity="position", **options)))
     for other in found[1:]:
         np.testing.assert_allclose(other.G, found[0].G, rtol=1e-9)
         assert other.output.unit == found[0].output.unit == "rad/s^2"

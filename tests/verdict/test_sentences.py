@@ -59,7 +59,7 @@ def test_general_models_are_no_machines():
 
 
 def test_plain_data_says_damping_and_quantity():
-    data = compare("3:1", "3:4", sensor=Sensor.VELOCITY).to_dict()
+    data = compare("3:1", "3:4", quantity=Sensor.VELOCITY).to_dict()
     assert data["left_premise"] == data["right_premise"] == {"damped": True, "quantity": "velocity"}
 
 

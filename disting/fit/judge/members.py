@@ -15,7 +15,8 @@ from itertools import combinations
 
 import numpy as np
 
-from disting.equivalence import Origin, Signs, equivalents
+from disting.equivalence import Origin, Signs
+from disting.equivalence.search import chain_equivalents
 from disting.fit.judge.alternatives import Limits
 from disting.fit.judge.candidate import Candidate, Scatters
 from disting.fit.judge.explanation import merge, noises, scatters
@@ -162,7 +163,7 @@ def twins(
     text = {form.renaming[name]: repr(max(value, NOTHING)) for name, value in values.items()}
     limits = {form.renaming.get(name, name): both for name, both in limits.items()}
     for other in _catalogue(chain):
-        for listing in equivalents(form.chain, text, other).listings:
+        for listing in chain_equivalents(form.chain, text, other).listings:
             positive = [
                 m
                 for m in listing.members

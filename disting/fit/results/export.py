@@ -17,7 +17,7 @@ from disting.fit.search.plant import Plant
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.response import as_sign
 from disting.model.chain import Chain
-from disting.model.presentation import plural, summary
+from disting.model.state_space import StateSpace
 from disting.simulation import matrices, port_vectors
 from disting.simulation.mechanics import check_values
 
@@ -27,28 +27,6 @@ if TYPE_CHECKING:
 
 # where SciPy writes the time of day
 MAT_HEAD = b"MATLAB 5.0 MAT-file, written by disting".ljust(116)
-
-
-@dataclass(frozen=True, eq=False)
-class StateSpace:
-    """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force;
-    `delay` of the input [s]; `states` by name, `units` of states, of the input u and the output y
-    where the parameters are in SI units of translation.
-    """
-
-    A: Real
-    B: Real
-    C: Real
-    D: Real
-    delay: float
-    states: tuple[str, ...]
-    units: dict[str, str]
-
-    def __repr__(self) -> str:
-        return summary(
-            self,
-            plural(len(self.A), "state") + (f", dead time {self.delay:g} s" if self.delay else ""),
-        )
 
 
 def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateSpace:

@@ -10,10 +10,12 @@ from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.model.names import name_of
 from disting.model.symmetry import Form, forms
+from disting.renamed import renamed
 
 
+@renamed(sensor="quantity")
 def figure_1(
-    sizes: Sequence[int] = (1, 2, 3, 4), sensor: Sensor = Sensor.ACCELERATION
+    sizes: Sequence[int] = (1, 2, 3, 4), quantity: Sensor = Sensor.ACCELERATION
 ) -> tuple[Chain, ...]:
     """Chains driven and seen at mass 1, every set of ground dampers, with and without lag and dead
     time. Raises InputError for a size below 1.
@@ -22,7 +24,7 @@ def figure_1(
     120
     """
     return tuple(
-        variant for n in sizes for variant in variants(Chain(n, sensor=sensor, damped=True))
+        variant for n in sizes for variant in variants(Chain(n, sensor=quantity, damped=True))
     )
 
 
@@ -39,7 +41,8 @@ def variants(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, ground_dampers=chosen, lag=lag, dead_time=dead_time)
 
 
-def whole_family(sizes: Sequence[int], sensor: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
+@renamed(sensor="quantity")
+def whole_family(sizes: Sequence[int], quantity: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
     """Every chain under (36)-(38) of these sizes, with its variants. Raises InputError for a size
     below 1.
 
@@ -47,16 +50,20 @@ def whole_family(sizes: Sequence[int], sensor: Sensor = Sensor.ACCELERATION) -> 
     48
     """
     return tuple(
-        v for n in sizes for chain in Family(n, damped=True, sensor=sensor) for v in variants(chain)
+        v
+        for n in sizes
+        for chain in Family(n, damped=True, sensor=quantity)
+        for v in variants(chain)
     )
 
 
+@renamed(sensor="quantity")
 def chosen_ports(
     sizes: Sequence[int],
     actuator: str,
     shown: str,
     gap: int = 0,
-    sensor: Sensor = Sensor.ACCELERATION,
+    quantity: Sensor = Sensor.ACCELERATION,
 ) -> tuple[Chain, ...]:
     """Chains of several sizes with force and sensor at the same ports, with their variants.
 
@@ -78,7 +85,7 @@ def chosen_ports(
             continue
         try:
             chains.append(
-                Chain(n, gap, act_minus, act_plus, meas_minus, meas_plus, sensor, damped=True)
+                Chain(n, gap, act_minus, act_plus, meas_minus, meas_plus, quantity, damped=True)
             )
         except ConstraintViolation as reason:
             refused = str(reason)

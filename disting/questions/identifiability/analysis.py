@@ -44,26 +44,28 @@ from disting.questions.identifiability.tangent import (
     most_invariants,
     proof_tangents,
 )
+from disting.renamed import renamed
 
 
+@renamed(sensor="quantity")
 def identifiability(
     chain: Chain | str,
     settings: Settings | None = None,
     *,
     damped: bool | None = None,
-    sensor: Sensor | str | None = None,
+    quantity: Sensor | str | None = None,
 ) -> Identifiability:
     """Find which parameters of the chain its behaviour determines over complex parameters, and how
     many parameter vectors have the same behaviour. `disting.identifiability` has other domains.
 
     It is the same for all chains of one canonical form, up to names. A chain can be named, such as
-    "3:1+b2": `damped` and `sensor` say then how it is meant. Raises InputError for a text that
+    "3:1+b2": `damped` and `quantity` say then how it is meant. Raises InputError for a text that
     names no chain, ContradictionError for a defect of the program.
 
     >>> identifiability(Chain(2, meas_plus=2, damped=False)).sentence
     '3 parameters, only 2 determinable: m1 + m2, k12/(m1*m2).'
     """
-    (chain,) = read_together([chain], damped=damped, sensor=sensor)
+    (chain,) = read_together([chain], damped=damped, sensor=quantity)
     form = canonical(chain)
     return in_names_of(_canonically(form.chain, settings or Settings()), form, chain)
 

@@ -12,10 +12,11 @@ import numpy as np
 from disting.algebra.notation import Expr
 from disting.behaviour.expansion import transfer_function
 from disting.fit.noise.scatter import scatter
-from disting.fit.results.export import StateSpace, state_space, to_control
+from disting.fit.results.export import state_space, to_control
 from disting.fit.search.data import check_range
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.state_space import StateSpace
 from disting.network.network import Network
 from disting.report.drawing import chain_svg
 from disting.report.network_drawing import network_svg
