@@ -18,6 +18,7 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from disting.errors import ConstraintViolation
+from disting.fit.search.modes import from_modes
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
@@ -88,6 +89,15 @@ def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Paramete
                 masses, springs = masses[::-1], springs[::-1]
             if min([*masses, *springs], default=0.0) > 0:
                 yield _filled(chain, size, masses, springs)
+
+
+def at_modes(chain: Chain, measured: FrequencyResponse, sign: int) -> Iterator[Parameters]:
+    """Starts (e): masses and springs that have the modes of the data, see `modes`."""
+    size = scale(measured)
+    for masses, springs, late in from_modes(chain, measured, sign):
+        times = {"Td": late, "T1": late} if chain.lag != chain.dead_time else {}
+        start = dict(_filled(chain, size, masses, springs))
+        yield start | {name: times.get(name, late / 2) for name in ("T1", "Td") if name in start}
 
 
 def is_seen_at_one_end(chain: Chain) -> bool:
