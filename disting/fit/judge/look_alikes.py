@@ -24,6 +24,10 @@ of the chain, and the step repeats. Behind the last mass A is loose and has no e
 step needs a > b' for each fitted mass b', and the new base has the mass a - b'. QED. A lag and a
 dead time are common factors of both.
 
+FRICTION of the motor's bearings is a damper beside force and sensor, so that it adds b1 s to 1/G,
+on the ground as on a base. So what holds of a chain without ground dampers, sensor at mass 1, holds
+with b1 too, which is on the base the friction between motor and base.
+
 In every case the fitted mass 1 is m1 mb / (m1 + mb), the limit at high frequencies, and a mode of
 an elastic base is a term 1 / (mb s^2 + db s + kb) of the response beside those of the drive.
 """
@@ -250,6 +254,10 @@ def _elastic_base(chain: Chain, values: Mapping[str, float]) -> tuple[tuple[Look
     n = chain.n_masses
     if n == 1:
         return (), False
+    with_friction, apart = tuple[LookAlike, ...](), True
+    if _has_motor_friction(chain):
+        bare, apart = _elastic_base(replace(chain, ground_dampers=()), values)
+        with_friction = tuple(_with_friction(x, values) for x in bare)
     if chain.meas_plus != 1:  # the motion of the base is seen: 1/(mb s^2) at high frequencies
         return (), True
     dampers = combinations(range(1, n + 1), len(chain.ground_dampers))
@@ -257,7 +265,7 @@ def _elastic_base(chain: Chain, values: Mapping[str, float]) -> tuple[tuple[Look
     others = alternatives(chain, bases, Engine(), {})
     same = [a for a in others if a.relation is Relation.INDISTINGUISHABLE]
     found = tuple(x for a in same for x in _named_base(chain, a.chain, values))
-    return found, not others
+    return (*with_friction, *found), apart and not others
 
 
 def _named_base(chain: Chain, base: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
@@ -268,6 +276,16 @@ def _named_base(chain: Chain, base: Chain, values: Mapping[str, float]) -> Itera
         return
     for hertz, there in _values_on_elastic_base(chain, values):
         yield LookAlike(kind, f"{text} with its resonance at {hertz:.4g} Hz", there)
+
+
+def _has_motor_friction(chain: Chain) -> bool:
+    return chain.ground_dampers == (1,) and chain.meas_plus == 1
+
+
+def _with_friction(same: LookAlike, values: Mapping[str, float]) -> LookAlike:
+    """The same machine with the friction of the motor's bearings in the base."""
+    there = None if same.values is None else {**same.values, "b1": values["b1"]}
+    return replace(same, text=f"{same.text}, friction b1 between motor and base", values=there)
 
 
 def _base_text(masses: int, base: Chain) -> str:
@@ -300,6 +318,9 @@ def _values_on_elastic_base(
 def _free_base(chain: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:
     """The same drive on a free base by the theorem; values with a base that is `HEAVY`."""
     n = chain.n_masses
+    if _has_motor_friction(chain):
+        same = _free_base(replace(chain, ground_dampers=()), values)
+        yield from (_with_friction(x, values) for x in same)
     if chain.ground_dampers or chain.meas_plus != 1:
         return
     base = HEAVY * sum(values[f"m{i}"] for i in range(1, n + 1))

@@ -223,8 +223,15 @@ def extend(
         yield natural | {name: factor * natural[name] for name in missing}
 
 
+def bare(chain: Chain) -> Chain:
+    """Masses, springs with their dampers, and ports alone."""
+    return replace(chain, ground_dampers=(), lag=False, dead_time=False, gap_damper=False)
+
+
 def shorten(chain: Chain) -> Iterator[Chain]:
-    """Yield every candidate with one ground damper, the lag or the dead time fewer."""
+    """Yield every candidate with one damper away from springs, the lag or the dead time fewer."""
+    if chain.gap_damper:
+        yield replace(chain, gap_damper=False)
     for at in chain.ground_dampers:
         yield replace(chain, ground_dampers=tuple(i for i in chain.ground_dampers if i != at))
     if chain.lag:
@@ -265,8 +272,10 @@ def _completed(names: Sequence[str], entries: Parameters, size: Scale) -> dict[s
     """All parameters; dampers beside springs follow the springs."""
     values = dict(entries)
     for name in names:
-        if name not in values:
-            values[name] = size.of(name, values["k" + name[1:]] if name[0] == "d" else size.mass)
+        if name not in values and "k" + name[1:] in values and name[0] == "d":
+            values[name] = size.of(name, values["k" + name[1:]])
+        elif name not in values:  # a damper across the gap is like one to the ground
+            values[name] = size.of(name.replace("d", "b"), size.mass)
     return {name: values[name] for name in names}
 
 
