@@ -39,12 +39,14 @@ from disting import (
 )
 from disting.equivalence import explicit_map
 from disting.errors import CatalogError, DistingError, InputError
+from disting.experiments.experiment import MeasuredChain
 from disting.model.kinds import LOCK
 from disting.questions import identifiability
 from tests.test_public_api import DOCUMENTED, callables
 
 DRIVE, VALUES = Chain(2), {"m1": 1.0, "m2": 1.0, "k12": 1.0, "d12": 0.1}
 FREE = Chain(2, damped=False)
+ACROSS = Chain(2, 1, 1, 2, 1, 2, gap_damper=True)
 OMEGA, HERTZ = np.geomspace(0.1, 10, 20), np.arange(1.0, 21.0)
 NAN = np.array([[1.0, np.nan]])
 MODEL, CIRCUIT = Model.from_chain(DRIVE), network_of("R0-p(R1,C1)")
@@ -106,6 +108,11 @@ CALLS: tuple[Call, ...] = (
     (".Chain", lambda: Chain(0), InputError),
     (".Chain.frequency_response", lambda: DRIVE.frequency_response({"m1": 1.0}, OMEGA), InputError),
     (".Element", lambda: Element("x1", "x", (1, 2)), InputError),
+    (
+        ".Engine.measured_subject",
+        lambda: disting.Engine().measured_subject("", MeasuredChain(ACROSS, ())),
+        InputError,
+    ),
     (".Experiment", lambda: Experiment(locked=0), InputError),
     (".Experiment.refuse", lambda: Experiment(locked=9).refuse(DRIVE), InputError),
     (".Family.number", lambda: Family(2).number(Chain(3)), InputError),

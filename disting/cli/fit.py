@@ -145,7 +145,8 @@ def _onward(selection: Selection, out: Path) -> Iterator[str]:
             f"model.mat and models.py leave out {enumeration(not_exported(selection))}: the data do"
             " not determine all of their parameters"
         )
-    if len(selection.members) > 1 or any(m.twins for m in selection.members):
+    known = not any(m.candidate.chain.gap_damper for m in selection.members)
+    if known and (len(selection.members) > 1 or any(m.twins for m in selection.members)):
         yield f"what to measure next: disting next {shlex.quote(str(out / 'fit.json'))}"
 
 

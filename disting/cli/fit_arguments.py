@@ -250,7 +250,7 @@ def _structures(group: argparse._ArgumentGroup) -> None:
     )
     text = (
         "also each chain on an elastic base that is one more mass; the force acts, and the encoder"
-        " looks, between base and drive"
+        " looks, between base and drive; without and with friction of the motor's bearings in it"
     )
     group.add_argument("--base", action="store_true", help=text)
 

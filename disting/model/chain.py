@@ -9,7 +9,7 @@ A chain in one line of text: for tables in a terminal.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -92,8 +92,10 @@ class Chain(NotebookPicture):
     (0 = ground); the sensor quantity; `damped` = a damper beside every spring, as every name of a
     model means it too unless undamped is said; `ground_dampers` = the masses with a damper to the
     ground; `lag` = a first-order torque lag 1/(1 + T1 s) [T1 in s]; `dead_time` = a factor
-    exp(-Td s) [Td in s]. Raises ConstraintViolation where (36) or (37) is broken, InputError for
-    other bad values.
+    exp(-Td s) [Td in s]; `gap_damper` = a damper across the gap, such as the friction of a bearing
+    between a rotor and its housing. The class of the paper does not have it: fits and simulations
+    know it, verdicts on chains refuse it, and compare it as a network. Raises ConstraintViolation
+    where (36) or (37) is broken, InputError for other bad values.
 
     >>> Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2).parameters
     ('m1', 'm2', 'k01', 'd01')
@@ -110,6 +112,7 @@ class Chain(NotebookPicture):
     ground_dampers: tuple[int, ...] = ()
     lag: bool = False
     dead_time: bool = False
+    gap_damper: bool = False
 
     def __post_init__(self) -> None:
         if any(
@@ -119,9 +122,13 @@ class Chain(NotebookPicture):
             raise InputError(
                 "the size, the indices and the ground dampers of a chain are whole numbers"
             )
-        for name in ("damped", "lag", "dead_time"):
+        for name in ("damped", "lag", "dead_time", "gap_damper"):
             if not isinstance(getattr(self, name), bool):
                 raise InputError(f"{name} is True or False, not {short(getattr(self, name))}")
+        if self.gap_damper and not self.gap:
+            raise InputError(
+                "there is no gap for a damper across it: name a ground damper at mass 1"
+            )
         if self.n_masses < 1:
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
         for broken in violations(self.indices, (36, 37)):
@@ -187,6 +194,12 @@ class Chain(NotebookPicture):
         return self._presenter.to_control(self, values)
 
     @property
+    def written_fields(self) -> dict[str, Any]:
+        """What its text in keys and files is made of: `gap_damper` only where there is one."""
+        names = [f.name for f in fields(self) if f.name != "gap_damper" or self.gap_damper]
+        return {name: getattr(self, name) for name in names}
+
+    @property
     def indices(self) -> Indices:
         """Size and the five indices, in the order in which a family is numbered."""
         return Indices(
@@ -229,6 +242,7 @@ class Chain(NotebookPicture):
         extras = [self.sensor.value] if self.sensor is not Sensor.ACCELERATION else []
         extras += ["damped"] if self.damped else []
         extras += [f"ground dampers {dampers}"] if dampers else []
+        extras += ["damper across the gap"] if self.gap_damper else []
         extras += ["lag"] if self.lag else []
         extras += ["dead time"] if self.dead_time else []
         return ", ".join([f"{self.n_masses} masses, gap {self.gap}, {ports}", *extras])
@@ -237,11 +251,12 @@ class Chain(NotebookPicture):
 @lru_cache(maxsize=10_000)  # asked for again and again, dearer to make than to find
 def _structure(chain: Chain) -> Structure:
     joints = [i for i in range(chain.n_masses) if i != chain.gap]
+    across = [chain.gap] if chain.gap_damper else []
     elements: list[Mass | Spring | Damper | GroundDamper] = [
         Mass(i) for i in range(1, chain.n_masses + 1)
     ]
     elements += [Spring(i) for i in joints]
-    elements += [Damper(i) for i in joints if chain.damped]
+    elements += [Damper(i) for i in sorted([*(joints if chain.damped else []), *across])]
     elements += [GroundDamper(i) for i in chain.ground_dampers]
     ports = Ports(chain.act_minus, chain.act_plus, chain.meas_minus, chain.meas_plus)
     return Structure(
@@ -276,7 +291,7 @@ def text_drawing(chain: Chain, ports: Ports | None = None) -> str:
 
 def _joint(elements: set[Element], i: int) -> str:
     if Spring(i) not in elements:
-        return "   "
+        return " - " if Damper(i) in elements else "   "
     return "=" if Damper(i) in elements else "~"
 
 

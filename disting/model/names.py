@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from disting.errors import ConstraintViolation, InputError, short
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.family import MOST_MASSES, Family
+from disting.model.structure import Damper
 
 MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number
@@ -25,6 +26,7 @@ INDICES = re.compile(
     rf"[a-z, ]*\)({EXTRAS})"
 )
 WORDS = ("lag", "delay")
+ACROSS = r"\+d\d{1,2}_?\d{1,2}"  # a damper across the gap, which only files and fits name
 # what a name means where nothing else is said: springs of machines are damped, and so are the
 # structures that a fit names
 DAMPED = True
@@ -154,6 +156,8 @@ def is_whole_name(text: str) -> bool:
     [True, False, False]
     """
     match = NAME.fullmatch(_joined(text))
+    if re.search(ACROSS, text):
+        return is_whole_name(re.sub(ACROSS, "", text, count=1))
     return (match is not None and bool(match[1])) or INDICES.fullmatch(text) is not None
 
 
@@ -165,6 +169,13 @@ def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None
     >>> chain_of_whole_name("3:999", False, Sensor.VELOCITY) is None
     True
     """
+    across = re.search(ACROSS, text)
+    if across:
+        plain_chain = chain_of_whole_name(text.replace(across[0], "", 1), damped, sensor)
+        if plain_chain is None or not plain_chain.gap:
+            return None
+        chain = replace(plain_chain, gap_damper=True)
+        return chain if name_of(chain) == text else None
     indices = INDICES.fullmatch(text)
     try:
         if indices is None:
@@ -179,7 +190,8 @@ def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None
 
 def extras_of(chain: Chain) -> str:
     """What stands behind the number: +b1+lag."""
-    words = [*(f"b{i}" for i in chain.ground_dampers), *(["lag"] if chain.lag else [])]
+    words = [Damper(chain.gap).parameter] if chain.gap_damper else []
+    words += [*(f"b{i}" for i in chain.ground_dampers), *(["lag"] if chain.lag else [])]
     return "".join(f"+{word}" for word in [*words, *(["delay"] if chain.dead_time else [])])
 
 

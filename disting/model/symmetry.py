@@ -13,6 +13,7 @@ from enum import StrEnum
 from functools import lru_cache
 from itertools import product
 
+from disting.errors import InputError
 from disting.model.chain import Chain
 from disting.model.structure import Element
 
@@ -44,11 +45,13 @@ class Form:
 
 @lru_cache(maxsize=REMEMBERED)
 def forms(chain: Chain) -> tuple[Form, ...]:
-    """The (up to eight) equivalent forms of a chain, the chain itself first.
+    """The (up to eight) equivalent forms of a chain, the chain itself first. Raises InputError for
+    one with a damper across the gap.
 
     >>> len({form.chain for form in forms(Chain(3, 0, 0, 1, 0, 2, damped=False))})
     4
     """
+    refuse_gap_damper(chain)
     return tuple(
         Form(_moved(chain, chosen), chosen, _renaming(chain, chosen)) for chosen in _choices()
     )
@@ -57,8 +60,9 @@ def forms(chain: Chain) -> tuple[Form, ...]:
 @lru_cache(maxsize=REMEMBERED)
 def canonical(chain: Chain) -> Form:
     """The equivalent form with the smallest indices and ground dampers: equal for chains that
-    are renamings by symmetry.
+    are renamings by symmetry. Raises InputError as `forms` does.
     """
+    refuse_gap_damper(chain)
     moved = {chosen: _moved(chain, chosen) for chosen in _choices()}
     best = min(
         moved, key=lambda chosen: (moved[chosen].indices, moved[chosen].ground_dampers, len(chosen))
@@ -83,6 +87,17 @@ def between(left: Chain, right: Chain) -> tuple[dict[str, str], tuple[str, ...]]
         {name: back[there.renaming[name]] for name in left.parameters},
         tuple(sorted(symmetry.value for symmetry in used)),
     )
+
+
+def refuse_gap_damper(chain: Chain) -> None:
+    """Raise InputError for a chain that the class of the paper does not have: neither symmetries
+    nor theorems on chains hold of it.
+    """
+    if chain.gap_damper:
+        raise InputError(
+            "verdicts on chains know no damper across the gap, such as d12: compare the structure"
+            " as a network (disting.network.chains.of_chain)"
+        )
 
 
 def _choices() -> Iterator[tuple[Symmetry, ...]]:

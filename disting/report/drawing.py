@@ -129,7 +129,8 @@ def describe(chain: Chain) -> str:
     """
     row = "1 mass" if chain.n_masses == 1 else f"{chain.n_masses} masses in a row"
     said = [row + (" with dampers beside the springs" if chain.damped else "")]
-    said += [f"no spring between {_node(chain.gap)} and {_node(chain.gap + 1)}"]
+    only = "a damper but no spring" if chain.gap_damper else "no spring"
+    said += [f"{only} between {_node(chain.gap)} and {_node(chain.gap + 1)}"]
     said += [f"force from {_node(chain.act_minus)} on {_node(chain.act_plus)}"]
     measured, reference = _node(chain.meas_plus), _node(chain.meas_minus)
     said += [f"{chain.sensor.value} of {measured} relative to {reference}"]
@@ -220,7 +221,8 @@ def _ground(at: Layout) -> Iterator[Layer]:
 
 
 def _gap(at: Layout) -> Layer:
-    return Layer("gap", (Text(at.joint_middle(at.chain.gap), at.axis, "gap", 11, Ink.MUTED),))
+    y = at.axis - 9 * at.chain.gap_damper
+    return Layer("gap", (Text(at.joint_middle(at.chain.gap), y, "gap", 11, Ink.MUTED),))
 
 
 def _force(at: Layout) -> Layer:

@@ -29,7 +29,7 @@ from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings
-from disting.model.symmetry import canonical
+from disting.model.symmetry import canonical, refuse_gap_damper
 from disting.store.code import digest
 from disting.store.scheduling import map_tasks as map_tasks
 from disting.store.store import Store
@@ -114,9 +114,12 @@ class Engine:
         ]
 
     def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
-        """The same for a chain under several experiments."""
+        """The same for a chain under several experiments. Raises InputError for one with a damper
+        across the gap.
+        """
         from disting.experiments.machine_side import ComparedMachine
 
+        refuse_gap_damper(measured.chain)
         return ComparedMachine(name, measured, self.settings, self.profile, self.answer)
 
     def profile(

@@ -281,9 +281,9 @@ def _verdict(data: dict[str, Any]) -> Verdict:
 
 def _plain_model(model: Chain | AnyModel) -> dict[str, object]:
     if isinstance(model, Chain):
-        return {"name": name_of(model), **asdict(model)}
+        return {"name": name_of(model), **model.written_fields}
     chain = as_chain(model)
-    return as_entry(model) if chain is None else {"name": model.name, **asdict(chain)}
+    return as_entry(model) if chain is None else {"name": model.name, **chain.written_fields}
 
 
 def _model(data: Mapping[str, Any]) -> Chain | AnyModel:

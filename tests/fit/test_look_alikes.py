@@ -10,16 +10,22 @@ from itertools import combinations, pairwise
 import numpy as np
 import pytest
 
+from disting import identifiability
 from disting.cli.fit_text import fit_text
+from disting.equivalence import equivalents
 from disting.errors import InputError
+from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.fit.judge.alternatives import alternatives, representatives
 from disting.fit.judge.look_alikes import LookAlikeKind, base_is_the_same, look_alikes
+from disting.fit.judge.members import twins
 from disting.fit.judge.near_base import near_bases
 from disting.fit.search.candidates import on_elastic_bases
+from disting.fit.search.plant import Plant
 from disting.fit.select import select
 from disting.general.any_model import as_model
 from disting.measurement import read
 from disting.model.chain import Chain, Sensor
+from disting.model.names import chain_of_whole_name, is_whole_name, name_of
 from disting.network.chains import of_chain
 from disting.network.element import Element, Port
 from disting.network.network import Network
@@ -311,3 +317,100 @@ def test_structure_line_tells_of_a_base_within_the_scatter(tmp_path):
     near = plain["look_alikes"]["near"]
     assert any(x["values"]["mb"] == pytest.approx(5e-3, rel=0.2) for x in near)
     assert "within the scatter of this data (they differ by up to" in near[0]["sentence"]
+
+
+BASE = Chain(3, 1, 1, 2, 1, 2, gap_damper=True)
+ON_BASE = {
+    "m1": 5e-3, "m2": 1e-3, "m3": 2e-3, "k01": 3500.0, "k23": 300.0, "d01": 0.3, "d12": 0.05,
+    "d23": 0.02,
+}  # fmt: skip
+
+
+def at(chain: Chain, values: dict[str, float]) -> np.ndarray:
+    w = np.geomspace(10, 3000, 9)
+    return Plant(chain.structure, w).response(np.array([values[n] for n in chain.parameters]))
+
+
+def test_a_base_is_offered_without_and_with_bearing_friction():
+    chains = [Chain(2, ground_dampers=chosen) for chosen in ((), (1,), (2,), (1, 2))]
+    assert on_elastic_bases(chains) == (Chain(3, 1, 1, 2, 1, 2), BASE)
+    assert on_elastic_bases([Chain(2, meas_plus=2, ground_dampers=(1,))])[0].gap_damper
+    assert on_elastic_bases([Chain(2, 0, 0, 2, 0, 2, ground_dampers=(1,))]) == ()
+
+
+def test_friction_between_motor_and_base_is_a_term_in_s_of_the_inverse_response():
+    bare = replace(BASE, gap_damper=False)
+    s = 1j * np.geomspace(10, 3000, 9)
+    expected = 1 / (1 / (at(bare, ON_BASE) / s**2) + ON_BASE["d12"] * s) * s**2
+    assert at(BASE, ON_BASE) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("damped", [True, False])
+def test_a_base_with_friction_is_fitted_once_where_a_chain_with_friction_is_the_same(damped):
+    for n in (1, 2):
+        chain = Chain(n + 1, damped=damped, ground_dampers=(1,))
+        (base,) = on_elastic_bases([Chain(n, damped=damped, ground_dampers=(1,))])
+        first = representatives([chain, base], Engine(), {})
+        assert first[base] == (base if damped and n == 2 else chain)
+
+
+@pytest.mark.parametrize("chain", [Chain(3, damped=False), Chain(2)])
+def test_look_alikes_on_a_base_have_the_friction_of_the_motor(chain):
+    """The response of the base that is named is that of the chain, with the values that are
+    named.
+    """
+    chain = replace(chain, ground_dampers=(1,))
+    values = {n: {"m": 1e-3, "k": 300.0, "d": 0.02, "b": 0.05}[n[0]] for n in chain.parameters}
+    bases = [x for x in look_alikes(chain, values).found if x.kind is LookAlikeKind.ELASTIC_BASE]
+    named = [x for x in bases if "friction b1 between base and motor" in x.text]
+    assert len(named) == chain.n_masses - 1
+    (base,) = on_elastic_bases([replace(chain, n_masses=chain.n_masses - 1)])
+    for found in named:
+        v = dict(found.values)
+        there = {"m1": v["mb"], "k01": v["kb"], "d01": v.get("db", 0.0), "d12": v["b1"]}
+        there |= {"m2": v["m1"], "m3": v.get("m2", 0.0), "k23": v.get("k12", 0.0)}
+        assert at(base, there) == pytest.approx(at(chain, values))
+
+
+def test_the_other_values_of_a_base_with_friction_are_named():
+    """Any of the two resonances may be that of the base."""
+    found, unknown = twins(BASE, {n: ON_BASE[n] for n in BASE.parameters}, {})
+    assert any(twin.chain == BASE for twin in found)
+    for twin in found:
+        assert list(twin.parameters) == list(twin.chain.parameters)
+        assert at(twin.chain, twin.parameters) == pytest.approx(at(BASE, ON_BASE))
+    assert all("+d" in name for name in unknown)
+
+
+def test_a_base_with_friction_in_commands_and_files():
+    assert name_of(BASE) == "3:6+d12" and is_whole_name("3:6+d12")
+    assert chain_of_whole_name("3:6+d12", True, BASE.sensor) == BASE
+    assert chain_of_whole_name("3:6+d23", True, BASE.sensor) is None
+    assert chain_of_whole_name("3:1+d12", True, BASE.sensor) is None
+
+
+@pytest.mark.parametrize(
+    "door",
+    [
+        lambda: compare("3:1", BASE),
+        lambda: equivalents(BASE, ON_BASE, Chain(3)),
+        lambda: identifiability(BASE),
+        lambda: Engine().measured_subject("", MeasuredChain(BASE, (Experiment(),))),
+    ],
+)
+def test_what_holds_of_chains_is_not_said_of_one_with_a_damper_across_the_gap(door):
+    with pytest.raises(InputError, match="damper across the gap"):
+        door()
+
+
+@pytest.mark.slow
+def test_a_drive_with_bearing_friction_on_a_base_is_found(tmp_path):
+    """A chain does not explain it; the true structure is selected, and the true values are its own
+    or named as others with the same response.
+    """
+    inverse = 1 / (two_masses(1e-3, 2e-3, 300, 0.02) + 1 / (5e-3 * S**2 + 0.3 * S + 2000))
+    chains = [Chain(n, ground_dampers=g) for n in (2, 3) for g in ((), (1,))]
+    bases = on_elastic_bases([c for c in chains if c.n_masses == 2])
+    text, plain = fitted(tmp_path, 1 / (inverse + 0.05 * S), [*chains, *bases])
+    assert plain["explained"] and plain["selected"]["gap_damper"]
+    assert "d12 is the friction between them" in text

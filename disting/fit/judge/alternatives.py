@@ -12,12 +12,16 @@ equivalent in the other, within what is given:
 
 Anything else is fitted separately, which costs time but decides nothing wrongly.
 
+Chains with a damper across the gap are none of the class of the paper: they are compared as
+networks, where both have a lag or neither, and a dead time or neither. Lag and dead time are
+factors of the response; a dead time is seen in it by itself.
+
 The candidates of Fig. 1 have their verdicts shipped (`catalogs.candidates`): those are looked up,
 only others are computed.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -25,6 +29,7 @@ from disting.catalogs import candidates as stored
 from disting.errors import CatalogError
 from disting.model.chain import Chain
 from disting.model.presentation import summary
+from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
@@ -69,12 +74,16 @@ def representatives(
     """
     first: dict[Chain, Chain] = {}
     for same_size in _by_size(candidates):
-        relation = _relation(same_size, engine)
-        for j, chain in enumerate(same_size):
-            equal = (same_size[i] for i in range(j) if relation(i, j) is Relation.INDISTINGUISHABLE)
+        listed = [c for c in same_size if not c.gap_damper]
+        relation = _relation(listed, engine)
+        for j, chain in enumerate(listed):
+            equal = (listed[i] for i in range(j) if relation(i, j) is Relation.INDISTINGUISHABLE)
             first[chain] = next(
                 (first[c] for c in equal if stands_for(c, chain, engine, limits)), chain
             )
+        for chain in (c for c in same_size if c.gap_damper):
+            earlier = [c for c in same_size[: same_size.index(chain)] if first.get(c) == c]
+            first[chain] = next((c for c in earlier if stands_for(c, chain, engine, limits)), chain)
     return first
 
 
@@ -82,6 +91,9 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
     """Whether two chains have the same models with positive parameters within the limits, as
     far as that is known.
     """
+    if chain.gap_damper or other.gap_damper:
+        same = across_gap(chain, other, engine, limits)
+        return same is not None and same.relation is Relation.INDISTINGUISHABLE
     if set(limits) & {*chain.parameters, *other.parameters}:
         # most fits neither bound nor give a parameter
         from disting.questions.positive import renamings
@@ -107,11 +119,37 @@ def alternatives(
     ]
     if not others:
         return ()
-    subject = engine.subject(str(winner), winner)
-    the_alternatives = (
-        _alternative(subject, engine.subject(str(chain), chain), engine, limits) for chain in others
-    )
+    the_alternatives = (_as_either(winner, chain, engine, limits) for chain in others)
     return tuple(a for a in the_alternatives if a is not None)
+
+
+def across_gap(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> Alternative | None:
+    """What another structure is if one of both has a damper across the gap; None where both are
+    distinguishable.
+    """
+    if chain.dead_time != other.dead_time:
+        return None
+    if chain.lag != other.lag:
+        return None if chain.collocated and other.collocated else _open(other, "One has a lag.")
+    plain = [of_chain(replace(c, lag=False, dead_time=False)) for c in (chain, other)]
+    mine, theirs = engine.general_subjects(plain, [str(chain), str(other)])
+    verdict = engine.verdict(mine, theirs, Query(View.POSITIVE, inclusion=False))
+    if verdict.relation is Relation.DISTINGUISHABLE:
+        return None
+    if set(limits) & {*chain.parameters, *other.parameters}:
+        return _open(other, verdict.sentence)
+    return Alternative(other, verdict.relation, verdict.sentence)
+
+
+def _open(other: Chain, why: str) -> Alternative:
+    return Alternative(other, Relation.UNDECIDED, f"{why} Whether all models are the same is open.")
+
+
+def _as_either(winner: Chain, other: Chain, engine: Engine, limits: Limits) -> Alternative | None:
+    if winner.gap_damper or other.gap_damper:
+        return across_gap(winner, other, engine, limits)
+    mine, theirs = (engine.subject(str(c), c) for c in (winner, other))
+    return _alternative(mine, theirs, engine, limits)
 
 
 def _alternative(

@@ -36,6 +36,7 @@ from disting.fit.judge.lone_lines import LoneLines, lone_lines
 from disting.fit.judge.practical import NoiseModel
 from disting.fit.noise.covariance import VANISHING
 from disting.fit.search.containment import contains
+from disting.fit.search.starts import bare
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings
@@ -268,14 +269,14 @@ def union(model: Chain, rival: Chain) -> Chain | None:
     """The smallest structure that contains both; None where they differ in more than dampers to
     the ground, lag and dead time.
     """
-    plain = [replace(c, ground_dampers=(), lag=False, dead_time=False) for c in (model, rival)]
-    if plain[0] != plain[1]:
+    if bare(model) != bare(rival):
         return None
     return replace(
         model,
         ground_dampers=tuple(sorted({*model.ground_dampers, *rival.ground_dampers})),
         lag=model.lag or rival.lag,
         dead_time=model.dead_time or rival.dead_time,
+        gap_damper=model.gap_damper or rival.gap_damper,
     )
 
 

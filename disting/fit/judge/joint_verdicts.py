@@ -43,6 +43,8 @@ def under_all(
     same is known where a renaming of the parameters, within the limits, turns all responses of the
     one into those of the other.
     """
+    if chain.gap_damper or other.gap_damper:
+        return Alternative(other, Relation.UNDECIDED, OPEN)
     mine, theirs = (engine.measured_subject(str(c), _measured(c, cost)) for c in (chain, other))
     verdict = engine.verdict(mine, theirs, Query(View.COMBINED))
     if verdict.relation is Relation.DISTINGUISHABLE:

@@ -44,7 +44,7 @@ from itertools import combinations, permutations, product
 
 import numpy as np
 
-from disting.measurement.arrays import Real
+from disting.fit.search.modes import row
 from disting.model.chain import Chain
 from disting.network.chains import of_chain
 from disting.network.element import Element, Port
@@ -357,23 +357,11 @@ def values_on_elastic_base(
         base = {"mb": float(1 / shares[at]), "kb": float(squares[at] / shares[at])}
         if n == 2 and "d12" in values:  # one mode, damped as the joint is
             base["db"] = base["kb"] * values["d12"] / values["k12"]
-        drive = _free_chain(np.delete(squares, at), np.delete(shares, at))
+        masses, springs = row(np.delete(squares, at), np.delete(shares, at))
+        drive = {f"k{i}{i + 1}": k for i, k in enumerate(springs[:-1], 1)}
+        drive |= {f"m{i}": m for i, m in enumerate(masses, 1)}
+        drive = dict(sorted(drive.items()))
         yield float(np.sqrt(squares[at]) / (2 * np.pi)), drive | base
-
-
-def _free_chain(squares: Real, shares: Real) -> dict[str, float]:
-    """Masses and springs of the free undamped chain with these modes (Lanczos, Cauer)."""
-    vector, before, beta = np.sqrt(shares / shares.sum()), np.zeros(len(shares)), 0.0
-    values, mass, spring = {"m1": float(1 / shares.sum())}, 1 / shares.sum(), 0.0
-    for i in range(1, len(shares)):
-        alpha = vector @ (squares * vector)
-        rest = squares * vector - alpha * vector - beta * before
-        beta = float(np.linalg.norm(rest))
-        before, vector = vector, rest / beta
-        spring = alpha * mass - spring
-        mass = spring**2 / (beta**2 * mass)
-        values |= {f"k{i}{i + 1}": float(spring), f"m{i + 1}": float(mass)}
-    return dict(sorted(values.items()))
 
 
 def _free_base(chain: Chain, values: Mapping[str, float]) -> Iterator[LookAlike]:

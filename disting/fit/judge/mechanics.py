@@ -114,7 +114,8 @@ def _dampers(members: Sequence[Member]) -> tuple[Parts, Parts]:
 
 def _rooms(chain: Chain) -> Parts:
     """Names of the dampers that a chain of these masses and springs can have."""
-    every = replace(chain, damped=True, ground_dampers=tuple(range(1, chain.n_masses + 1)))
+    masses = tuple(range(1, chain.n_masses + 1))
+    every = replace(chain, damped=True, ground_dampers=masses, gap_damper=chain.gap > 0)
     return tuple(name for name in every.parameters if name[0] in DAMPERS)
 
 

@@ -8,7 +8,7 @@ data of this force and sensor: other structures of as many masses, anywhere in t
 any ground dampers, and other values of its own.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import combinations
@@ -31,7 +31,9 @@ from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.names import chain_of_whole_name
 from disting.model.presentation import plural, summary
+from disting.model.structure import Damper
 from disting.store.scheduling import map_tasks
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's
@@ -159,6 +161,8 @@ def twins(
     """Structures with the same behaviour within the limits, and the names of those of which
     that is not known.
     """
+    if chain.gap_damper:
+        return _with_friction(chain, values, limits)
     the_twins, unknown, form = list[Twin](), list[str](), listed_form(chain)
     text = {form.renaming[name]: repr(max(value, NOTHING)) for name, value in values.items()}
     limits = {form.renaming.get(name, name): both for name, both in limits.items()}
@@ -178,6 +182,46 @@ def twins(
                 unknown.append(listing.name)
     the_twins.sort(key=lambda t: (t.free_choices, len(t.chain.ground_dampers)))
     return tuple(the_twins), tuple(unknown)
+
+
+def _with_friction(
+    chain: Chain, values: Mapping[str, float], limits: Limits
+) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
+    """The same of a chain with a damper across the gap, whose equivalents no theorem on chains
+    lists.
+
+    Beside force and sensor it adds d s to 1/G. It is the only term in s of 1/G at low frequencies,
+    where the free part moves as one mass, so that G determines d and the response without it: the
+    structures that do the same without it do so with it. Of force and sensor elsewhere this is not
+    known.
+    """
+    name = Damper(chain.gap).parameter
+    if not chain.collocated or (chain.act_minus, chain.act_plus) != (chain.gap, chain.gap + 1):
+        return (), (f"others than {reference(chain)}",)
+    bare_values = {n: x for n, x in values.items() if n != name}
+    found, unknown = twins(replace(chain, gap_damper=False), bare_values, limits)
+    the_twins = (
+        Twin(other, _in_order(other, twin.parameters | {new: values[name]}), twin.free_choices)
+        for twin in found
+        for other, new in _damped_at_port(twin.chain)
+    )
+    plain = (chain_of_whole_name(text, chain.damped, chain.sensor) for text in unknown)
+    damped = (reference(other) for c in plain if c for other, _ in _damped_at_port(c))
+    return tuple(t for t in the_twins if _inside(t.parameters, limits)), tuple(damped)
+
+
+def _in_order(chain: Chain, values: Mapping[str, float]) -> dict[str, float]:
+    return {name: values[name] for name in chain.parameters}
+
+
+def _damped_at_port(chain: Chain) -> Iterator[tuple[Chain, str]]:
+    """The chain with a damper beside its force, and its name; none where no chain has it."""
+    ends = chain.act_minus, chain.act_plus
+    if chain.collocated and chain.gap and ends == (chain.gap, chain.gap + 1):
+        yield replace(chain, gap_damper=True), Damper(chain.gap).parameter
+    elif chain.collocated and not chain.gap:
+        dampers = tuple(sorted({*chain.ground_dampers, chain.act_plus}))
+        yield replace(chain, ground_dampers=dampers), f"b{chain.act_plus}"
 
 
 def _in_all(

@@ -43,6 +43,7 @@ def chain_from_dict(plain: dict[str, Any]) -> Chain:
             tuple(plain["ground_dampers"]),
             plain["lag"],
             plain["delay"],
+            plain.get("gap_damper", False),
         )
         name = str(plain.get("name", ""))
     except (KeyError, TypeError, ValueError) as reason:

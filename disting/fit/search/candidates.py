@@ -97,12 +97,16 @@ def chosen_ports(
 
 
 def on_elastic_bases(chains: Sequence[Chain]) -> tuple[Chain, ...]:
-    """The chains without ground dampers, each on an elastic base that is mass 1 of the new chain;
-    force and sensor act between the base and the masses at which they were. Raises InputError for
-    chains with a gap and for ports between two masses.
+    """The chains without ground dampers, and those with one where the force acts, each on an
+    elastic base that is mass 1 of the new chain; force and sensor act between the base and the
+    masses at which they were. The damper is then the friction of the motor's bearings, which sit in
+    the base. Dampers elsewhere, which no base holds, are left out. Raises InputError for chains
+    with a gap and for ports between two masses.
 
-    >>> [str(c) for c in on_elastic_bases([Chain(2)])]
-    ['3 masses, gap 1, force 2-1, sensor 2-1, damped']
+    >>> bases = on_elastic_bases([Chain(2), Chain(2, ground_dampers=(1,))])
+    >>> [c.parameters for c in bases]  # doctest: +NORMALIZE_WHITESPACE
+    [('m1', 'm2', 'm3', 'k01', 'k23', 'd01', 'd23'),
+     ('m1', 'm2', 'm3', 'k01', 'k23', 'd01', 'd12', 'd23')]
     """
     if any(c.gap or c.act_minus or c.meas_minus for c in chains):
         raise InputError(
@@ -112,10 +116,11 @@ def on_elastic_bases(chains: Sequence[Chain]) -> tuple[Chain, ...]:
     return tuple(
         replace(
             c, n_masses=c.n_masses + 1, gap=1, act_minus=1, act_plus=c.act_plus + 1,
-            meas_minus=1, meas_plus=c.meas_plus + 1,
+            meas_minus=1, meas_plus=c.meas_plus + 1, ground_dampers=(),
+            gap_damper=bool(c.ground_dampers),
         )
         for c in chains
-        if not c.ground_dampers
+        if c.ground_dampers in ((), (1,)) and (c.act_plus == 1 or not c.ground_dampers)
     )  # fmt: skip
 
 
@@ -131,6 +136,8 @@ def listed_form(chain: Chain) -> Form:
     >>> reference(form.chain), form.renaming["m1"]
     ('2:1+b2', 'm2')
     """
+    if chain.gap_damper:  # no other form behaves as it does
+        return Form(chain, (), {name: name for name in chain.parameters})
     family = Family(chain.n_masses, chain.damped, chain.sensor)
     both = list(forms(chain))
     return next((form for form in both if _is_in(family, form.chain)), both[0])

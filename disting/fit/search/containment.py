@@ -107,7 +107,9 @@ def _has_factors(larger: Chain, smaller: Chain) -> bool:
 def _plain(chain: Chain) -> Chain:
     """The chain without lag and dead time."""
     indices = chain.indices
-    return Chain(*indices, chain.sensor, chain.damped, chain.ground_dampers)
+    return Chain(
+        *indices, chain.sensor, chain.damped, chain.ground_dampers, gap_damper=chain.gap_damper
+    )
 
 
 @lru_cache(maxsize=REMEMBERED)

@@ -24,6 +24,7 @@ from disting.fit.search.neighbours import carry_over, conspicuous, neighbours, s
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import (
     Parameters,
+    at_modes,
     extend,
     from_extrema,
     merge,
@@ -38,13 +39,15 @@ from disting.model.chain import Chain
 from disting.model.presentation import summary
 
 ITERATIONS = 30  # of the rough search, and again from the best that it found
-FEW, MANY = 8, 32  # random starts, where the data's extrema lead to others and where not
+FEW, MANY = 8, 32  # random starts, where the data lead to others and where not
 FINISHED = 4  # starts that are searched on, the best of which is brought to the last digit
 VALLEYS = 12  # of the rough search that are kept beside the best parameters
 REACHED = 1e-3  # relative excess of cost within which a start counts as a hit,
 NOTHING = 1e-6  # or a cost that is as good as zero
 GAIN = 1e-4  # relative gain of cost from which on a neighbour's fit helps
 DAMPERS = "db"  # first letters of what may be fixed to zero
+SMOOTH = (0.03, 0.01, 0.003)  # distances from the axis, of each frequency, of undamped fits
+SHORT = 10  # iterations at each
 NESTED = 1e-9  # relative excess of cost that a candidate may have over one that it contains
 
 
@@ -213,7 +216,11 @@ def _best(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate], starts:
     names = task.names(chain)
     plant, box = task.plant(chain), task.box(names)
     points, costs = rough(plant, task.cost, box, starts, ITERATIONS)
-    ends, reached = rough(plant, task.cost, box, points[different(costs, FINISHED)], ITERATIONS)
+    nearest = points[different(costs, FINISHED)]
+    ends, reached = rough(plant, task.cost, box, nearest, ITERATIONS)
+    if not chain.damped and isinstance(plant, Plant):
+        across, there = _across_lines(plant, task.cost, box, nearest)
+        ends, reached = np.concatenate([ends, across]), np.append(reached, there)
     p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
     p, j = _nested(chain, task, estimates, p, j)
     return Estimate(
@@ -223,6 +230,19 @@ def _best(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate], starts:
         tuple(sorted(map(float, costs))),
         tuple(tuple(map(float, points[i])) for i in different(costs, VALLEYS)),
     )
+
+
+def _across_lines(plant: Plant, cost: AnyCost, box: Box, points: Real) -> tuple[Real, Real]:
+    """Points and costs reached from these where no damper is fitted.
+
+    An undamped resonance cannot move across a line: on it the amplitude has no bounds, and the
+    phase to either side is constant, so that no slope tells the right side. Right of the imaginary
+    axis, at s = (j + share) omega, both are smooth. The search comes nearer to the axis step by
+    step and ends on it.
+    """
+    for share in SMOOTH:
+        points, _ = rough(replace(plant, aside=share), cost, box, points, SHORT)
+    return rough(plant, cost, box, points, SHORT)
 
 
 def _nested(
@@ -283,6 +303,7 @@ def _starts(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> It
     """All starts of one candidate."""
     size = scale(task.cost.measured)
     seen = list(from_extrema(chain, task.cost.measured))
+    seen += at_modes(chain, task.cost.measured, task.sign)
     yield from seen
     for joint, fewer in merge(chain):
         if fewer in estimates:

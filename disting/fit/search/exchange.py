@@ -28,7 +28,7 @@ from disting.fit.search.estimate import (
     refine,
 )
 from disting.fit.search.neighbours import neighbours
-from disting.fit.search.starts import merge, shorten
+from disting.fit.search.starts import bare, merge, shorten
 from disting.model.chain import Chain
 from disting.store import Store
 from disting.store.code import digest
@@ -259,9 +259,10 @@ def _lowest(
 
 def body(chain: Chain) -> tuple[int, str]:
     """Masses, springs and ports: what candidates that exchange their fits have in common."""
-    return chain.n_masses, full_text(replace(chain, ground_dampers=(), lag=False, dead_time=False))
+    return chain.n_masses, full_text(bare(chain))
 
 
 def _stage(chain: Chain) -> tuple[int, str, int]:
     """Order of work: what a candidate contains and what leads to it comes before it."""
-    return *body(chain), len(chain.ground_dampers) + chain.lag + chain.dead_time
+    extras = chain.gap_damper + chain.lag + chain.dead_time
+    return *body(chain), len(chain.ground_dampers) + extras

@@ -57,6 +57,8 @@ def neighbours(chain: Chain) -> Iterator[Chain]:
         yield replace(chain, ground_dampers=tuple(sorted(dampers | {at})))
         for other in chain.ground_dampers:
             yield replace(chain, ground_dampers=tuple(sorted((dampers | {at}) - {other})))
+    if chain.gap and not chain.gap_damper:
+        yield replace(chain, gap_damper=True)
     if not chain.lag:
         yield replace(chain, lag=True)
     if not chain.dead_time:

@@ -50,7 +50,7 @@ class Plant:
     a reversed sensor.
 
     `still`: masses that are locked; `added`: (mass, power of s, size) of what is known.
-    `observation`: how lines show the response.
+    `observation`: how lines show the response; `aside`: s = (j + aside) omega instead of j omega.
 
     >>> from disting import Chain
     >>> plant = Plant(Chain(1, damped=False).structure, np.array([1.0, 2.0]))
@@ -64,6 +64,7 @@ class Plant:
     still: tuple[int, ...] = ()
     added: tuple[tuple[int, int, float], ...] = ()
     observation: Observation | None = None
+    aside: float = 0.0
 
     def __post_init__(self) -> None:
         if self.sign not in (1, -1):
@@ -177,7 +178,7 @@ class Plant:
     @cached_property
     def _s(self) -> Complex:
         omega = self.omega if self.observation is None else self._seen[0]
-        return np.asarray(1j * omega, dtype=np.complex128)
+        return np.asarray((1j + self.aside) * omega, dtype=np.complex128)
 
     @cached_property
     def _seen(self) -> tuple[Complex, csr_array]:

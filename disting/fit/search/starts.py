@@ -18,6 +18,7 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from disting.errors import ConstraintViolation
+from disting.fit.search.modes import from_modes
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
@@ -88,6 +89,15 @@ def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Paramete
                 masses, springs = masses[::-1], springs[::-1]
             if min([*masses, *springs], default=0.0) > 0:
                 yield _filled(chain, size, masses, springs)
+
+
+def at_modes(chain: Chain, measured: FrequencyResponse, sign: int) -> Iterator[Parameters]:
+    """Starts (e): masses and springs that have the modes of the data, see `modes`."""
+    size = scale(measured)
+    for masses, springs, late in from_modes(chain, measured, sign):
+        times = {"Td": late, "T1": late} if chain.lag != chain.dead_time else {}
+        start = dict(_filled(chain, size, masses, springs))
+        yield start | {name: times.get(name, late / 2) for name in ("T1", "Td") if name in start}
 
 
 def is_seen_at_one_end(chain: Chain) -> bool:
@@ -213,8 +223,15 @@ def extend(
         yield natural | {name: factor * natural[name] for name in missing}
 
 
+def bare(chain: Chain) -> Chain:
+    """Masses, springs with their dampers, and ports alone."""
+    return replace(chain, ground_dampers=(), lag=False, dead_time=False, gap_damper=False)
+
+
 def shorten(chain: Chain) -> Iterator[Chain]:
-    """Yield every candidate with one ground damper, the lag or the dead time fewer."""
+    """Yield every candidate with one damper away from springs, the lag or the dead time fewer."""
+    if chain.gap_damper:
+        yield replace(chain, gap_damper=False)
     for at in chain.ground_dampers:
         yield replace(chain, ground_dampers=tuple(i for i in chain.ground_dampers if i != at))
     if chain.lag:
@@ -255,8 +272,10 @@ def _completed(names: Sequence[str], entries: Parameters, size: Scale) -> dict[s
     """All parameters; dampers beside springs follow the springs."""
     values = dict(entries)
     for name in names:
-        if name not in values:
-            values[name] = size.of(name, values["k" + name[1:]] if name[0] == "d" else size.mass)
+        if name not in values and "k" + name[1:] in values and name[0] == "d":
+            values[name] = size.of(name, values["k" + name[1:]])
+        elif name not in values:  # a damper across the gap is like one to the ground
+            values[name] = size.of(name.replace("d", "b"), size.mass)
     return {name: values[name] for name in names}
 
 

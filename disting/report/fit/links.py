@@ -92,6 +92,8 @@ def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
     """Name, file and fragment of the pages that tell of a structure, the one that tells most
     first.
     """
+    if chain.gap_damper:  # no catalogue has it
+        return
     chain = listed_form(chain).chain
     name = reference(replace(chain, ground_dampers=(), lag=False, dead_time=False))
     size, colon, number = name.partition(":")
@@ -128,7 +130,9 @@ def commands(selection: Selection) -> tuple[str, ...]:
     if not selection.explanation.explains:
         return ()
     first = selection.described
-    rest = [m.name for m in selection.members[1:]]
+    if first.chain.gap_damper:
+        return ()
+    rest = [m.name for m in selection.members[1:] if not m.candidate.chain.gap_damper]
     damped = damping_option(first.chain.damped)
     steps = [f"disting compare {reference(first.chain)} {rest[0]} {damped}"] if rest else []
     chain, fitted = _without_zeros(first.chain, first.estimate.parameters)

@@ -75,7 +75,9 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
                 " between base and motor"
             )
         elif selection.selected and selection.selected.chain.gap == 1:
-            yield "mass 1 is the base if the force acts between base and motor (mass 2)"
+            yield "mass 1 is the base if the force acts between base and motor (mass 2)" + (
+                "; d12 is the friction between them" if selection.selected.chain.gap_damper else ""
+            )
         elif selection.selected:
             yield f"look-alikes outside the candidates were not looked for: {of.not_looked_for}"
         return

@@ -290,6 +290,7 @@ def _named(chain: Chain) -> dict[str, Any]:
         "sensor": [meas_minus, meas_plus],
         "quantity": chain.sensor.value,
         "damped": chain.damped,
+        **({"gap_damper": True} if chain.gap_damper else {}),
     } | ({"renamed": form.renaming} if form.chain != chain else {})
 
 

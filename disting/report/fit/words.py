@@ -11,6 +11,7 @@ from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.units import unit_as
 from disting.model.chain import Chain, Sensor
+from disting.model.structure import Damper
 from disting.report.words import plural
 
 NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing
@@ -131,8 +132,9 @@ def name(chain: Chain) -> str:
         said += [f"gap {chain.gap}–{chain.gap + 1}"] if chain.gap else []
         said.append(f"force {_port(chain.act_minus, chain.act_plus)}")
         said.append(f"sensor {_port(chain.meas_minus, chain.meas_plus)}")
-    dampers = ", ".join(f"b{i}" for i in chain.ground_dampers)
-    said += [f"damper{'s' if len(chain.ground_dampers) > 1 else ''} {dampers}"] if dampers else []
+    names = [f"b{i}" for i in chain.ground_dampers]
+    names += [Damper(chain.gap).parameter] if chain.gap_damper else []
+    said += [f"damper{'s' if len(names) > 1 else ''} {', '.join(names)}"] if names else []
     return ", ".join(
         said + (["lag"] if chain.lag else []) + (["dead time"] if chain.dead_time else [])
     )
