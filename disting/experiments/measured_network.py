@@ -168,9 +168,11 @@ def _block(setup: Setup, whole: Ratios, network: Network, extra: dict[Port, int]
     for at, (_, power, size) in enumerate(setup.changes):
         known = None if power is None else _power(whole, network, network.order - power, 1 / size)
         cells = _changed(cells, len(rows) + at, len(columns) + at, known)
-    order = network.order if setup.order is None else setup.order
-    by = _power(whole, network, order - network.order)
-    return tuple(tuple(x * by for x in row[: len(columns)]) for row in cells[: len(rows)])
+    block = tuple(tuple(row[: len(columns)]) for row in cells[: len(rows)])
+    if setup.order is None:
+        return block
+    by = _power(whole, network, setup.order - network.order)
+    return tuple(tuple(x * by for x in row) for row in block)
 
 
 def _changed(
