@@ -59,7 +59,8 @@ def _near_bases(
     chain: Chain, values: tuple[tuple[str, float], ...], lines: bytes, scatter: bytes
 ) -> tuple[LookAlike, ...]:
     at, (omega, rho) = dict(values), (np.frombuffer(x) for x in (lines, scatter))
-    wanted = impedance(at, 1j * omega)
+    s = np.asarray(1j * omega, dtype=np.complex128)
+    wanted = impedance(at, s)
     fits = sorted(
         (_fitted(start, wanted, omega, rho) for start in _starts(chain, at)),
         key=lambda fit: fit[0],
@@ -67,7 +68,7 @@ def _near_bases(
     near = dict[str, LookAlike]()
     for cost, there in fits:
         if np.sqrt(cost) <= norm.isf(LEVEL):
-            apart = float(np.max(np.abs(wanted / on_base(there, 1j * omega) - 1)))
+            apart = float(np.max(np.abs(wanted / on_base(there, s) - 1)))
             text = _text(chain.n_masses - 1, there)
             near.setdefault(text, LookAlike(LookAlikeKind.ELASTIC_BASE, text, there, apart))
     return tuple(near.values())
@@ -123,7 +124,7 @@ def _fitted(
     start: Mapping[str, float], wanted: Complex, omega: Real, rho: Real
 ) -> tuple[float, dict[str, float]]:
     """T and the values of the best base near a start."""
-    names, s = list(start), 1j * omega
+    names, s = list(start), np.asarray(1j * omega, dtype=np.complex128)
 
     def residual(logarithms: Real) -> Real:
         there = dict(zip(names, np.exp(logarithms), strict=True))
