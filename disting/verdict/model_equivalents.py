@@ -30,6 +30,12 @@ class ModelEquivalent(NotebookTable):
 
     `exponents`: those of its constant phase elements, each with the one of the given network that
     it equals, or with the value of that.
+
+    >>> from disting.equivalence import equivalents
+    >>> values = {"R0": 1, "R1": 2, "C1": "1/2"}
+    >>> (found,) = equivalents("R0-p(R1,C1)", values, to="p(R0,R1-C1)")
+    >>> found.model.name, found.verdict.relation.value, len(found.to_dict()["values"])
+    ('p(R0,R1-C1)', 'indistinguishable', 1)
     """
 
     model: AnyModel
