@@ -23,20 +23,23 @@ APART = 1.1  # ratio of levels from which on two measurements have different amp
 
 def describe_nonlinearity(response: FrequencyResponse) -> str:
     """Sentence on the distortion that a response shows beside its noise, both as medians of the
-    lines in parts of |G|; "" where it shows none.
+    lines in parts of |G|; "" where it shows none that could move a value beyond its interval.
 
     >>> from dataclasses import replace
     >>> from disting.measurement import from_arrays
     >>> data = from_arrays(range(1, 9), [1] * 8, deviation=[0.05] * 8)
     >>> describe_nonlinearity(replace(data, nonlinear=[0.04] * 8)).split(" (")[0]
     'noise 3 %, distortion 4 %'
-    >>> describe_nonlinearity(data)
-    ''
+    >>> describe_nonlinearity(replace(data, nonlinear=[0.01] * 8)), describe_nonlinearity(data)
+    ('', '')
     """
     size, between = np.abs(response.G), response.distortion
     if response.noise is not None and response.nonlinear is not None:
         noise, level = (float(np.median(x / size)) for x in (response.noise, response.nonlinear))
         causes = OTHER_CAUSES if between is None else CAUSES
+        # a shift of all lines by so little moves values by less than their intervals
+        if level * np.sqrt(len(size)) < noise:
+            return ""
         return held([f"noise {_percent(noise)}, distortion {_percent(level)}"], causes)
     periods = response.method.periods if response.method else 0
     if between is None or not between.told_apart or periods < 2:
