@@ -28,7 +28,7 @@ from disting.model.names import (
 )
 from disting.network.network import Network
 
-Value = Number | str
+Value = Number | float | str  # type checkers do not take int and float for a Number
 
 
 def chains_of(to: Chain | Family | str, chain: Chain) -> tuple[Chain, ...]:
