@@ -96,15 +96,17 @@ def as_renamed_chain(network: Network) -> RenamedChain | None:
 
     >>> from disting.network import network_of
     >>> found = as_renamed_chain(network_of("3=1=2; F3; S1"))
-    >>> str(found.chain), found.names["k12"], found.names["m1"]
-    ('3:1', 'k13', 'm3')
+    >>> name_of(found.chain), found.names["k12"], found.names["m1"]
+    ('3:2', 'k13', 'm3')
     """
     if network.sort is not Sort.MACHINE or network.shape != (1, 1):
         return None
     if any(e.letter not in "mdk" or e.known_ratio != 1 for e in network.elements):
         return None
-    found = (_read_as_chain(network, places) for places in _numberings(network))
-    return next(filter(None, found), None)
+    found = [_read_as_chain(network, places) for places in _numberings(network)]
+    chains = [renamed for renamed in found if renamed]
+    # of both directions the one that the catalogue has
+    return min(chains, key=lambda renamed: name_of(renamed.chain).startswith("("), default=None)
 
 
 def _numberings(network: Network) -> Iterator[dict[int, int]]:

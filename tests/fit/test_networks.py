@@ -299,9 +299,12 @@ def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
     [
         (["--models", "3:1"], "is no network"),
         (["--models", "R1-C1", "--models", "1=2; F1; S1"], "fit them apart"),
-        (["--models", "R1-C1", "--masses", "3"], "--masses is not supported with --models"),
+        (
+            ["--models", "R1-C1", "--masses", "3"],
+            "--masses adds chains: these compete with machines",
+        ),
         (["--models", "R1-C1", "--models", "R1-C1"], "named twice"),
-        (["--models", "cells-9"], "is no network"),
+        (["--models", "cells-9"], "families of networks are"),
     ],
 )
 def test_bad_input_is_one_sentence(tmp_path, words, said):

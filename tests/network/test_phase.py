@@ -17,7 +17,7 @@ from disting.general.any_model import cells_of, of_network
 from disting.general.exponents import may_be_others
 from disting.general.powers import Powers
 from disting.model.question import Domain
-from disting.network.families import circuits
+from disting.network.families.circuits import circuits
 from disting.verdict.model_equivalents import model_equivalents
 from disting.verdict.verdict_file import verdict_file
 from tests.oracles.plain_models import by_fibres

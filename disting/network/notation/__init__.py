@@ -122,9 +122,9 @@ def values_in(text: str, notation: str = "") -> dict[str, Fraction]:
     >>> {name: float(value) for name, value in values_in("Q{Y=25e-6,n=0.9}W{Y=0.1}").items()}
     {'P1': 2.5e-05, 'n1': 0.9, 'W1': 10.0}
     """
+    network = network_of(text, notation)
     if is_member(text):
         return {}
-    network = network_of(text, notation)
     for each in [notation] if notation else notations_of(text):
         if each in DIALECTS and isinstance(
             _read(text, each, network.name, Sensor.ACCELERATION), Network
