@@ -233,6 +233,7 @@ def _to_decide(selection: Selection) -> Iterator[str]:
         )
     if same:
         name, others = same[0]
+        others = [f"{x} with other values" if x == name else x for x in others]
         states = "these sensors and states" if _is_joint(selection) else "sensor"
         yield (
             f"if it is {name}, it may as well be {_listed(others)}: no experiment with this force"
