@@ -14,6 +14,7 @@ from disting.errors import InputError
 from disting.fit.judge.modes import poles, zeros
 from disting.fit.search.candidates import figure_1, variants, whole_family
 from disting.fit.search.cost import Case, Cost
+from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.exchange import (
     estimate_from_json,
@@ -22,6 +23,7 @@ from disting.fit.search.exchange import (
     with_smaller,
 )
 from disting.fit.search.neighbours import carry_over, conspicuous, neighbours, split_starts
+from disting.fit.search.plant import Plant
 from disting.fit.search.starts import cauer, extrema, merge, scale, shorten
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -332,3 +334,15 @@ def test_the_lines_of_the_search_are_those_of_the_data_with_their_weights():
     at = np.searchsorted(omega, few.measured.omega)
     assert len(np.unique(at)) == 500 and few.measured == measured.subset(at)
     assert (few.lines == omega[at] / omega[-1]).all() and few.thinned(500) is few
+
+
+def test_a_free_parameter_may_start_at_zero():
+    """As from a relative in which it was fixed to 0: 0/0 were the bounds of its steps."""
+    chain, omega = Chain(2, ground_dampers=(1,)), 2 * np.pi * np.geomspace(5, 200, 30)
+    values = dict(zip(chain.parameters, (1e-3, 2e-3, 300.0, 0.02, 0.0), strict=True))
+    start = np.array([values[name] for name in chain.parameters])
+    data = FrequencyResponse(omega, Plant(chain.structure, omega).response(start))
+    task = Task(Cost(data))
+    found, cost = fine(task.plant(chain), task.cost, task.box(chain.parameters), start)
+    assert np.all(np.isfinite(found)) and cost < 1e-12
+    assert found[:4] == pytest.approx(start[:4])
