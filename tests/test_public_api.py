@@ -174,8 +174,8 @@ def test_a_verdict_is_looked_up_without_what_decides_it():
     assert not [name for name in loaded if name.startswith(("disting.fibres.", "disting.general"))]
 
 
-MOST_OF_A_FIT = 210  # modules of the package
-MOST_LINES_OF_A_FIT = 37_500
+MOST_OF_A_FIT = 220  # modules of the package
+MOST_LINES_OF_A_FIT = 40_000
 NOT_FOR_A_FIT = (
     "fit.plan", "fit.networks", "general", "experiments.machine_side", "report.page",
     "report.drawing", "catalogs.catalog", "measurement.matlab", "measurement.uff", "simulation.bench",
