@@ -239,7 +239,10 @@ class _Refused(argparse.Action):
 
 
 def add_deciding(parser: argparse.ArgumentParser) -> None:
-    """What decides, and over which parameters."""
+    """What decides, and over which parameters; the help ends with the list of conditions."""
+    rows = (f"  {r.name}  {r.title}: {r.text}" for r in RULES.values() if r.is_condition)
+    parser.epilog = "\n".join(["conditions that verdicts name:", *rows])
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
     text = (
         "decide by these conditions only, over complex parameters, such as 1-5,8; 1-9 is the"
         " paper's view"

@@ -62,7 +62,7 @@ class Group:
 
 CATALOG = Group(
     "catalog",
-    "build, settle or verify them",
+    "build, settle or verify the catalogues",
     "Precomputed catalogues.",
     (
         Command(
@@ -125,84 +125,68 @@ CATALOG = Group(
 )
 CACHE = Group(
     "cache",
-    "look at or empty the cache",
+    "show or empty the cache",
     "The cache of profiles and verdicts.",
     (
         Command("info", "where the cache is and what it holds", "upkeep", "cache_info", ""),
         Command("clear", "remove all entries", "upkeep", "cache_clear", ""),
     ),
 )
-COMMANDS = (
-    Command(
-        "models",
-        "the numbered list of all models of one size, or your own models in a file",
-        "models",
-    ),
-    Command("compare", "one verdict, explained", "compare"),
-    Command(
-        "verify",
-        "whether one verdict holds, checked anew from its evidence alone",
-        "verify",
-    ),
-    Command(
-        "verdicts",
-        "all pairs of one size, of several sizes together, or of your own models in a file",
-        "verdicts",
-    ),
-    Command(
-        "equivalents",
-        "all parameters of other models with the same transfer function",
-        "equivalents",
-    ),
-    Command(
-        "next",
-        "what to measure next to tell structures apart that look the same",
-        "next",
-    ),
-    Command(
-        "fit",
-        "the structures that explain a measured frequency response",
-        "fit",
-        arguments="fit_arguments",
-        brief="BRIEF",
-    ),
-    Command(
-        "look",
-        "what is read from a measured file, and what is assumed of it; fits nothing",
-        "look",
-        add="add_look_arguments",
-        arguments="fit_arguments",
-    ),
-    Command(
-        "plan",
-        "how much measuring tells two structures apart",
-        "plan",
-        arguments="plan_arguments",
-    ),
-    Command(
-        "report",
-        "HTML pages, figures and tables of whole catalogues, or of your own models in a file",
-        "report",
-    ),
-    Command("draw", "the drawing of a model, as SVG or PNG", "draw"),
-    CATALOG,
-    Command(
-        "simulate",
-        "what a bench would measure on a chain with known parameters",
-        "simulate",
-    ),
-    Command(
-        "dampers",
-        "which sets of dampers to the ground of one model can be told apart",
-        "dampers",
-    ),
-    Command(
-        "schema",
-        "what is in the JSON files that disting writes, as JSON Schema",
-        "upkeep",
-        "print_schema",
-        "add_schema_arguments",
-    ),
-    CACHE,
-    Command("doctor", "what is installed, and what else would help", "upkeep", "doctor", ""),
+LOOK = Command(
+    "look",
+    "show how a file is read; fit nothing",
+    "look",
+    add="add_look_arguments",
+    arguments="fit_arguments",
 )
+FIT = Command(
+    "fit",
+    "find the structures that explain a measured frequency response",
+    "fit",
+    arguments="fit_arguments",
+    brief="BRIEF",
+)
+PLAN = Command(
+    "plan",
+    "how long to measure to tell two structures apart",
+    "plan",
+    arguments="plan_arguments",
+)
+SCHEMA = Command(
+    "schema",
+    "describe the JSON files that disting writes, as JSON Schema",
+    "upkeep",
+    "print_schema",
+    "add_schema_arguments",
+)
+SECTIONS: dict[str, tuple[Command | Group, ...]] = {
+    "measure and fit": (
+        LOOK,
+        FIT,
+        Command("next", "which experiment tells apart structures that look the same", "next"),
+        PLAN,
+        Command("simulate", "simulate a measurement of a model with known values", "simulate"),
+    ),
+    "models": (
+        Command("models", "list the models of one size, or your own models in a file", "models"),
+        Command("compare", "decide whether two models can be told apart", "compare"),
+        Command(
+            "equivalents",
+            "find all parameters of other models with the same transfer function",
+            "equivalents",
+        ),
+        Command("verdicts", "decide all pairs of one size, several sizes, or a file", "verdicts"),
+        Command("verify", "check a verdict again from its evidence", "verify"),
+        Command("dampers", "decide between sets of ground dampers of one model", "dampers"),
+        Command("draw", "draw a model as SVG or PNG", "draw"),
+        Command("report", "write HTML pages, figures and tables", "report"),
+    ),
+    "maintenance": (
+        CATALOG,
+        CACHE,
+        SCHEMA,
+        Command("doctor", "show what is installed, and what is missing", "upkeep", "doctor", ""),
+    ),
+}
+"""The commands as `disting --help` groups them."""
+COMMANDS = tuple(command for section in SECTIONS.values() for command in section)

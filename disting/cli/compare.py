@@ -33,12 +33,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "the other model, of the same or another size"
     parser.add_argument("right", metavar="M:J", help=text)
     add_damped(parser)
+    add_also(parser)
+    add_json(parser, "the verdict with all that 'disting verify' needs", alone=True)
     add_quantity(parser)
     add_deciding(parser)
     text = "look only at models within this range of a parameter, of both models; may be repeated"
     add_bounds(parser, text)
-    add_also(parser)
-    add_json(parser, "the verdict with all that 'disting verify' needs", alone=True)
     add_notation(parser)
     add_no_cache(parser)
 

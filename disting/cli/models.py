@@ -56,6 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     metavar = "N|FILE.json|FAMILY|NETWORK"
     parser.add_argument("masses", type=size_list_or_text, metavar=metavar, help=text)
+    add_damped(parser)
     parser.add_argument(
         "--identifiability",
         action="store_true",
@@ -71,7 +72,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "parameters over which it is said (default: positive, those of a machine)"
     parser.add_argument("--domain", choices=DOMAINS, default=Domain.POSITIVE.value, help=text)
     add_notation(parser)
-    add_damped(parser)
     add_work(parser)
     kinds = "; ".join(f"{k.name}-{_numbers(k)}: {k.text}" for k in KINDS.values())
     parser.epilog = (

@@ -63,7 +63,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         " fit --json': the structures that the fit left"
     )
     parser.add_argument("models", nargs="+", metavar="N:I|NETWORK|FIT.json", help=text)
-    add_notation(parser)
+    add_damped(parser)
     defaults = ",".join(f"{name}={cost:g}" for name, cost in COSTS.items())
     more = " and ".join(price for price in PRICES if price not in COSTS)
     text = (
@@ -76,7 +76,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
     text = "write the menu with its answers as JSON; - is standard output"
     parser.add_argument("--json", type=written_file, metavar="FILE", help=text)
-    add_damped(parser)
+    add_notation(parser)
     add_work(parser)
 
 

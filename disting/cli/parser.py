@@ -8,9 +8,8 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
-from disting.cli.commands import COMMANDS, Command, Group
+from disting.cli.commands import COMMANDS, SECTIONS, Command, Group
 from disting.cli.output import complain
-from disting.conditions.rule import RULES
 from disting.errors import LONGEST_ECHO, short
 from disting.files import __version__
 
@@ -32,12 +31,19 @@ def parser(*, whole: bool = True) -> argparse.ArgumentParser:
     """
     top = _Parser(
         prog="disting",
+        usage="disting [-h] [--version] COMMAND ...",
         description=DESCRIPTION,
         epilog=epilog(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action="version", version=f"disting {__version__}")
-    commands = top.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
+    commands = top.add_subparsers(
+        prog="disting",
+        required=True,
+        metavar="COMMAND",
+        parser_class=_Parser,
+        help=argparse.SUPPRESS,
+    )
     for command in COMMANDS:
         if isinstance(command, Command):
             _add_command(commands, command, whole)
@@ -49,19 +55,21 @@ def parser(*, whole: bool = True) -> argparse.ArgumentParser:
 BEGIN = """begin with:
   a measurement  disting fit FILE.csv, or disting fit --demo without one
   a machine      disting report 3, and "Describe your machine" on the page it writes
-  two models     disting compare 3:1 3:11
-"""
+  two models     disting compare 3:1 3:11"""
 
 
 def epilog() -> str:
-    """Where to begin, the conditions, and what exit statuses mean."""
-    rows = (f"  {r.name}  {r.title}: {r.text}" for r in RULES.values() if r.is_condition)
-    return "\n".join([BEGIN, "conditions that verdicts name:", *rows, "", STATUS])
+    """The commands by subject, where to begin, and what exit statuses mean."""
+    lists = [
+        f"{title}:\n" + "\n".join(f"  {c.name:<13}{c.text}" for c in commands)
+        for title, commands in SECTIONS.items()
+    ]
+    return "\n\n".join([*lists, BEGIN, f"disting COMMAND --help shows its options.\n{STATUS}"])
 
 
-def _add_command(to: Subparsers, command: Command, whole: bool) -> None:
+def _add_command(to: Subparsers, command: Command, whole: bool, **listed: str) -> None:
     text = command.text
-    p = to.add_parser(command.name, help=text, description=text[0].upper() + text[1:] + ".")
+    p = to.add_parser(command.name, description=text[0].upper() + text[1:] + ".", **listed)
     p.set_defaults(command=command)
     p.undeclared = command
     if whole:
@@ -69,10 +77,10 @@ def _add_command(to: Subparsers, command: Command, whole: bool) -> None:
 
 
 def _add_group(to: Subparsers, group: Group, whole: bool) -> None:
-    p = to.add_parser(group.name, help=group.text, description=group.description)
+    p = to.add_parser(group.name, description=group.description)
     actions = p.add_subparsers(required=True, metavar="ACTION", parser_class=_Parser)
     for command in group.commands:
-        _add_command(actions, command, whole)
+        _add_command(actions, command, whole, help=command.text)
 
 
 class _Parser(argparse.ArgumentParser):

@@ -23,7 +23,6 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument("model", metavar="N:I|NETWORK|FIT.json", help=text)
     text = "the structure to exclude (with FIT.json: each that it names)"
     p.add_argument("rival", nargs="?", metavar="M:J|NETWORK", help=text)
-    add_notation(p)
     _data(p)
     text = (
         "write figure, spectrum to run, lines and JSON there; of FIT.json a page with those of each"
@@ -32,6 +31,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument("--out", type=written_folder, metavar="DIR", help=text)
     add_json(p, "the plan")
     add_damped(p)
+    add_notation(p)
     add_work(p)
 
 

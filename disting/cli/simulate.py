@@ -49,6 +49,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         " first sensor and the second input goes to FILE-1-2",
     )
     add_damped(p)
+    add_notation(p)
 
 
 def _drive(p: argparse.ArgumentParser) -> None:
@@ -61,7 +62,6 @@ def _drive(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "model", nargs="?", metavar="N:I|NETWORK", help=f"{text} (default: a small two-mass drive)"
     )
-    add_notation(p)
     text = (
         "values of all parameters of the model, such as m1=0.01,k12=500; of a circuit they may"
         " stand in braces, such as R{R=20}"

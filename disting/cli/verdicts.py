@@ -60,16 +60,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"number of masses, or several sizes such as 1-4 in one matrix, or a file, or {LISTS}",
     )
     add_damped(parser)
+    text = "write the verdicts as CSV; - is standard output"
+    parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
+    add_json(parser, "the verdicts with evidence")
     add_quantity(parser)
-    add_work(parser)
     add_deciding(parser)
     text = "which may decide (default: all)"
     parser.add_argument("--representation", choices=VIEWS, default="all", help=text)
     text = "use G_0 and G_1..G_K (default: all that are needed)"
     parser.add_argument("--markov", type=whole(1), default=0, metavar="K", help=text)
-    text = "write the verdicts as CSV; - is standard output"
-    parser.add_argument("--csv", type=written_file, metavar="FILE", help=text)
-    add_json(parser, "the verdicts with evidence")
+    add_work(parser)
 
 
 def run(options: argparse.Namespace) -> int:

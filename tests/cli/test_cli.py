@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from disting.cli.commands import COMMANDS, Group
+from disting.cli.commands import COMMANDS, SECTIONS, Group
 from tests.cli.process import called, disting, rows
 
 
@@ -162,7 +162,18 @@ def test_help_on_everything():
     for command in names:
         done = called(*command.split(), "--help")
         assert done.returncode == 0 and "usage: disting" in done.stdout
-    assert "9  supermodel" in called("--help").stdout
+    assert "9  supermodel" in called("compare", "--help").stdout
+
+
+def test_the_list_of_commands_is_short_and_by_subject():
+    lines = called("--help").stdout.splitlines()
+    assert len(lines) < 45
+    assert [line for line in lines if line in {f"{title}:" for title in SECTIONS}] == [
+        "measure and fit:",
+        "models:",
+        "maintenance:",
+    ]
+    assert all(sum(line.startswith(f"  {c.name} ") for line in lines) for c in COMMANDS)
 
 
 def test_catalog_build_and_verify(tmp_path):

@@ -132,7 +132,7 @@ def test_its_verdict_is_verified(folder, pair, rule, relation):
 
 
 def test_it_is_told_everywhere(folder):
-    assert "10  a matter of course: both are models" in run(folder, "--help")
+    assert "10  a matter of course: both are models" in run(folder, "compare", "--help")
     assert "1 by the mark" in run(
         folder, "verdicts", "3", "--damped", "--no-cache", "--domain", "complex"
     )
