@@ -22,6 +22,7 @@ CHEAP = tuple(
         "compare 4:",
         'compare "',
         "fit cell.csv",
+        "fit --demo",
         "equivalents",
         "dampers 3:",
         "verdicts",
