@@ -3,6 +3,7 @@ PNG to the pixel.
 """
 
 import io
+import re
 import shutil
 from pathlib import Path
 
@@ -21,6 +22,18 @@ pytestmark = pytest.mark.full
 
 REPORTS = Path(__file__).parents[2] / "reports"
 REMEDY = "run: disting report 1 2 3 4 5"
+# what `reports/.gitignore` leaves to that command
+LEFT_OUT = re.compile(
+    r"models/\d-(?:un)?damped/(?!1\.)\d+\.html|chains-[45]-\w+\.json|chains-5-\w+-matrix\.svg"
+    r"|dampers-5-\w+\.html|(?:motion|next)-[45]-\w+\.html"
+)
+
+NOT_KEPT = [
+    f"{kind}-{n}-{damping}.html"
+    for kind, sizes in (("dampers", (5,)), ("motion", (4, 5)), ("next", (4, 5)))
+    for n in sizes
+    for damping in ("damped", "undamped")
+]
 
 
 def others(folder: Path) -> set[str]:
@@ -42,6 +55,16 @@ def written_anew(folder: Path) -> dict[str, Path]:
     return {p.relative_to(folder).as_posix(): p for p in paths}
 
 
+def wrong(fresh: dict[str, Path]) -> list[str]:
+    """Files that the repository lacks or has otherwise; those left out may be there or not."""
+    return [
+        name
+        for name, new in fresh.items()
+        if not ((REPORTS / name).is_file() and is_current(new, REPORTS / name))
+        and not (LEFT_OUT.fullmatch(name) and not (REPORTS / name).exists())
+    ]
+
+
 def is_current(new: Path, stored: Path) -> bool:
     """Equal bytes; of a PNG nearly equal pixels, because letters may differ a little between
     Pillow versions.
@@ -57,7 +80,7 @@ def is_current(new: Path, stored: Path) -> bool:
 
 def test_files_of_a_small_family_are_current(tmp_path: Path) -> None:
     """Beside the other pages, to which they lead. All files: by hand."""
-    for page in (*(path.name for path in REPORTS.glob("*.html")), *others(REPORTS)):
+    for page in (*(path.name for path in REPORTS.glob("*.html")), *others(REPORTS), *NOT_KEPT):
         (tmp_path / page).parent.mkdir(exist_ok=True)
         (tmp_path / page).touch()
     shutil.copytree(REPORTS / "notebooks", tmp_path / "notebooks")
@@ -67,7 +90,7 @@ def test_files_of_a_small_family_are_current(tmp_path: Path) -> None:
     del fresh["index.html"]  # leads to the other pages too
     del fresh["search.js"]  # finds the models of the other pages too
     assert len([name for name in fresh if not name.startswith("guide/")]) == 20
-    assert [name for name, p in fresh.items() if not is_current(p, REPORTS / name)] == [], REMEDY
+    assert wrong(fresh) == [], REMEDY
 
 
 @pytest.mark.slow
@@ -77,7 +100,7 @@ def test_generated_files_are_current(tmp_path: Path) -> None:
         p.relative_to(REPORTS).as_posix()
         for kind in ("*", "guide/*", "models/**/*")
         for p in REPORTS.glob(kind)
-        if p.is_file()
+        if p.is_file() and p.name != ".gitignore"
     }
-    assert set(fresh) == stored - (others(REPORTS) - set(fresh)), REMEDY
-    assert [name for name, p in fresh.items() if not is_current(p, REPORTS / name)] == [], REMEDY
+    assert stored - (others(REPORTS) - set(fresh)) <= set(fresh), REMEDY
+    assert wrong(fresh) == [], REMEDY

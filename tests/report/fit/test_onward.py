@@ -28,7 +28,7 @@ LOADED = Chain(3, damped=True, ground_dampers=(1, 3))
             Link("3:1+b1+b3", "dampers-3-damped.html#1+b1+b3"),
         ),
         (replace(LOADED, ground_dampers=(), dead_time=True), Link("3:1", "models/3-damped/1.html")),
-        (Chain(3, meas_plus=3, damped=False), Link("3:3", "models/3-undamped/3.html")),
+        (Chain(3, damped=False), Link("3:1", "models/3-undamped/1.html")),
         (DRIVE, Link("2:1", "models/2-damped/1.html")),  # no page of ground dampers for 2 masses
     ],
 )
