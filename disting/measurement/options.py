@@ -66,7 +66,7 @@ class LookOptions(_Shown, _Columns, _Clock, total=False):
     output: str | int
     to: Sensor | str
     period: int
-    transient: int
+    transient: int | None
     lines: Sequence[float]
     band: tuple[float, float]
     segment: int

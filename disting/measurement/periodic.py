@@ -33,6 +33,7 @@ from disting.measurement.method import Method
 from disting.measurement.nonlinear import from_unexcited
 from disting.measurement.repeats import leave_out
 from disting.measurement.response import FrequencyResponse
+from disting.measurement.transient import holds_transient
 from disting.measurement.trend import Trend, trend_between_periods, trend_of_one_period
 from disting.model.presentation import plural
 
@@ -49,6 +50,12 @@ Detrend = tuple[Callable[[Trend], str], Callable[[Trend], str]]
 WANDERING = (
     "the output wanders: its spectra are those of its changes; --read trend=keep takes them of it"
 )
+PAIR = 2  # periods of which the first one is kept where it shows no transient
+DECAYS = (
+    "the first of two periods is dropped: it differs from the second one by what decays, a"
+    " transient; --read transient=0 keeps it"
+)
+SETTLED = "both periods are used: the first one shows no transient; --read transient=1 drops it"
 OFF_GRID = 1e-3  # of the line spacing, by which a given frequency may miss its line
 
 
@@ -57,7 +64,7 @@ def estimate(
     y: Real,
     rate: float,
     period: int | None,
-    transient: int,
+    transient: int | None,
     lines: Any,
     band: tuple[float, float] | None,
     excitation: Real,
@@ -65,7 +72,8 @@ def estimate(
     detrend: Detrend | None = None,
 ) -> FrequencyResponse:
     """Response at the excited lines; `rate` [Hz], `period` [samples], `lines` and `band` [Hz];
-    `excitation` = u or a reference; `outliers` among the periods as in
+    `excitation` = u or a reference; `transient` = periods dropped at the beginning (None: the
+    first one, of two periods only if it shows a transient); `outliers` among the periods as in
     `repeats.mean_of`; `detrend`: describes a trend of input or output, None to keep trends.
 
     Means over periods forget the noise that a controller feeds back, so G holds in closed loop as
@@ -74,7 +82,9 @@ def estimate(
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     detected = f"period of {length} samples ({length / rate:g} s) detected in the input"
     notes = [detected] if period is None else []
-    start, whole = _whole(transient, "transient", 0) * length, y
+    transient, said = _dropped(transient, y, length)
+    notes += [said] if said else []
+    start, whole = transient * length, y
     u, y, excitation = (_whole_periods(x, length, transient) for x in (u, y, excitation))
     before = float(whole[start - 1]) if start else None
     exciting = _spectra(excitation, length)
@@ -245,6 +255,17 @@ def _without_trends(
     ahead, *trend = of_output.samples(len(y), 1)
     before = None if before is None else before - ahead
     return u - of_input.samples(len(u)), y - np.array(trend), before, notes
+
+
+def _dropped(transient: int | None, y: Real, period: int) -> tuple[int, str]:
+    """Number of periods to drop at the beginning, and a note where two periods decide it."""
+    if transient is not None:
+        return _whole(transient, "transient", 0), ""
+    if len(y) // period != PAIR:
+        return 1, ""
+    if holds_transient(y[:period], y[period : 2 * period]):
+        return 1, DECAYS
+    return 0, SETTLED
 
 
 def _whole_periods(x: Real, period: int, transient: int) -> Real:

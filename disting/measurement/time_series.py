@@ -106,7 +106,7 @@ class TimeSeries:
         quantity: Sensor | str | None = None,
         *,
         period: int | None = None,
-        transient: int = 1,
+        transient: int | None = None,
         lines: Any = None,
         band: tuple[float, float] | None = None,
         segment: int | None = None,
@@ -119,7 +119,8 @@ class TimeSeries:
         that of the record).
 
         Periodic excitation (module `periodic`): `period` [samples], detected where not given;
-        `transient` = periods dropped at the beginning; `lines` = excited frequencies [Hz],
+        `transient` = periods dropped at the beginning (default: the first one; of two periods only
+        if it shows a transient); `lines` = excited frequencies [Hz],
         detected where not given; `outliers` among the periods as in `mean_of`. Any other
         excitation: `segment` [samples] of Welch's method (module `welch`), which is used exactly
         where `segment` is given; lines of a coherence below `least_coherence` are left out then

@@ -8,8 +8,9 @@ import scipy.signal
 from hypothesis import given, strategies as st
 
 from disting.errors import InputError
-from disting.measurement import TimeSeries
+from disting.measurement import TimeSeries, periodic
 from disting.measurement.periodic import detected_period, excited_lines
+from disting.measurement.transient import holds_transient
 from disting.model.chain import Sensor
 
 RATE, PERIOD = 1000.0, 500
@@ -53,6 +54,29 @@ def test_the_transient_is_dropped():
     y[PERIOD:] = filtered(u)[PERIOD:]
     y[:PERIOD] = np.random.default_rng(1).normal(size=PERIOD)
     assert abs(TimeSeries(u, y, RATE).response(transient=0).G / good.G - 1).max() > 1e-3
+
+
+@pytest.mark.parametrize(("size", "periods"), [(0.0, 2), (0.02, 1), (1.0, 1)])
+def test_the_first_of_two_periods_is_dropped_where_it_shows_a_transient(size, periods):
+    """Kept, it gives the scatter of the lines."""
+    u = multisine(periods=2)
+    time = np.arange(len(u))
+    y = filtered(u) + 0.002 * np.random.default_rng(3).normal(size=len(u))
+    y += size * np.exp(-time / 100) * np.cos(0.2 * time)
+    found = TimeSeries(u, y, RATE).response()
+    assert found.method.periods == periods and (found.deviation is None) == (periods == 1)
+    assert (periodic.SETTLED if periods == 2 else periodic.DECAYS) in found.notes
+    assert TimeSeries(u, y, RATE).response(transient=0).method.periods == 2
+    assert abs(found.G / (0.5 * np.exp(-3j * found.omega / RATE)) - 1).max() < 0.01
+
+
+def test_two_periods_of_noise_are_rarely_taken_for_a_transient():
+    draw = np.random.default_rng(4)
+    resonant = scipy.signal.lfilter([1], [1, -1.98, 0.9801], draw.normal(size=(200, 2400)))[:, 400:]
+    seen = [holds_transient(x[:1000], x[1000:]) for x in resonant]
+    assert sum(seen) <= 12
+    decay = np.exp(-np.arange(1000) / 100) * resonant.std() * 20
+    assert sum(holds_transient(x[:1000] + decay, x[1000:]) for x in resonant) >= 150
 
 
 def test_conversion_and_sign():
