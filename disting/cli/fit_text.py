@@ -12,11 +12,10 @@ from disting.fit.judge.members import Disagreement, Member
 from disting.fit.judge.modes import Result, physical
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
-from disting.measurement.linearity import NOT_COUNTED
 from disting.measurement.look_text import short_lines
 from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
-from disting.report.fit.doubts import hold, limits_in_words
+from disting.report.fit.doubts import hold, limits_in_words, not_counted
 from disting.report.fit.links import commands, new_names
 from disting.report.fit.look_alikes import look_alike_sentences
 from disting.report.fit.mechanics_words import actuators_in_words, fold_names
@@ -64,7 +63,7 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from _described(selection, train)
     yield from _excluded(selection)
     yield from _relied_on(selection)
-    if selection.selected and selection.explanation.explains:
+    if selection.selected and selection.explanation.is_near:
         yield ""
         yield from _alternatives(selection)
     yield from look_alike_sentences(selection)
@@ -110,8 +109,9 @@ def _side_by_side(selection: Selection) -> Iterator[str]:
 
 def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The selected structure, or the best one, with its values."""
-    chain, explains = selection.described.chain, selection.explanation.explains
-    what = "selected" if explains else "the best one, which does not explain the data"
+    chain, said = selection.described.chain, selection.explanation
+    short = "the best one, which does not explain the data"
+    what = "selected" if said.explains else f"{short}{' fully' * said.is_near}"
     yield (
         f"{what if selection.selected else 'the best one'}: {name_of(chain)}"
         f"   {text_drawing(chain)}"
@@ -124,7 +124,7 @@ def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     only = hold(selection)
     results = physical(selection.described, selection.task)
     yield from (f"  {line}{' *' * bool(only)}" for line in _results(results, train))
-    yield from [f"  * {only}: {NOT_COUNTED}"] * bool(only)
+    yield from [f"  * {only}: {not_counted(selection)}"] * bool(only)
 
 
 def _lines(selection: Selection) -> str:

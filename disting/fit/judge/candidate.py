@@ -99,7 +99,7 @@ class Candidate:
         return len(self.practical.names)
 
     def explains(self, seen: Scatter) -> bool:
-        """True if it explains the judged data, which scatter so, perhaps apart from something."""
+        """True if it explains the judged data, which scatter so, apart from something or nearly."""
         return level_of(self.chi2, self.chi2_apart, self.worst_apart, seen) is not Level.NOT
 
     @property
@@ -148,8 +148,8 @@ def judge(
 
 
 def explains(estimate: Estimate, task: Task, most: Real) -> bool:
-    """Return True if an estimate explains the data as `unseen_explanation` has it."""
-    return unseen_explanation(estimate, task, most).explains
+    """Return True if an estimate explains the data, or nearly, as `unseen_explanation` has it."""
+    return unseen_explanation(estimate, task, most).is_near
 
 
 def unseen_explanation(estimate: Estimate, task: Task, most: Real) -> Explanation:

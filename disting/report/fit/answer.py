@@ -214,6 +214,8 @@ def _title(selection: Selection) -> str:
         return f"{best}: this explains the measurement"
     if selection.explanation.explains:
         return f"{best}: this explains the measurement apart from a part that it misses"
+    if selection.explanation.is_near:
+        return f"No fitted structure explains the measurement fully; near it: {best}"
     if selection.explanation.noisy:
         return "The measurement is mostly noise"
     if selection.explanation.too_few:

@@ -8,7 +8,7 @@ import numpy as np
 
 from disting.files import Format
 from disting.fit.judge.candidate import Candidate
-from disting.fit.judge.explanation import Explanation, Level, explanations
+from disting.fit.judge.explanation import STATUS, Explanation, explanations
 from disting.fit.judge.mechanics import Folded, fold
 from disting.fit.judge.members import Member
 from disting.fit.judge.quantity import QuantityReading
@@ -22,12 +22,6 @@ from disting.report.fit.doubts import hold
 from disting.report.fit.look_alikes import look_alikes_to_dict
 from disting.report.fit.quality import quality_remarks
 from disting.report.fit.sentences import first_lines, places, suspicions
-
-STATUS = {
-    Level.EXPLAINS: "explained",
-    Level.APART: "explained apart from misses",
-    Level.NOT: "not explained",
-}
 
 
 def selection_to_dict(selection: Selection) -> dict[str, Any]:

@@ -240,7 +240,7 @@ def _choice(selection: Selection) -> str:
     """Why the selected candidate and not the one with the lowest cost."""
     if selection.selected is None:
         return ""
-    if not selection.explanation.explains:
+    if not selection.explanation.is_near:
         return "No candidate explains the data; the selected one has the lowest cost."
     out = sum(c.excluded is not None for c in selection.candidates)
     left, more = plural(len(selection.members), "candidate"), len(selection.containing)
