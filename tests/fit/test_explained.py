@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from jsonschema import validate
 
 from disting.cli.fit_text import fit_text
+from disting.files import Format, schema
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.explanation import (
     LARGEST,
@@ -254,6 +256,7 @@ def test_a_structure_that_comes_near_the_data_of_another_one_decides_nothing():
     assert "--base" in more and '--models "1=2, 1=3; F1; S1"' in more
     assert (plain["status"], plain["explained"]) == ("not explained fully", False)
     assert plain["values_hold"] == "as an approximation only"
+    validate(plain, schema(Format.FIT))
     assert [m["name"] for m in plain["not_excluded"]] == ["3:1+b1"]
     text = list(fit_text(found, found.task.cost.measured))
     values = [line for line in text if " = " in line and " ± " in line]

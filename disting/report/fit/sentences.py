@@ -27,7 +27,7 @@ from disting.report.fit.doubts import (
     unseen,
     weak,
 )
-from disting.report.fit.look_alikes import look_alike_clause
+from disting.report.fit.look_alikes import exchange_clause, look_alike_clause
 from disting.report.fit.mechanics_words import (
     actuators_in_words,
     fold_names,
@@ -219,7 +219,8 @@ def _structure(selection: Selection) -> Iterator[str]:
     else:
         yield from _common(selection)
         yield f"{_verdict(selection)}{_standing(selection, ',')}"
-    twins = len({twin.name for m in selection.members for twin in m.twins})
+    yield from exchange_clause(selection)
+    twins = len({twin.name for m in selection.members for twin in m.twins if twin.name != m.name})
     if twins:
         yield f"{twins} more behave{'s' * (twins == 1)} exactly as one of these"
     yield from look_alike_clause(selection)
