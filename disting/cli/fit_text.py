@@ -1,10 +1,11 @@
 """What disting fit prints: three lines, what is not excluded, then criteria and parameters."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import isfinite
 from typing import Any
 
 from disting.fit.judge.admissible import FROM_ZERO, UNDETERMINED
+from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import explanations
 from disting.fit.judge.mechanics import Folded, Line, fold
@@ -12,13 +13,12 @@ from disting.fit.judge.members import Disagreement, Member
 from disting.fit.judge.modes import Result, physical
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
-from disting.measurement.linearity import NOT_COUNTED
 from disting.measurement.look_text import short_lines
 from disting.model.chain import Chain, text_drawing
 from disting.report.fit.criteria import HEADS, columns
-from disting.report.fit.doubts import hold, limits_in_words
+from disting.report.fit.doubts import hold, limits_in_words, not_counted
 from disting.report.fit.links import commands, new_names
-from disting.report.fit.look_alikes import look_alike_sentences
+from disting.report.fit.look_alikes import exchanged, is_other, look_alike_sentences
 from disting.report.fit.mechanics_words import actuators_in_words, fold_names
 from disting.report.fit.sentences import (
     first_lines,
@@ -64,7 +64,7 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from _described(selection, train)
     yield from _excluded(selection)
     yield from _relied_on(selection)
-    if selection.selected and selection.explanation.explains:
+    if selection.selected and selection.explanation.is_near:
         yield ""
         yield from _alternatives(selection)
     yield from look_alike_sentences(selection)
@@ -110,21 +110,25 @@ def _side_by_side(selection: Selection) -> Iterator[str]:
 
 def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The selected structure, or the best one, with its values."""
-    chain, explains = selection.described.chain, selection.explanation.explains
-    what = "selected" if explains else "the best one, which does not explain the data"
+    chain, said = selection.described.chain, selection.explanation
+    short = "the best one, which does not explain the data"
+    what = "selected" if said.explains else f"{short}{' fully' * said.is_near}"
     yield (
         f"{what if selection.selected else 'the best one'}: {name_of(chain)}"
         f"   {text_drawing(chain)}"
     )
     yield from [f"  {new_names(selection)}"] if new_names(selection) else []
+    yield from ["  or: another set of values, with the same response"] * bool(exchanged(selection))
     yield f"  {fit_in_words(selection, train, None if selection.test is train else selection.test)}"
     yield from (f"  {line}" for line in _each(selection))
     yield from (f"  {line}" for line in _parameters(selection))
     yield ""
     only = hold(selection)
-    results = physical(selection.described, selection.task)
-    yield from (f"  {line}{' *' * bool(only)}" for line in _results(results, train))
-    yield from [f"  * {only}: {NOT_COUNTED}"] * bool(only)
+    first, *others = (
+        physical(c, selection.task) for c in (selection.described, *exchanged(selection))
+    )
+    yield from (f"  {line}{' *' * bool(only)}" for line in _results(first, others, train))
+    yield from [f"  * {only}: {not_counted(selection)}"] * bool(only)
 
 
 def _lines(selection: Selection) -> str:
@@ -274,7 +278,7 @@ def _index(value: float) -> str:
 
 
 def _parameters(selection: Selection) -> Iterator[str]:
-    c = selection.described
+    c, others = selection.described, exchanged(selection)
     apart = {d.name: d for m in selection.members[:1] for d in m.disagreements}
     wide = selection.members[0].intervals if selection.members else {}
     mark = " *" * bool(hold(selection))
@@ -286,6 +290,7 @@ def _parameters(selection: Selection) -> Iterator[str]:
             said = f"{limits_in_words(*wide[name])}{mark}"
         else:
             said = "not determined" if not error <= UNDETERMINED else f"± {percent(error)}{mark}"
+            said += "".join(_or(other, name, value) for other in others)
         yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
 
 
@@ -295,11 +300,25 @@ def _flag(disagreement: Disagreement) -> str:
     )
 
 
-def _results(results: tuple[Result, ...], measured: FrequencyResponse) -> Iterator[str]:
+def _or(other: Candidate, name: str, value: float) -> str:
+    """The value of a parameter in another set of values."""
+    there, error = other.estimate.parameters[name], other.practical.relative_errors[name]
+    return f" or {there:.6g} ± {percent(error)}" if is_other(there, value) else ""
+
+
+def _results(
+    results: tuple[Result, ...],
+    others: Sequence[tuple[Result, ...]],
+    measured: FrequencyResponse,
+) -> Iterator[str]:
+    """Physical results, with those of other sets of values where they differ."""
     width = max(len(r.name) for r in results)
-    for r in results:
-        value = with_error(r.value, r.standard_error)
-        yield f"{r.name:{width}}  {value} {result_unit(r, measured)}".rstrip()
+    for r, *rest in zip(results, *others, strict=True):
+        values = [with_error(r.value, r.standard_error)]
+        values += [
+            with_error(x.value, x.standard_error) for x in rest if is_other(x.value, r.value)
+        ]
+        yield f"{r.name:{width}}  {' or '.join(values)} {result_unit(r, measured)}".rstrip()
 
 
 def _alternatives(selection: Selection) -> Iterator[str]:

@@ -222,8 +222,8 @@ def _judged(
         basis=basis_of(columns),
         noise=own_noise,
         columns=columns,
-        explains=seen.explains,
-        apart=seen.level is Level.APART,
+        explains=seen.is_near,
+        apart=seen.size_level is Level.APART,
         misses=seen.misses,
     )
 

@@ -209,7 +209,7 @@ def _selection(
         work.executor,
         work.progress,
     )
-    if quantities and chosen.explanation.explains:  # nothing is said before somebody names it
+    if quantities and chosen.explanation.is_near:  # nothing is said before somebody names it
         chosen = replace(chosen, selected=None, left=(), better=())
     whole, containing = _members(fits, chosen, work)
     return Selection(
@@ -258,7 +258,7 @@ def _members(
     fits: Fits, chosen: Choice, work: Work
 ) -> tuple[tuple[Member, ...], tuple[Member, ...]]:
     """What the data do not exclude: those that contain no other one, and those that do."""
-    kept = chosen.left if chosen.explanation.explains else ()
+    kept = chosen.left if chosen.explanation.is_near else ()
     within = limits_of(fits.task.bounds, fits.task.fixed)
     left = members(kept, fits.task, fits.test, fits.known, within, work.executor, work.progress)
     return tuple(m for m in left if m.contains is None), tuple(m for m in left if m.contains)
@@ -304,7 +304,7 @@ def _alternatives(
 
 def _readings(fits: Fits, said: Explanation, work: Work) -> tuple[Reading, ...]:
     """What the data would be where the fits do not explain them."""
-    if said.explains or said.noisy or not fits.searched or isinstance(fits.search.cost, JointCost):
+    if said.is_near or said.noisy or not fits.searched or isinstance(fits.search.cost, JointCost):
         return ()
     store, executor, progress = work.engine.store, work.executor, work.progress
     return readings(fits.searched, fits.search, store=store, executor=executor, progress=progress)

@@ -9,15 +9,18 @@ from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
+from jsonschema import validate
 
 from disting import identifiability
 from disting.cli.fit_text import fit_text
 from disting.equivalence import equivalents
 from disting.errors import InputError
 from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.files import Format, schema
 from disting.fit.judge.alternatives import alternatives, representatives
 from disting.fit.judge.look_alikes import LookAlikeKind, base_is_the_same, look_alikes
 from disting.fit.judge.members import twins
+from disting.fit.judge.modes import physical
 from disting.fit.judge.near_base import near_bases
 from disting.fit.search.candidates import on_elastic_bases
 from disting.fit.search.plant import Plant
@@ -29,11 +32,15 @@ from disting.model.names import chain_of_whole_name, is_whole_name, name_of
 from disting.network.chains import of_chain
 from disting.network.element import Element, Port
 from disting.network.network import Network
+from disting.report.fit import fit_page
+from disting.report.fit.answer import result_row
 from disting.report.fit.selection_json import selection_to_dict
+from disting.report.fit.sentences import first_lines
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation
+from tests.fit.drives import response as noisy_response
 
 OMEGA = 2 * np.pi * np.geomspace(1, 2000, 60)
 VALUES = {
@@ -414,3 +421,40 @@ def test_a_drive_with_bearing_friction_on_a_base_is_found(tmp_path):
     text, plain = fitted(tmp_path, 1 / (inverse + 0.05 * S), [*chains, *bases])
     assert plain["explained"] and plain["selected"]["gap_damper"]
     assert "d12 is the friction between them" in text
+
+
+TWO_ON_BASE = Chain(3, 1, 1, 2, 1, 2, Sensor.POSITION, damped=True)
+HOUSED = {
+    "m1": 4.0, "m2": 1.0, "m3": 0.6, "k01": 6e4, "k23": 3e4, "d01": 20.0, "d23": 4.0,
+}  # fmt: skip
+
+
+@pytest.mark.full
+def test_which_resonance_is_that_of_the_base_is_not_decided():
+    """Both sets of values have exactly the same response: none is given alone."""
+    measured = noisy_response(TWO_ON_BASE, HOUSED, noise=0.003, seed=1)
+    found = select(measured, [TWO_ON_BASE])
+    first = found.members[0]
+    (other,) = first.exchanged
+    both = [first.candidate.estimate.parameters, other.estimate.parameters]
+    plant = Plant(TWO_ON_BASE.structure, measured.omega, 1)
+    one, two = (plant.response(np.array(list(values.values()))) for values in both)
+    assert two == pytest.approx(one, rel=1e-6) and abs(both[0]["m1"] / both[1]["m1"] - 1) > 0.5
+    errors = [c.standard_errors for c in (first.candidate, other)]
+    off = [
+        max(abs(at[n] - v) / error[n] for n, v in HOUSED.items())
+        for at, error in zip(both, errors, strict=True)
+    ]
+    assert min(off) < 4 < max(off)
+    assert all(first.intervals[n][0] <= v <= first.intervals[n][1] for n, v in HOUSED.items())
+    said, text = first_lines(found)[1], "\n".join(fit_text(found, measured))
+    hertz = [f"{np.sqrt(at['k01'] / at['m1']) / 2 / np.pi:.4g}" for at in both]
+    assert f"with its resonance at {hertz[0]} or {hertz[1]} Hz: which one is" in said
+    assert f"{both[0]['m1']:<11.6g} ± " in text and f" or {both[1]['m1']:.6g} ± " in text
+    plain = selection_to_dict(found)
+    assert plain["values_hold"] == "for one of 2 sets with the same response"
+    assert plain["not_excluded"][0]["other_values"][0]["parameters"] == both[1]
+    validate(plain, schema(Format.FIT))
+    rows = [result_row(r, measured).value for r in physical(other, found.task)]
+    page = fit_page(found, physical(found.described, found.task), [], measured)
+    assert f"or {rows[0]}" in page

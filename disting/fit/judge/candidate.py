@@ -2,7 +2,7 @@
 seen, chi2 per line.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from math import inf
 
@@ -99,7 +99,7 @@ class Candidate:
         return len(self.practical.names)
 
     def explains(self, seen: Scatter) -> bool:
-        """True if it explains the judged data, which scatter so, perhaps apart from something."""
+        """True if it explains the judged data, which scatter so, apart from something or nearly."""
         return level_of(self.chi2, self.chi2_apart, self.worst_apart, seen) is not Level.NOT
 
     @property
@@ -148,8 +148,8 @@ def judge(
 
 
 def explains(estimate: Estimate, task: Task, most: Real) -> bool:
-    """Return True if an estimate explains the data as `unseen_explanation` has it."""
-    return unseen_explanation(estimate, task, most).explains
+    """Return True if an estimate explains the data, or nearly, as `unseen_explanation` has it."""
+    return unseen_explanation(estimate, task, most).is_near
 
 
 def unseen_explanation(estimate: Estimate, task: Task, most: Real) -> Explanation:
@@ -199,6 +199,16 @@ def _criteria(estimate: Estimate, task: Task, scatter: Scatter) -> tuple[Practic
     noise = noises(task.cost, residual, sigma, expected_deviation(columns[:, free], sigma))
     chosen = [n for n, is_free in zip(names, free, strict=True) if is_free]
     return practical(columns[:, free], chosen, noise), noise
+
+
+def at_other_values(
+    candidate: Candidate, values: Mapping[str, float], task: Task, scatter: Scatter
+) -> Candidate:
+    """A candidate at other values that give the same response, with the standard errors there."""
+    estimate = replace(candidate.estimate, parameters=dict(values), valleys=())
+    there, noise = _criteria(estimate, task, scatter)
+    practical_there = replace(candidate.practical, relative_errors=there.relative_errors)
+    return replace(candidate, estimate=estimate, practical=practical_there, noise=noise)
 
 
 def _candidate(

@@ -14,10 +14,11 @@ unless zero is near.
 Q may have several valleys, and noise may make another one than the true one the deepest. Where the
 parameters are true, Q there exceeds its minimum by at most the quantile of F of the number of
 parameters, with 95 %, and so does the bottom of their valley. The intervals hold p -+ t s of each
-valley that the search has found and that is no higher.
+valley that the search has found and that is no higher, and of each other set of values with exactly
+the same response.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf, isfinite, log, sqrt
 
@@ -68,8 +69,12 @@ class _Likelihood:
         return sqrt(float(self.spread[at, at]))
 
 
-def intervals(candidate: Candidate, task: Task, scatter: Scatter) -> dict[str, Interval]:
-    """The interval of each fitted parameter; 0 and infinity where it has no end."""
+def intervals(
+    candidate: Candidate, task: Task, scatter: Scatter, same: Sequence[Mapping[str, float]] = ()
+) -> dict[str, Interval]:
+    """The interval of each fitted parameter; 0 and infinity where it has no end. `same`: other
+    values that give the same response.
+    """
     values, errors = candidate.estimate.parameters, candidate.practical.relative_errors
     wide = float(t_distribution.isf(OUTSIDE / 2, scatter.freedom))
     intervals = {n: _about(values[n], wide * e) for n, e in errors.items()}
@@ -82,7 +87,7 @@ def intervals(candidate: Candidate, task: Task, scatter: Scatter) -> dict[str, I
             n: intervals[n] if e <= most else _profiled(about, n, e <= FROM_ZERO)
             for n, e in errors.items()
         }
-    return _with_valleys(about, intervals, wide)
+    return _with_valleys(about, intervals, wide, same)
 
 
 def _about(value: float, relative: float) -> Interval:
@@ -90,15 +95,20 @@ def _about(value: float, relative: float) -> Interval:
 
 
 def _with_valleys(
-    about: _Likelihood, entries: Mapping[str, Interval], wide: float
+    about: _Likelihood,
+    entries: Mapping[str, Interval],
+    wide: float,
+    same: Sequence[Mapping[str, float]],
 ) -> dict[str, Interval]:
-    """Intervals that hold the other valleys too which the data do not exclude."""
+    """Intervals that hold the other valleys too which the data do not exclude, and the values that
+    give the `same` response.
+    """
     task, candidate = about.task, about.candidate
     names, plant = task.names(candidate.chain), task.plant(candidate.chain)
     whole, box = dict(entries), task.box(names)
-    if not (candidate.estimate.valleys and box.free.any()):
+    starts = np.array([*candidate.estimate.valleys, *([x[n] for n in names] for x in same)])
+    if not (starts.size and box.free.any()):
         return whole
-    starts = np.array(candidate.estimate.valleys)
     points, costs = rough(plant, about.whitened, box, starts, ITERATIONS)
     most = about.lowest + about.size * limit(
         int(box.free.sum()), about.known.freedom, level=OUTSIDE

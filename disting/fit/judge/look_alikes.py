@@ -333,6 +333,15 @@ def _named_base(chain: Chain, base: Chain, values: Mapping[str, float]) -> Itera
         yield LookAlike(kind, f"{text} with its resonance at {hertz:.4g} Hz", there)
 
 
+def is_on_base(chain: Chain) -> bool:
+    """Return True if mass 1 is an elastic base, with the force between it and mass 2.
+
+    >>> is_on_base(Chain(3, 1, 1, 2, 1, 2)), is_on_base(Chain(3))
+    (True, False)
+    """
+    return chain.gap == 1 and (chain.act_minus, chain.act_plus) == (1, 2) and chain.collocated
+
+
 def base_text(masses: int) -> str:
     """A drive on an elastic base in words.
 

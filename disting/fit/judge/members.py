@@ -18,7 +18,7 @@ import numpy as np
 from disting.equivalence import Origin, Signs
 from disting.equivalence.search import chain_equivalents
 from disting.fit.judge.alternatives import Limits
-from disting.fit.judge.candidate import Candidate, Scatters
+from disting.fit.judge.candidate import Candidate, Scatters, at_other_values
 from disting.fit.judge.explanation import merge, noises, scatters
 from disting.fit.judge.interval import Interval, intervals
 from disting.fit.judge.joint_verdicts import behaves_alike
@@ -82,6 +82,9 @@ class Member:
     """A structure that the data do not exclude; `open` names those of which it is not known
     whether they do the same; `intervals` of 95 % of its fitted parameters.
 
+    `exchanged`: the candidate at each other set of values with exactly the same response, such as
+    that of a drive on an elastic base of which the other resonance is the base's.
+
     `contains`: the simpler member that it contains, which makes it no rival; equivalents of it are
     not searched. `differs`: frequencies [Hz] at
     which it differs most from the first member, and by how much (0.01 = 1 % or 0.01 rad).
@@ -94,6 +97,7 @@ class Member:
     intervals: dict[str, Interval]
     contains: Chain | None = None
     differs: tuple[tuple[float, float], ...] = ()
+    exchanged: tuple[Candidate, ...] = ()
 
     def __repr__(self) -> str:
         return summary(
@@ -134,17 +138,45 @@ def members(
     for (chain, values, _), both in map_tasks(twins, rows, executor):
         twins_of[chain] = _in_all(chain, values, *both, task)
         progress("equivalents", len(twins_of), len(rows))
+    others = {c.chain: _exchanged(c, twins_of[c.chain][0], task, own_scatters) for c in chosen}
     return tuple(
         Member(
             c,
             *twins_of.get(c.chain, ((), ())),
             disagreements=disagreements(c, task, test) if test and c.chain in twins_of else (),
-            intervals=intervals(c, task, own_scatters[0]) if c.chain in twins_of else {},
+            intervals=_intervals(c, others[c.chain], task, own_scatters)
+            if c.chain in twins_of
+            else {},
             contains=inside[c.chain],
             differs=_differs(left[0], c, test or task.cost, task),
+            exchanged=others.get(c.chain, ()),
         )
         for c in left
     )
+
+
+def _exchanged(
+    candidate: Candidate, the_twins: Sequence[Twin], task: Task, own_scatters: Scatters
+) -> tuple[Candidate, ...]:
+    """The candidate at the other values of its own that give the same response."""
+    form, values = listed_form(candidate.chain), candidate.estimate.parameters
+    sets = (t.parameters for t in the_twins if t.chain == form.chain and not t.free_choices)
+    return tuple(
+        at_other_values(
+            candidate,
+            {n: there.get(form.renaming.get(n, n), v) for n, v in values.items()},
+            task,
+            own_scatters[0],
+        )
+        for there in sets
+    )
+
+
+def _intervals(
+    candidate: Candidate, exchanged: Sequence[Candidate], task: Task, own_scatters: Scatters
+) -> dict[str, Interval]:
+    others = [other.estimate.parameters for other in exchanged]
+    return intervals(candidate, task, own_scatters[0], others)
 
 
 def _contained(candidate: Candidate, left: Sequence[Candidate]) -> Chain | None:

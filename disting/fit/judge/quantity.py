@@ -102,7 +102,7 @@ def quantity_readings(
         best = min(fits, key=lambda fit: _criterion(fit, seen))
         size, said = _criterion(best, seen), unseen_explanation(best, seen, most)
         takes_its_place = imitated and quantity.order == taken.order - 1
-        if said.explains and (size <= before + AS_WELL or takes_its_place):
+        if said.is_near and (size <= before + AS_WELL or takes_its_place):
             others.append((size, QuantityReading(quantity, best, said.chi2)))
     if not others:
         return ()

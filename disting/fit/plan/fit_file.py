@@ -16,6 +16,7 @@ import numpy as np
 
 from disting.errors import InputError, enumeration
 from disting.files import Format, read_json
+from disting.fit.judge.explanation import STATUS, Level
 from disting.fit.results.model_file import (
     FIT_FILE,
     chain_from_dict,
@@ -64,14 +65,14 @@ class Survivor:
 
 @dataclass(frozen=True, slots=True)
 class FitRecord:
-    """`explained`: whether the selected structure explains the data; `same`: names of what behaves
-    the same, with the reason; `rivals` with their fitted values, none of those that were not
-    fitted; `left`: the structures that the data leave, the selected one first; `scatter` of a line;
-    `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell; `responses`:
-    how many were fitted together; `command`: what fits the same data again, "" where it does not
-    tell; `errors`: relative standard errors of the selected structure's parameters, infinite for
-    one that is not determined; `larger`: the structures that contain one of these, with their
-    fitted values, `determined`: those of which the data determine all parameters.
+    """`explained`: whether the selected structure explains the data, or nearly; `same`: names of
+    what behaves the same, with the reason; `rivals` with their fitted values, none of those that
+    were not fitted; `left`: the structures that the data leave, the selected one first; `scatter`
+    of a line; `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell;
+    `responses`: how many were fitted together; `command`: what fits the same data again, "" where
+    it does not tell; `errors`: relative standard errors of the selected structure's parameters,
+    infinite for one that is not determined; `larger`: the structures that contain one of these,
+    with their fitted values, `determined`: those of which the data determine all parameters.
     """
 
     model: Chain
@@ -109,7 +110,7 @@ def named_by(path: Path) -> FitRecord:
         return FitRecord(
             model,
             values,
-            plain["explained"] is True,
+            plain["explained"] is True or plain.get("status") == STATUS[Level.NEARLY],
             {c: v for c, v in _rivals(plain, model) if c != model and reference(c) not in same},
             same,
             tuple(_left(plain, model, values)),

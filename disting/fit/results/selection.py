@@ -230,7 +230,7 @@ class Selection(NotebookTable):
         """The sentence that asks for the sensor quantity where the data are explained and do not
         settle it; "" else.
         """
-        return question(self.quantities) if self.explanation.explains and self.quantities else ""
+        return question(self.quantities) if self.explanation.is_near and self.quantities else ""
 
     @property
     def described(self) -> Candidate:

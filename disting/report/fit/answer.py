@@ -9,7 +9,7 @@ links and commands.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
@@ -26,6 +26,7 @@ from disting.measurement import FrequencyResponse
 from disting.report.drawing import draw
 from disting.report.fit.doubts import hold
 from disting.report.fit.links import Link, Site, Step, step_to, steps_of
+from disting.report.fit.look_alikes import is_other
 from disting.report.fit.mechanics_words import actuators_in_words, headline
 from disting.report.fit.responses import drawing, with_all_sensors
 from disting.report.fit.words import (
@@ -68,6 +69,14 @@ def result_row(result: Result, measured: FrequencyResponse) -> ParameterRow:
         error_in_percent(share),
         remark,
     )
+
+
+def with_others(
+    row: ParameterRow, value: float, others: Sequence[tuple[float, ParameterRow]]
+) -> ParameterRow:
+    """A row with the values of other sets that give the same response, where they differ."""
+    more = [f"or {other.value}" for there, other in others if is_other(there, value)]
+    return replace(row, remark="; ".join(filter(None, [row.remark, *more])))
 
 
 def parameter_rows(
@@ -214,6 +223,8 @@ def _title(selection: Selection) -> str:
         return f"{best}: this explains the measurement"
     if selection.explanation.explains:
         return f"{best}: this explains the measurement apart from a part that it misses"
+    if selection.explanation.is_near:
+        return f"No fitted structure explains the measurement fully; near it: {best}"
     if selection.explanation.noisy:
         return "The measurement is mostly noise"
     if selection.explanation.too_few:

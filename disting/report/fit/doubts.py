@@ -19,6 +19,7 @@ from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.linearity import (
+    NOT_COUNTED,
     ONLY,
     describe_jumps,
     describe_levels,
@@ -32,6 +33,8 @@ SMOOTHED = 5  # lines over which the scatter is looked at
 MOST_CLEAR = 0.7  # share of the lines that carry information, above which no band is proposed
 LINEAR = "the machine is not linear: friction, backlash"  # why two measurements differ
 CHANGED = "the machine changed between them, for example its friction with the amplitude"
+APPROXIMATE = "as an approximation only"  # beside a value of a structure that comes near the data
+NEITHER_COUNTED = "± counts scatter, not by how much another structure shifts a value"
 HANGING = 0.3  # correlation of neighbouring residuals from which on it is named
 
 
@@ -156,9 +159,24 @@ def distorts(selection: Selection) -> bool:
 
 def hold(selection: Selection) -> str:
     """What to say beside values and intervals; empty where they hold for any amplitude, as far as
-    the data show.
+    the data show, and nothing systematic is missed.
     """
-    return ONLY if not selection.question and amplitude(selection) else ""
+    return " and ".join(_limits(selection))
+
+
+def not_counted(selection: Selection) -> str:
+    """What the ± of such values does not count; empty where `hold` is."""
+    return "; ".join(_limits(selection).values())
+
+
+def _limits(selection: Selection) -> dict[str, str]:
+    """What values hold for, each with what may shift them beyond their ±."""
+    if selection.question:
+        return {}
+    is_near = selection.explanation.level is Level.NEARLY
+    return ({ONLY: NOT_COUNTED} if amplitude(selection) else {}) | (
+        {APPROXIMATE: NEITHER_COUNTED} if is_near else {}
+    )
 
 
 def _nonlinearity(selection: Selection) -> Iterator[tuple[str, str]]:
@@ -172,7 +190,8 @@ def _nonlinearity(selection: Selection) -> Iterator[tuple[str, str]]:
         fitted = response_of(selection.described, selection.task, own.omega, k)
         sentence = describe_nonlinearity(own)
         seen = scatter(own, [fitted])
-        explains = selection.explanation.level is Level.EXPLAINS  # else the misfit makes the jumps
+        # else the misfit makes the jumps
+        explains = selection.explanation.size_level is Level.EXPLAINS
         if not sentence and explains and seen.source == JUMPS and own.noise is not None:
             noise = float(np.median(own.noise / np.abs(own.G)))
             sentence = describe_jumps(float(np.sqrt(2)) * seen.typical, noise)
@@ -220,6 +239,7 @@ def correlated_residuals(selection: Selection) -> Iterator[str]:
     plant = selection.task.plant(candidate.chain)
     values = [candidate.estimate.parameters[n] for n in selection.task.names(candidate.chain)]
     size = correlations(cost, cost.residual(plant.response(np.array(values))))
+    # of one that comes near the structure line says it
     if size > HANGING and selection.explanation.explains:
         yield (
             f"residuals of neighbouring lines are correlated by {size:.2f} on the training data:"

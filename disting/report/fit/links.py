@@ -127,7 +127,7 @@ def commands(selection: Selection) -> tuple[str, ...]:
     if selection.question:
         fit = selection.command or "disting fit FILE"
         return tuple(f"{fit} --quantity {r.quantity.value}" for r in selection.quantities)
-    if not selection.explanation.explains:
+    if not selection.explanation.is_near:
         return ()
     first = selection.described
     if first.chain.gap_damper:

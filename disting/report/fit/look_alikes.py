@@ -2,12 +2,18 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from math import isclose
 from typing import Any
 
+import numpy as np
+
+from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.look_alikes import (
     LookAlike,
     LookAlikeKind,
     LookAlikes,
+    base_text,
+    is_on_base,
     look_alikes,
 )
 from disting.fit.judge.near_base import near_bases
@@ -16,6 +22,7 @@ from disting.fit.search.joint import JointCost
 from disting.report.fit.mechanics_words import with_or
 from disting.report.fit.words import percent
 
+ROUNDING = 1e-5  # of exact values, computed from fitted ones
 RELATIVE = "force and encoder between base and motor"
 REDUCED = "m1 is then the reduced mass m1 mb/(m1 + mb)"
 A = {
@@ -62,6 +69,45 @@ def look_alike_clause(selection: Selection) -> Iterator[str]:
         yield (
             f"{near} would give the same response within the scatter, with other values (see"
             " look-alikes)"
+        )
+
+
+def exchanged(selection: Selection) -> tuple[Candidate, ...]:
+    """The selected structure at its other sets of values with exactly the same response."""
+    return selection.members[0].exchanged if selection.members else ()
+
+
+def one_set_of(selection: Selection) -> str:
+    """What to say beside values of which there are other sets with the same response, else ""."""
+    count = len(exchanged(selection))
+    return f"for one of {count + 1} sets with the same response" if count else ""
+
+
+def is_other(value: float, first: float) -> bool:
+    """Return True if a value in another set is not the first one but for rounding."""
+    return not isclose(value, first, rel_tol=ROUNDING)
+
+
+def exchange_clause(selection: Selection) -> Iterator[str]:
+    """That other values of the selected structure have exactly the same response; of a drive on an
+    elastic base, which resonance is the base's.
+    """
+    others = exchanged(selection)
+    if not others:
+        return
+    first = selection.members[0]
+    sets = [first.candidate.estimate.parameters, *(c.estimate.parameters for c in others)]
+    chain = first.candidate.chain
+    if is_on_base(chain):
+        hertz = with_or([f"{np.sqrt(at['k01'] / at['m1']) / (2 * np.pi):.4g}" for at in sets])
+        yield (
+            f"{base_text(chain.n_masses - 1)} (mass 1), with its resonance at {hertz} Hz: which one"
+            " is the base's is not decided, each choice has other values and exactly this response"
+        )
+    else:
+        yield (
+            f"{len(sets)} sets of values of {first.name} have exactly this response: which one is"
+            " true is not decided"
         )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from disting.files import Format
 from disting.fit.judge.candidate import Candidate
-from disting.fit.judge.explanation import Explanation, Level, explanations
+from disting.fit.judge.explanation import STATUS, Explanation, explanations
 from disting.fit.judge.mechanics import Folded, fold
 from disting.fit.judge.members import Member
 from disting.fit.judge.quantity import QuantityReading
@@ -19,15 +19,9 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.assumptions import assumed_quantity
 from disting.model.chain import Chain
 from disting.report.fit.doubts import hold
-from disting.report.fit.look_alikes import look_alikes_to_dict
+from disting.report.fit.look_alikes import look_alikes_to_dict, one_set_of
 from disting.report.fit.quality import quality_remarks
 from disting.report.fit.sentences import first_lines, places, suspicions
-
-STATUS = {
-    Level.EXPLAINS: "explained",
-    Level.APART: "explained apart from misses",
-    Level.NOT: "not explained",
-}
 
 
 def selection_to_dict(selection: Selection) -> dict[str, Any]:
@@ -49,7 +43,7 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
         "status": _status(selection),
         "answer": list(first_lines(selection)),
         "remarks": list(quality_remarks(selection)),
-        "values_hold": hold(selection),
+        "values_hold": " and ".join(filter(None, [hold(selection), one_set_of(selection)])),
         "mechanics": _mechanics_to_dict(fold(selection.members)) if selection.members else None,
         "question": selection.question,
         "quantities": [_quantity_to_dict(reading) for reading in selection.quantities],
@@ -225,6 +219,13 @@ def member_to_dict(member: Member) -> dict[str, Any]:
         "equivalents": [
             {"name": t.name, "parameters": t.parameters, "free_choices": t.free_choices}
             for t in member.twins
+        ],
+        "other_values": [
+            {
+                "parameters": c.estimate.parameters,
+                "standard_errors": {n: _finite(e) for n, e in c.standard_errors.items()},
+            }
+            for c in member.exchanged
         ],
         "not_decided": list(member.open),
         "disagreements": [

@@ -9,23 +9,25 @@ from disting.fit.judge.alternatives import Alternative
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import largest_cost, noise_limit
-from disting.fit.judge.modes import Result
+from disting.fit.judge.modes import Result, physical
 from disting.fit.judge.reading import read_in_words
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render
 from disting.report.fit.answer import (
+    ParameterRow,
     answer,
     list_lines,
     list_structures,
     parameter_rows,
     result_row,
+    with_others,
 )
 from disting.report.fit.convergence import hits, hits_in_words
 from disting.report.fit.criteria import HEADS, columns, limits, nearest, weakest
 from disting.report.fit.doubts import hold
 from disting.report.fit.links import Site, next_steps
-from disting.report.fit.look_alikes import look_alike_sentences
+from disting.report.fit.look_alikes import exchanged, look_alike_sentences
 from disting.report.fit.responses import drawing, shown_responses, with_all_sensors
 from disting.report.fit.sentences import first_lines, not_in, quantity_rows, suspicions
 from disting.report.fit.style import FigureFiles
@@ -87,7 +89,7 @@ def fit_page(
     """
     if selection.question:
         return _question_page(selection, train, test, site)
-    candidate, rows = selection.described, [result_row(r, train) for r in results]
+    candidate, rows = selection.described, _results(selection, results, train)
     members = list_structures(selection, train, site)
     shown = shown_responses(selection, train, test, figures)
     return render(
@@ -97,7 +99,7 @@ def fit_page(
         **_machine(candidate, selection),
         answer=answer(selection, rows),
         results=rows,
-        parameters=parameter_rows(candidate, selection.task, train),
+        parameters=_parameters(selection, train),
         responses=shown,
         figures=figures[sum(len(shown_response.panels) for shown_response in shown) :],
         limits=limits(candidate, selection.thresholds),
@@ -122,6 +124,26 @@ def fit_page(
         home=site.home if site else None,
         **ALWAYS,
     )
+
+
+def _results(
+    selection: Selection, results: Sequence[Result], train: FrequencyResponse
+) -> list[ParameterRow]:
+    """What the model says about the machine, with what other sets of values say."""
+    others = [physical(c, selection.task) for c in exchanged(selection)] if results else []
+    return [
+        with_others(result_row(r, train), r.value, [(x.value, result_row(x, train)) for x in rest])
+        for r, *rest in zip(results, *others, strict=True)
+    ]
+
+
+def _parameters(selection: Selection, train: FrequencyResponse) -> list[ParameterRow]:
+    """Parameters with those of other sets of values that give the same response."""
+    each = [
+        zip(c.estimate.parameters.values(), parameter_rows(c, selection.task, train), strict=True)
+        for c in (selection.described, *exchanged(selection))
+    ]
+    return [with_others(row, value, rest) for (value, row), *rest in zip(*each, strict=True)]
 
 
 def _question_page(
@@ -240,7 +262,7 @@ def _choice(selection: Selection) -> str:
     """Why the selected candidate and not the one with the lowest cost."""
     if selection.selected is None:
         return ""
-    if not selection.explanation.explains:
+    if not selection.explanation.is_near:
         return "No candidate explains the data; the selected one has the lowest cost."
     out = sum(c.excluded is not None for c in selection.candidates)
     left, more = plural(len(selection.members), "candidate"), len(selection.containing)

@@ -13,6 +13,7 @@ from disting.fit.judge.reading import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
 from disting.report.fit.doubts import (
+    APPROXIMATE,
     amplitude,
     bad,
     better,
@@ -26,11 +27,12 @@ from disting.report.fit.doubts import (
     unseen,
     weak,
 )
-from disting.report.fit.look_alikes import look_alike_clause
+from disting.report.fit.look_alikes import exchange_clause, look_alike_clause
 from disting.report.fit.mechanics_words import (
     actuators_in_words,
     fold_names,
     structure_in_words,
+    with_or,
 )
 from disting.report.fit.quality import quality_line
 
@@ -45,9 +47,9 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
     data = f"data: {quality_line(selection)}"
     if selection.question:
         return (data, selection.question)
-    explains = selection.explanation.explains
-    structure = _structure(selection) if explains else _missed(selection)
-    more = _to_decide(selection) if explains else _unexplained(selection)
+    is_near = selection.explanation.is_near
+    structure = _structure(selection) if is_near else _missed(selection)
+    more = _to_decide(selection) if is_near else _unexplained(selection)
     following = "; ".join([*held_input(selection), *more])
     return (data, f"structure: {'; '.join(structure)}", f"next: {following}")
 
@@ -63,11 +65,7 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
     said = [
         *amplitude(selection),
         *_other_quantities(selection),
-        *(
-            []
-            if selection.explanation.explains
-            else [*_missed(selection), *_unexplained(selection)]
-        ),
+        *([] if selection.explanation.is_near else [*_missed(selection), *_unexplained(selection)]),
         *better(selection),
         *(differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements),
         *correlated_residuals(selection),
@@ -178,6 +176,30 @@ def _verdict(selection: Selection) -> str:
     return f"{which} explains this data; the best one is {best} ({size}): do not use its values"
 
 
+def _nearly(selection: Selection) -> str:
+    """That the described structure comes near the data, and what else the machine may be."""
+    said, best = selection.explanation, reference(selection.described.chain)
+    where = f", most at {'; '.join(m.sentence for m in said.misses)}," if said.misses else ""
+    return (
+        f"none of the candidates explains this data fully: {best} comes near, but misses it by more"
+        f" than noise{where} and neighbouring lines in the same way (chi2 per line {said.chi2:.3g},"
+        f" 1 is noise alone; correlation {said.systematic:.2f}): the machine may be"
+        f" {with_or(list(_outside(selection)))}; values hold {APPROXIMATE}, and may lie outside"
+        " their intervals"
+    )
+
+
+def _outside(selection: Selection) -> Iterator[str]:
+    """Machines outside the candidates."""
+    if amplitude(selection):
+        yield "one that is not linear"
+    yield "a branch"
+    if not any(c.chain.gap for c in selection.candidates):
+        yield "a drive on an elastic base"
+    yield "one with more masses"
+    yield "another one outside the candidates"
+
+
 def misfit_in_words(said: Explanation) -> str:
     """What a structure misses that explains the data apart from it."""
     if said.misses:
@@ -190,11 +212,15 @@ def _structure(selection: Selection) -> Iterator[str]:
     """The structures that the data do not exclude, what explains them, and what forbids to use its
     values.
     """
-    if selection.members:
-        yield structure_in_words(fold(selection.members))
-        yield from ["force and sensor are those of the first response"] * _is_joint(selection)
-    yield f"{_verdict(selection)}{_standing(selection)}"
-    twins = len({twin.name for m in selection.members for twin in m.twins})
+    if selection.explanation.level is Level.NEARLY:
+        best = reference(selection.described.chain)
+        yield f"{_nearly(selection)}{_standing(selection, f'; {best} is')}"
+        yield from _common(selection)
+    else:
+        yield from _common(selection)
+        yield f"{_verdict(selection)}{_standing(selection, ',')}"
+    yield from exchange_clause(selection)
+    twins = len({twin.name for m in selection.members for twin in m.twins if twin.name != m.name})
     if twins:
         yield f"{twins} more behave{'s' * (twins == 1)} exactly as one of these"
     yield from look_alike_clause(selection)
@@ -210,11 +236,20 @@ def _structure(selection: Selection) -> Iterator[str]:
     yield from correlated_residuals(selection)
 
 
-def _standing(selection: Selection) -> str:
-    """The first structure among those that the data do not exclude."""
+def _common(selection: Selection) -> Iterator[str]:
+    """What all structures that are left have in common."""
+    if selection.members:
+        yield structure_in_words(fold(selection.members))
+        yield from ["force and sensor are those of the first response"] * _is_joint(selection)
+
+
+def _standing(selection: Selection, first: str) -> str:
+    """The first structure, which the words `first` introduce, among those that the data do not
+    exclude.
+    """
     count, more = len(selection.members), len(selection.containing)
     if count > 1:
-        return f", the simplest of {count} structures that it does not exclude"
+        return f"{first} the simplest of {count} structures that it does not exclude"
     apart = f", apart from {more} that contain{'s' * (more == 1)} it" if more else ""
     return f"; this data excludes every other candidate{apart}" if count else ""
 
@@ -239,7 +274,9 @@ def _to_decide(selection: Selection) -> Iterator[str]:
             f"if it is {name}, it may as well be {_listed(others)}: no experiment with this force"
             f" and {states} can tell, disting next looks for one that can"
         )
-    if not (differing or same):
+    if selection.explanation.level is Level.NEARLY:
+        yield from _other_machines(selection)
+    elif not (differing or same):
         yield (
             "nothing is left to decide between the candidates; machines outside them, such as a"
             " branch or an elastic base, are not excluded"
@@ -249,6 +286,16 @@ def _to_decide(selection: Selection) -> Iterator[str]:
         if unknown:
             yield f"unknown if these behave the same: {_listed(unknown)}"
         yield from weak(selection)
+
+
+def _other_machines(selection: Selection) -> Iterator[str]:
+    """How to fit machines that are no candidates."""
+    if not any(c.chain.gap for c in selection.candidates):
+        yield "fit drives on an elastic base too (--base)"
+    yield (
+        'fit machines with a branch beside the chains, such as --models "1=2, 1=3; F1; S1"'
+        " --ground-damper, or chains of more masses (--masses)"
+    )
 
 
 def _alike(selection: Selection) -> Iterator[tuple[str, list[str]]]:

@@ -13,6 +13,7 @@ from disting.conditions.inclusion import Inclusion
 from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
 from disting.fit import Candidate, Selection
+from disting.fit.judge.explanation import Level
 from disting.fit.plan.power import Plan, is_trusted
 from disting.fit.search.candidates import reference
 from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
@@ -228,8 +229,9 @@ def _explained(shown: Selection) -> str:
     if explanation.noisy:
         return "The data are mostly noise."
     says = "explains" if explanation.explains else "does not explain"
+    fully = " fully" * (explanation.level is Level.NEARLY)
     chi2 = readable(explanation.chi2)
-    return f"{which} {says} the data: χ² per line {chi2}, from {shown.validation}."
+    return f"{which} {says} the data{fully}: χ² per line {chi2}, from {shown.validation}."
 
 
 def _candidate(shown: Candidate, chosen: bool) -> tuple[object, ...]:
