@@ -26,7 +26,7 @@ from disting.conditions.rule import ADMISSIBLE
 from disting.errors import CatalogError
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import without_names
-from disting.general.forms import of_equals
+from disting.general.forms import BRIEFLY, WAS_BRIEF, of_equals
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel, positive_question
@@ -171,6 +171,20 @@ def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
         if "finding" in r:
             question, models = positive_question(sides[r["left"] - 1], sides[r["right"] - 1])
             engine.remember(question, models, r["finding"])
+
+
+def recall_open(family: NetworkFamily, records: Sequence[Record], engine: Engine) -> int:
+    """Let the engine know which pairs of a file a brief search left open, so that it does not
+    search them again; their number.
+    """
+    sides = engine.general_subjects(family.networks)
+    own, count = representatives(sides), 0
+    for r in records[1 + len(sides) :] if family.in_brief else ():
+        i, j, finding = r["left"] - 1, r["right"] - 1, r.get("finding")
+        if (own[i], own[j]) == (i, j) and finding and finding.note.endswith(WAS_BRIEF):
+            engine.remember(BRIEFLY, positive_question(sides[i], sides[j])[1], finding)
+            count += 1
+    return count
 
 
 def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None = None) -> None:

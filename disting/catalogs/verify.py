@@ -167,11 +167,15 @@ def verify_networks(
     folder: Path,
     engine: Engine,
     *,
+    search_open: bool = False,
     executor: Executor | None = None,
     progress: Progress = silent,
-) -> list[str]:
+) -> tuple[list[str], int]:
     """What is wrong with the file of a family, in sentences: its bytes against those that are
-    computed now, and every evidence on a pair by itself, at fresh points.
+    computed now, and every evidence on a pair by itself, at fresh points; and the number of pairs
+    that were not searched again, as a brief search had left them open. `search_open` repeats these
+    searches, which takes most of the time of a large family and proves nothing where they end as
+    before.
 
     Digits of rounded equivalents are looked at with the evidence (see `without_digits`).
     """
@@ -182,12 +186,13 @@ def verify_networks(
         )
     stored = network_files.read(path)
     wrong = _false_of_networks(family, stored, engine)
+    left = 0 if search_open else network_files.recall_open(family, stored, engine)
     text = network_files.build_networks(family, engine, executor=executor, progress=progress)
     rows, now = path.read_text(encoding="utf-8").splitlines(), text.splitlines()
     for number, (a, b) in enumerate(zip(rows, now, strict=False), 1):
         if without_digits(a) != without_digits(b):
-            return [*wrong, f"{path.name}, line {number} is not what is computed now"]
-    return wrong if len(rows) == len(now) else [*wrong, f"{path.name} has other pairs"]
+            return [*wrong, f"{path.name}, line {number} is not what is computed now"], left
+    return (wrong if len(rows) == len(now) else [*wrong, f"{path.name} has other pairs"]), left
 
 
 def _false_of_networks(family: NetworkFamily, records: list[Record], engine: Engine) -> list[str]:
